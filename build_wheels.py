@@ -21,9 +21,14 @@ from thrustwasher.native.targets import PLATFORMS
 
 HERE = Path(__file__).parent
 TREE = (
-    "pyproject.toml", "hatch_build.py", "README.md", "CHANGELOG.md", "LICENSE", "thrustwasher",
+    "pyproject.toml",
+    "hatch_build.py",
+    "README.md",
+    "CHANGELOG.md",
+    "LICENSE",
+    "thrustwasher",
     "fmu_src",
-)  # fmt: skip
+)
 ANY = "any"
 TAGS = {
     "linux64": "py3-none-manylinux_2_17_x86_64",

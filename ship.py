@@ -80,10 +80,12 @@ def list_all(index: dict[str, Any], folder: Path = shipped.FOLDER) -> None:
 def _write(kernel: str, code: Objects, took: float) -> dict[str, Any]:
     name = f"{shipped.short(kernel)}-{digest(kernel)}"
     return {
-        "digest": digest(kernel), "sources": sorted(sources(kernel)), "seconds": round(took, 1),
+        "digest": digest(kernel),
+        "sources": sorted(sources(kernel)),
+        "seconds": round(took, 1),
         "objects": put(shipped.FOLDER / f"{name}.tar.xz", pack(code)),
         "libraries": _write_libraries(shipped.FOLDER, kernel, name, code, LIBRARIES),
-    }  # fmt: skip
+    }
 
 
 def _write_libraries(
@@ -140,8 +142,11 @@ def check(kernels: Sequence[str]) -> list[str]:
         if not same_tools:
             continue
         again, _ = made(kernel)
-        wrong += [f"{kernel}: {' '.join(which)} is made otherwise"
-                  for which in sorted(again) if again[which] != code.get(which)]  # fmt: skip
+        wrong += [
+            f"{kernel}: {' '.join(which)} is made otherwise"
+            for which in sorted(again)
+            if again[which] != code.get(which)
+        ]
         for platform, data in libraries(kernel, again).items():
             if files.checksum(data) != about["libraries"][platform]["sha256"]:
                 wrong.append(f"{kernel}: the library for {platform} is made otherwise")

@@ -43,14 +43,22 @@ HERE = Path(__file__)
 KINDS = ("native-fmi2", "native-fmi3", "python-fmi2")
 # model, rung, steps, share of jumps, narrower ranges of the inputs
 SOAK = (
-    ("gearmesh", "field", 3_000_000, 0.5, {}), ("gearmesh", "fine", 2_000_000, 0.5, {}),
-    ("transmission", "", 3_000_000, 0.5, {}), ("clutch", "closed", 500_000, 0.1, {}),
-    ("clutch", "field", 100_000, 0.1, {}), ("washer", "map", 700_000, 0.1, DEFAULT_BOX),
+    ("gearmesh", "field", 3_000_000, 0.5, {}),
+    ("gearmesh", "fine", 2_000_000, 0.5, {}),
+    ("transmission", "", 3_000_000, 0.5, {}),
+    ("clutch", "closed", 500_000, 0.1, {}),
+    ("clutch", "field", 100_000, 0.1, {}),
+    ("washer", "map", 700_000, 0.1, DEFAULT_BOX),
     ("washer", "field", 10_000, 0.002, DEFAULT_BOX),
-)  # fmt: skip
+)
 CALLS = (("clutch", 20_000), ("gearmesh", 40_000), ("washer", 2_000))
-FILES = (("Scenes", 5_000), ("Cards", 3_000), ("Maps", 5_000), ("SweepJournals", 1_000),
-         ("MapJournals", 3_000))  # fmt: skip
+FILES = (
+    ("Scenes", 5_000),
+    ("Cards", 3_000),
+    ("Maps", 5_000),
+    ("SweepJournals", 1_000),
+    ("MapJournals", 3_000),
+)
 DEAF = 60.0  # s: a command that goes on so long after a signal is lost
 
 
@@ -121,15 +129,32 @@ def compiled(folder: Path) -> Path:
 
     headers = Path(fmpy.__file__).parent / "c-code"
     program = folder / "abuse"
-    subprocess.run(["gcc", "-std=gnu99", "-O2", f"-I{headers}", HERE.with_suffix(".c"), "-o",
-                    program, "-ldl", "-lm"], check=True)  # fmt: skip
+    subprocess.run(
+        [
+            "gcc",
+            "-std=gnu99",
+            "-O2",
+            f"-I{headers}",
+            HERE.with_suffix(".c"),
+            "-o",
+            program,
+            "-ldl",
+            "-lm",
+        ],
+        check=True,
+    )
     return program
 
 
 def soak(
-    program: Path, model: str, rung: str, n: int, jumps: float,
-    box: dict[str, tuple[float, float]], seed: int,
-) -> Row:  # fmt: skip
+    program: Path,
+    model: str,
+    rung: str,
+    n: int,
+    jumps: float,
+    box: dict[str, tuple[float, float]],
+    seed: int,
+) -> Row:
     """Step a native FMU for a long time."""
     spec = find_spec(model)
     folder = unpack(fmu_paths([spec.name], "native")[spec.name])
@@ -150,12 +175,24 @@ def soak(
     library = folder / "binaries" / "linux64" / f"{spec.name}.so"
     began = time.perf_counter()
     done = subprocess.run(
-        [program, library, description(folder).guid, (folder / "resources").as_uri(), str(n),
-         str(seed), str(jumps)],
-        input=" ".join(map(str, words)), capture_output=True, text=True, env={},
-    )  # fmt: skip
-    row = Row(f"{spec.name} {rung}, steps with random inputs".replace(" ,", ","),
-              seconds=time.perf_counter() - began)  # fmt: skip
+        [
+            program,
+            library,
+            description(folder).guid,
+            (folder / "resources").as_uri(),
+            str(n),
+            str(seed),
+            str(jumps),
+        ],
+        input=" ".join(map(str, words)),
+        capture_output=True,
+        text=True,
+        env={},
+    )
+    row = Row(
+        f"{spec.name} {rung}, steps with random inputs".replace(" ,", ","),
+        seconds=time.perf_counter() - began,
+    )
     if done.returncode:
         row.tried, row.lost = n, [f"exit status {done.returncode}: {done.stderr}"]
         return row
@@ -164,8 +201,9 @@ def soak(
     row.lost = done.stderr.splitlines() + [""] * max(0, lost - 5)
     if late - early > 64:
         row.lost.append(f"memory grew by {late - early} kB")
-    row.note = (f"{rolled} taken back, {spoiled} spoiled states, memory +{late - early} kB"
-                + (f", {unsolved} without a solution, by name" if unsolved else ""))  # fmt: skip
+    row.note = f"{rolled} taken back, {spoiled} spoiled states, memory +{late - early} kB" + (
+        f", {unsolved} without a solution, by name" if unsolved else ""
+    )
     return row
 
 
@@ -179,8 +217,13 @@ def fmu_of(model: str, kind: str, folder: Path) -> Path:
 
 def walks(folder: Path, scale: float, seed: int) -> Iterator[Row]:
     """Yield wild masters on FMUs of both targets and versions, and on random parameters."""
-    for model, rung, n in (("clutch", "", 3000), ("gearmesh", "", 6000), ("transmission", "", 6000),
-                           ("washer", "map", 3000), ("washer", "field", 60)):  # fmt: skip
+    for model, rung, n in (
+        ("clutch", "", 3000),
+        ("gearmesh", "", 6000),
+        ("transmission", "", 6000),
+        ("washer", "map", 3000),
+        ("washer", "field", 60),
+    ):
         spec = find_spec(model)
         for kind in KINDS:
             if model == "washer" and kind == "native-fmi3":
@@ -195,15 +238,23 @@ def walks(folder: Path, scale: float, seed: int) -> Iterator[Row]:
                     return next(k for k in walk.counts if walk.counts[k] > before[k])
 
                 name = f"{spec.name} {rung}".strip()
-                yield campaign(f"{name}, {kind}: set, step, roll back, reset at random", move,
-                               max(10, round(scale * n)), seed)  # fmt: skip
+                yield campaign(
+                    f"{name}, {kind}: set, step, roll back, reset at random",
+                    move,
+                    max(10, round(scale * n)),
+                    seed,
+                )
     for model in ("clutch", "gearmesh", "transmission"):
 
         def run(rng: random.Random, model: str = model) -> str:
             return calls.run_once(model, rng, lambda s, p: DirectInstance(s, parameters=p))
 
-        yield campaign(f"{find_spec(model).name}, random parameters, eight steps each", run,
-                       round(scale * 2000), seed)  # fmt: skip
+        yield campaign(
+            f"{find_spec(model).name}, random parameters, eight steps each",
+            run,
+            round(scale * 2000),
+            seed,
+        )
 
 
 def spoiled(folder: Path, scale: float, seed: int) -> Iterator[Row]:
@@ -215,14 +266,22 @@ def spoiled(folder: Path, scale: float, seed: int) -> Iterator[Row]:
         what = deed.__doc__.split(":")[0].lower()
         yield campaign(f"spoiled {what}", deed, round(scale * n), seed)
     measured = Path(files.__file__).with_name("measured.csv").read_bytes()
-    yield campaign("spoiled measured points, calibrated", files.Calibrations(folder, measured),
-                   round(scale * 150), seed)  # fmt: skip
+    yield campaign(
+        "spoiled measured points, calibrated",
+        files.Calibrations(folder, measured),
+        round(scale * 150),
+        seed,
+    )
     record = files.chart_record()
-    yield campaign("spoiled chart.json, drawn", files.Charts(folder, record), round(scale * 150),
-                   seed)  # fmt: skip
-    yield campaign("spoiled FMU, unpacked",
-                   files.Archives(folder, fmu_of("gearmesh", "native-fmi2", folder)),
-                   round(scale * 1000), seed)  # fmt: skip
+    yield campaign(
+        "spoiled chart.json, drawn", files.Charts(folder, record), round(scale * 150), seed
+    )
+    yield campaign(
+        "spoiled FMU, unpacked",
+        files.Archives(folder, fmu_of("gearmesh", "native-fmi2", folder)),
+        round(scale * 1000),
+        seed,
+    )
     clutch = find_spec("clutch")
     other = DirectInstance(find_spec("transmission"))
     other.initialize()
@@ -235,15 +294,20 @@ def spoiled(folder: Path, scale: float, seed: int) -> Iterator[Row]:
             yield campaign(fault, states, round(scale * 10_000), seed)
 
 
-def ended(words: list[str], folder: Path, delay: float, numbers: tuple[int, ...],
-          **environment: str) -> tuple[int, str]:  # fmt: skip
+def ended(
+    words: list[str], folder: Path, delay: float, numbers: tuple[int, ...], **environment: str
+) -> tuple[int, str]:
     """Start a command, signal it after a while; return its status and what it said."""
     running = subprocess.Popen(
-        [sys.executable, "-m", "thrustwasher", *words], cwd=folder, text=True,
-        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True,
+        [sys.executable, "-m", "thrustwasher", *words],
+        cwd=folder,
+        text=True,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
         env={**os.environ, **environment},
-    )  # fmt: skip
+    )
     time.sleep(delay)
     for number in numbers:
         if running.poll() is None:
@@ -263,16 +327,50 @@ def complaints(said: str) -> list[str]:
 
 
 COMMANDS = {
-    "sweep": ["sweep", "gearmesh", "--over", "load=10:1000:x150", "--over", "speed=50:500:x150",
-              "--out", "t.csv"],
-    "map build": ["map", "build", "--load", "100:900", "--speed", "400:700", "--tilt",
-                  "0.0018:0.0022", "--oil-temperature", "297.15", "--fidelity", "field",
-                  "--workers", "2", "--points", "20", "--out", "m.twm"],
+    "sweep": [
+        "sweep",
+        "gearmesh",
+        "--over",
+        "load=10:1000:x150",
+        "--over",
+        "speed=50:500:x150",
+        "--out",
+        "t.csv",
+    ],
+    "map build": [
+        "map",
+        "build",
+        "--load",
+        "100:900",
+        "--speed",
+        "400:700",
+        "--tilt",
+        "0.0018:0.0022",
+        "--oil-temperature",
+        "297.15",
+        "--fidelity",
+        "field",
+        "--workers",
+        "2",
+        "--points",
+        "20",
+        "--out",
+        "m.twm",
+    ],
     "shift": ["shift", "--scene", "msl", "--step", "10 ms", "--out", "r"],
-    "shift, Python FMUs": ["shift", "--scene", "msl", "--step", "5 ms", "--fmu", "python",
-                           "--out", "r"],
+    "shift, Python FMUs": [
+        "shift",
+        "--scene",
+        "msl",
+        "--step",
+        "5 ms",
+        "--fmu",
+        "python",
+        "--out",
+        "r",
+    ],
     "first call, compiling": ["gearmesh"],
-}  # fmt: skip
+}
 WHOLE = {"t.csv", "t.csv.journal", "m.twm", "m.twm.journal"}
 
 
@@ -310,8 +408,9 @@ def small_disk(folder: Path) -> Iterator[Row]:
     """Yield commands whose output lies on a disk of 48 kB, if one can be mounted."""
     place = folder / "disk"
     place.mkdir()
-    mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=48k", "tmpfs", place],
-                             capture_output=True)  # fmt: skip
+    mounted = subprocess.run(
+        ["mount", "-t", "tmpfs", "-o", "size=48k", "tmpfs", place], capture_output=True
+    )
     if mounted.returncode:
         return
     row, began = Row("output on a disk of 48 kB"), time.perf_counter()
@@ -342,9 +441,12 @@ def all_rows(scale: float, seed: int) -> Iterator[Row]:
         for model, rung, n, jumps, box in SOAK:
             yield soak(program, model, rung, round(scale * n), jumps, box, seed)
         for model, n in CALLS:
-            yield campaign(f"{find_spec(model).name}, random parameters, point and rung",
-                           lambda rng, m=model: calls.solve_once(m, rng), round(scale * n),
-                           seed)  # fmt: skip
+            yield campaign(
+                f"{find_spec(model).name}, random parameters, point and rung",
+                lambda rng, m=model: calls.solve_once(m, rng),
+                round(scale * n),
+                seed,
+            )
         yield from walks(folder, scale, seed)
         yield from spoiled(folder, scale, seed)
         yield from signals(folder, max(2, round(scale * 8)), seed)
@@ -353,8 +455,15 @@ def all_rows(scale: float, seed: int) -> Iterator[Row]:
 
 def line(row: Row) -> str:
     """Return a row of the table."""
-    cells = (row.fault, row.tried, row.right, row.refused, len(row.lost), f"{row.seconds:.0f}",
-             row.note)  # fmt: skip
+    cells = (
+        row.fault,
+        row.tried,
+        row.right,
+        row.refused,
+        len(row.lost),
+        f"{row.seconds:.0f}",
+        row.note,
+    )
     return f"| {' | '.join(map(str, cells))} |"
 
 
@@ -365,11 +474,19 @@ def page(rows: list[Row], command: str, seed: int) -> str:
     machine = f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores"
     seconds = sum(r.seconds for r in rows)
     return PAGE.format(
-        command=command, kernels=kernel_digest(), machine=machine, seed=seed,
-        numba=metadata.version("numba"), python=platform.python_version(), seconds=seconds,
-        tried=total[0], right=total[1], refused=total[2], lost=lost,
+        command=command,
+        kernels=kernel_digest(),
+        machine=machine,
+        seed=seed,
+        numba=metadata.version("numba"),
+        python=platform.python_version(),
+        seconds=seconds,
+        tried=total[0],
+        right=total[1],
+        refused=total[2],
+        lost=lost,
         table="\n".join(map(line, rows)),
-    )  # fmt: skip
+    )
 
 
 def main() -> int:

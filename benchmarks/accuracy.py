@@ -84,10 +84,11 @@ def case_table() -> None:
                 PARAMS, load=load, speed=speed, tilt=TILT, fidelity=fidelity, branch=branch
             )
             errors = [
-                100.0 * (r.friction_torque / torque - 1.0), r.film_ratio - ratio,
+                100.0 * (r.friction_torque / torque - 1.0),
+                r.film_ratio - ratio,
                 r.temperature - temperature,
                 100.0 * (r.temperature - temperature) / (temperature - OIL),
-            ]  # fmt: skip
+            ]
             for k, e in enumerate(errors):
                 most[k] = max(most[k], abs(e))
             cells.append(f"{errors[0]:+.3f}, {errors[1]:+.4f}, {errors[2]:+.3f}")

@@ -35,9 +35,12 @@ class Rig:
     def exact(self) -> dict[str, Any]:
         """Return the outputs without scatter."""
         table = run_sweep(
-            self.model, points=self.points, params=replace(self.start, **self.truth),
-            fidelity=self.fidelity, workers=1,
-        )  # fmt: skip
+            self.model,
+            points=self.points,
+            params=replace(self.start, **self.truth),
+            fidelity=self.fidelity,
+            workers=1,
+        )
         return {name: table[name] for name in self.outputs}
 
     def fit(self, exact: dict[str, Any], seed: int) -> Any:
@@ -45,9 +48,12 @@ class Rig:
         draw = np.random.default_rng(seed).standard_normal
         noisy = {name: (x * (1.0 + SCATTER * draw(len(x)))).tolist() for name, x in exact.items()}
         return calibrate(
-            self.start, {**self.points, **noisy}, fit=tuple(self.truth), fidelity=self.fidelity,
+            self.start,
+            {**self.points, **noisy},
+            fit=tuple(self.truth),
+            fidelity=self.fidelity,
             errors=dict.fromkeys(self.outputs, f"{100 * SCATTER:g} %"),
-        )  # fmt: skip
+        )
 
 
 def grid(**axes: list[float]) -> dict[str, list[float]]:
@@ -57,19 +63,35 @@ def grid(**axes: list[float]) -> dict[str, list[float]]:
 
 
 RIGS = (
-    Rig("washer", WasherParams(), {"viscosity_scale": 7e-5, "viscosity_exponent": 1.1},
-        grid(load=[50.0, 200.0], speed=[400.0, 953.0], oil_temperature=[300.0, 330.0],
-             tilt=[2e-3]),
-        ("friction_torque",), "field"),
-    Rig("clutch", ClutchParams(friction_law="wang"), {"shear_floor": 0.4, "decay_speed": 2.0},
-        grid(load=[2e3, 5e3], speed=[5.0, 20.0, 30.0, 45.0, 60.0, 80.0, 120.0, 160.0],
-             oil_temperature=[350.0]),
-        ("friction_torque",), "field"),
-    Rig("gearmesh", GearMeshParams(mean_roughness=5e-7),
+    Rig(
+        "washer",
+        WasherParams(),
+        {"viscosity_scale": 7e-5, "viscosity_exponent": 1.1},
+        grid(load=[50.0, 200.0], speed=[400.0, 953.0], oil_temperature=[300.0, 330.0], tilt=[2e-3]),
+        ("friction_torque",),
+        "field",
+    ),
+    Rig(
+        "clutch",
+        ClutchParams(friction_law="wang"),
+        {"shear_floor": 0.4, "decay_speed": 2.0},
+        grid(
+            load=[2e3, 5e3],
+            speed=[5.0, 20.0, 30.0, 45.0, 60.0, 80.0, 120.0, 160.0],
+            oil_temperature=[350.0],
+        ),
+        ("friction_torque",),
+        "field",
+    ),
+    Rig(
+        "gearmesh",
+        GearMeshParams(mean_roughness=5e-7),
         {"viscosity_scale": 1.2e-4, "mean_roughness": 8e-7},
         grid(load=[10.0, 40.0, 100.0], speed=[50.0, 300.0], oil_temperature=[350.0]),
-        ("friction_torque", "film_thickness"), "field"),
-)  # fmt: skip
+        ("friction_torque", "film_thickness"),
+        "field",
+    ),
+)
 
 
 def held(rig: Rig, n: int) -> dict[str, int]:

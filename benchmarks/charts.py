@@ -34,8 +34,10 @@ def compare(one: dict[str, Any], two: dict[str, Any]) -> int:
             found = disagreements(a, b, quantity["name"])
             count += len(found)
             fronts = [len(front(s, quantity["name"])) for s in (a, b)]
-            print(f"{name}, {quantity['name']}: {fronts[0]} and {fronts[1]} on the front; "
-                  f"{', '.join(found) or 'no disagreement'}")  # fmt: skip
+            print(
+                f"{name}, {quantity['name']}: {fronts[0]} and {fronts[1]} on the front; "
+                f"{', '.join(found) or 'no disagreement'}"
+            )
     return count
 
 

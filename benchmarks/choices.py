@@ -146,8 +146,10 @@ def _chosen(case: Case, box: dict[str, Interval], tol: float) -> Choice | None:
 
 def report(outcomes: list[Outcome]) -> None:
     """Print how often the word was kept, by model."""
-    print("| model | requests | with a promise | kept | largest error / tolerance | last rung "
-          "without one | refused | none dearer than a stricter one | rungs taken |")  # fmt: skip
+    print(
+        "| model | requests | with a promise | kept | largest error / tolerance | last rung "
+        "without one | refused | none dearer than a stricter one | rungs taken |"
+    )
     print("|" + "---|" * 9)
     for group in [*dict.fromkeys(o.group for o in outcomes), "all"]:
         mine = [o for o in outcomes if group in (o.group, "all")]
@@ -161,8 +163,10 @@ def report(outcomes: list[Outcome]) -> None:
         )
         rungs = ", ".join(f"{r} {n}" for r, n in taken.items() if r)
         order = sum(o.in_order for o in mine)
-        print(f"| {group} | {len(mine)} | {len(promised)} | {kept} | {worst:.2g} | {last} "
-              f"| {refused} | {order} | {rungs} |")  # fmt: skip
+        print(
+            f"| {group} | {len(mine)} | {len(promised)} | {kept} | {worst:.2g} | {last} "
+            f"| {refused} | {order} | {rungs} |"
+        )
 
 
 def main() -> None:

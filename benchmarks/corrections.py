@@ -44,8 +44,14 @@ def corrections() -> list[Row]:
 
 
 def _row(part: str, figure: str, unit: str, values: Sequence[float], recorded: bool = False) -> Row:
-    return {"part": part, "figure": figure, "unit": unit, "before": values[0], "after": values[1],
-            "recorded": recorded}  # fmt: skip
+    return {
+        "part": part,
+        "figure": figure,
+        "unit": unit,
+        "before": values[0],
+        "after": values[1],
+        "recorded": recorded,
+    }
 
 
 def _clutch() -> list[Row]:
@@ -75,10 +81,15 @@ def _teeth() -> list[Row]:
     loss = [g.friction_power for g in both]
     rise = [g.surface_temperature - 299.85 for g in both]
     return [
-        _row(TEETH, "loss at 7.5 kW", "W", loss), _row(TEETH, "flank's rise", "K", rise),
-        _row(TEETH, "flank's rise per loss", "K/kW",
-             [1e3 * r / p for r, p in zip(rise, loss, strict=True)]),
-    ]  # fmt: skip
+        _row(TEETH, "loss at 7.5 kW", "W", loss),
+        _row(TEETH, "flank's rise", "K", rise),
+        _row(
+            TEETH,
+            "flank's rise per loss",
+            "K/kW",
+            [1e3 * r / p for r, p in zip(rise, loss, strict=True)],
+        ),
+    ]
 
 
 def _washer() -> list[Row]:

@@ -35,13 +35,19 @@ KERNELS = [
 ]
 # Minutes as plain Python, each; the tests on small meshes and of rungs in short walk the same ways.
 SLOW = {
-    "test_transmission_shaft", "test_washer_film", "test_washer_heat", "test_washer_newton",
-    "test_washer_directional_derivative", "test_washer_step", "test_washer_transient",
-}  # fmt: skip
+    "test_transmission_shaft",
+    "test_washer_film",
+    "test_washer_heat",
+    "test_washer_newton",
+    "test_washer_directional_derivative",
+    "test_washer_step",
+    "test_washer_transient",
+}
 MORE = (
-    "tests/model/test_rules.py", "tests/model/test_rungs_in_short.py",
+    "tests/model/test_rules.py",
+    "tests/model/test_rungs_in_short.py",
     "tests/model/test_status_numbers.py",
-)  # fmt: skip
+)
 LIMIT, LAST_WORDS = 60, 10  # s
 SETTINGS = """[run]
 branch = True
@@ -69,12 +75,25 @@ def run_tests(rc: Path, words: list[str], limit: int | None, **environment: str)
     Returns False if a test failed.
     """
     began = time.perf_counter()
-    command = [sys.executable, "-m", "coverage", "run", f"--rcfile={rc}", "-m", "pytest", "-q",
-               *(("-n", "0", "-p", "no:cacheprovider", *words) if words else ())]  # fmt: skip
+    command = [
+        sys.executable,
+        "-m",
+        "coverage",
+        "run",
+        f"--rcfile={rc}",
+        "-m",
+        "pytest",
+        "-q",
+        *(("-n", "0", "-p", "no:cacheprovider", *words) if words else ()),
+    ]
     running = subprocess.Popen(
-        command, cwd=ROOT, env={**os.environ, **environment}, text=True,
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-    )  # fmt: skip
+        command,
+        cwd=ROOT,
+        env={**os.environ, **environment},
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
     try:
         whole = running.communicate(timeout=limit)[0]
         said = whole.strip().splitlines()[-1:] if running.returncode == 0 else [whole]
@@ -99,8 +118,9 @@ def run_plain(rc: Path, file: Path) -> bool:
 def share(rc: Path, *words: str) -> str:
     """Return lines and branches walked through, in per cent, of some files."""
     command = [sys.executable, "-m", "coverage", "report", f"--rcfile={rc}", "--precision=1"]
-    done = subprocess.run([*command, "--format=total", *words], cwd=ROOT, capture_output=True,
-                          text=True)  # fmt: skip
+    done = subprocess.run(
+        [*command, "--format=total", *words], cwd=ROOT, capture_output=True, text=True
+    )
     return done.stdout.strip() or "0"
 
 

@@ -57,8 +57,15 @@ def timed(program: Path, made: Path, spec: ModelSpec, n: int) -> tuple[float, fl
     outputs = [v.reference for v in found if v.causality == "output" and v.type == "Real"]
     words = [len(inputs), *(x for pair in zip(inputs, point, strict=True) for x in pair)]
     words += [len(outputs), *outputs]
-    done = subprocess.run([program, made, GUID, str(n)], input=" ".join(map(str, words)), env={},
-                          cwd=made.parent, check=True, capture_output=True, text=True)  # fmt: skip
+    done = subprocess.run(
+        [program, made, GUID, str(n)],
+        input=" ".join(map(str, words)),
+        env={},
+        cwd=made.parent,
+        check=True,
+        capture_output=True,
+        text=True,
+    )
     birth, step, bad = done.stdout.split()
     return float(birth), float(step), int(bad)
 
@@ -71,8 +78,9 @@ def main() -> None:
         folder = Path(place)
         program = folder / "native"
         source = Path(__file__).with_suffix(".c")
-        subprocess.run(["gcc", "-std=gnu99", "-O2", "-I", headers(), source, "-o", program, "-ldl"],
-                       check=True)  # fmt: skip
+        subprocess.run(
+            ["gcc", "-std=gnu99", "-O2", "-I", headers(), source, "-o", program, "-ldl"], check=True
+        )
         print(f"{'model':18}{'make + init [ms]':>18}{'step [us]':>12}{'protocol [us]':>15}")
         for spec in [find_spec(name) for name in names] or all_specs():
             made = folder / f"{spec.name}.so"
@@ -81,8 +89,10 @@ def main() -> None:
             birth, step, bad = timed(program, made, spec, STEPS.get(spec.key, 2000))
             made.write_bytes(empty_library(spec))
             _, protocol, _ = timed(program, made, spec, EMPTY_STEPS)
-            print(f"{spec.name:18}{1e3 * birth:18.3f}{1e6 * step:12.3f}{1e6 * protocol:15.4f}"
-                  + (f"  {bad} failures" if bad else ""))  # fmt: skip
+            print(
+                f"{spec.name:18}{1e3 * birth:18.3f}{1e6 * step:12.3f}{1e6 * protocol:15.4f}"
+                + (f"  {bad} failures" if bad else "")
+            )
 
 
 if __name__ == "__main__":

@@ -86,8 +86,10 @@ def measure_report(browser: Browser, folder: Path, step: str) -> None:
     words = ["shift", "--out", str(folder), *(["--step", step] if step else [])]
     taken = [called(*words) for _ in range(RUNS + 1)][1:]
     report = folder / "report.html"
-    print(f"report: written in {statistics.median(taken):.2f} s (least {min(taken):.2f} s) with "
-          f"its run, {report.stat().st_size / 1e6:.2f} MB")  # fmt: skip
+    print(
+        f"report: written in {statistics.median(taken):.2f} s (least {min(taken):.2f} s) with "
+        f"its run, {report.stat().st_size / 1e6:.2f} MB"
+    )
     page, seconds = settled(browser, report, REPORT)
     print(f"  open and interactive after {seconds:.2f} s")
     page.evaluate("() => document.getElementById('plots').scrollIntoView()")
@@ -95,8 +97,10 @@ def measure_report(browser: Browser, folder: Path, step: str) -> None:
     print(f"  {page.evaluate('Plots.state.time.length')} points")
     for what in ("cursor", "zoom"):
         pace = sorted(page.evaluate(PACE, [what, FRAMES]))
-        print(f"  {what}: {1e3 / statistics.median(pace):.0f} frames a second, "
-              f"{1e3 / pace[int(0.95 * FRAMES)]:.0f} in the slowest twentieth")  # fmt: skip
+        print(
+            f"  {what}: {1e3 / statistics.median(pace):.0f} frames a second, "
+            f"{1e3 / pace[int(0.95 * FRAMES)]:.0f} in the slowest twentieth"
+        )
 
 
 def measure_explore(browser: Browser, folder: Path, model: str) -> None:
@@ -104,11 +108,14 @@ def measure_explore(browser: Browser, folder: Path, model: str) -> None:
     called("explore", model, "--out", str(path))
     page, seconds = settled(browser, path, EXPLORE)
     page.wait_for_timeout(1000)  # until its curves are drawn
-    print(f"{model}: {path.stat().st_size / 1e6:.2f} MB, first result "
-          f"{seconds:.2f} s after opening")  # fmt: skip
+    print(
+        f"{model}: {path.stat().st_size / 1e6:.2f} MB, first result {seconds:.2f} s after opening"
+    )
     taken = sorted(page.evaluate(UPDATE, ["solve", UPDATES]))
-    print(f"  an update takes {statistics.median(taken):.2f} ms, one of twenty over "
-          f"{taken[int(0.95 * UPDATES)]:.2f} ms")  # fmt: skip
+    print(
+        f"  an update takes {statistics.median(taken):.2f} ms, one of twenty over "
+        f"{taken[int(0.95 * UPDATES)]:.2f} ms"
+    )
     if model == "washer":
         curves = page.evaluate(UPDATE, ["curve", RUNS])
         print(f"  its load curve {statistics.median(curves) / 1e3:.2f} s")

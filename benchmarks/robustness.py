@@ -52,11 +52,14 @@ def scattered(rng: np.random.Generator, n: int) -> list[Point]:
     points = []
     for k in range(n):
         log_load = rng.uniform(math.log(5.0), math.log(3000.0))
-        points.append({
-            "load": rng.uniform(5.0, 3000.0) if k % 2 else math.exp(log_load),
-            "speed": rng.uniform(-1500.0, 1500.0), "tilt": rng.uniform(0.0, 0.004),
-            "oil_temperature": rng.uniform(260.0, 420.0),
-        })  # fmt: skip
+        points.append(
+            {
+                "load": rng.uniform(5.0, 3000.0) if k % 2 else math.exp(log_load),
+                "speed": rng.uniform(-1500.0, 1500.0),
+                "tilt": rng.uniform(0.0, 0.004),
+                "oil_temperature": rng.uniform(260.0, 420.0),
+            }
+        )
     return points
 
 
@@ -106,8 +109,13 @@ def warm(rng: np.random.Generator, n: int) -> int:
         if k % 3 and r is not None:  # one input moves by up to 30 %
             name = ("load", "speed", "tilt")[rng.integers(3)]
             moved = getattr(r, name) * rng.uniform(0.7, 1.3)
-            point = {"load": r.load, "speed": r.speed, "tilt": r.tilt,
-                     "oil_temperature": r.oil_temperature, name: moved}  # fmt: skip
+            point = {
+                "load": r.load,
+                "speed": r.speed,
+                "tilt": r.tilt,
+                "oil_temperature": r.oil_temperature,
+                name: moved,
+            }
         r = solve_washer(PARAMS, **point, start=r, throw=False)
         again = solve_washer(PARAMS, **point, branch=r.branch, throw=False)
         apart = abs(again.friction_torque - r.friction_torque)

@@ -72,7 +72,7 @@ def figures(r: ShiftResult) -> dict[str, float]:
         "peak of the washer's film, rise [K]": peak(r, "washer"),
         "washer, greatest torque [N.m]": float(np.max(np.abs(torque(r)))),
         "heat of the washers [J]": r.energy["washers"],
-    }  # fmt: skip
+    }
     return {name: float(value or 0.0) for name, value in found.items()}
 
 

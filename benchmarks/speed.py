@@ -30,10 +30,14 @@ from thrustwasher.washer.kernels.workspace import Point, fields_of, size_of_work
 
 PARAMS = WasherParams()
 POINTS = [
-    ("full film", 545.0, 300.0), ("full film", 953.0, 300.0), ("transition", 136.0, 320.0),
-    ("transition", 545.0, 700.0), ("boundary", 136.0, 1361.0), ("contact", 545.0, 1200.0),
+    ("full film", 545.0, 300.0),
+    ("full film", 953.0, 300.0),
+    ("transition", 136.0, 320.0),
+    ("transition", 545.0, 700.0),
+    ("boundary", 136.0, 1361.0),
+    ("contact", 545.0, 1200.0),
     ("contact", 1367.0, 1000.0),
-]  # fmt: skip
+]
 
 FIRST = (
     "from thrustwasher import *; import sys; "
@@ -48,9 +52,13 @@ PROCESSES = {
     "a first solve": ["-c", FIRST],
     "thrustwasher shift": SHIFT,
     "shift --fidelity auto:0.01 --json --no-report": [
-        *SHIFT, "--fidelity", "auto:0.01", "--json", "--no-report",
+        *SHIFT,
+        "--fidelity",
+        "auto:0.01",
+        "--json",
+        "--no-report",
     ],
-}  # fmt: skip
+}
 
 
 def timed(work: Callable[[], object], repeats: int) -> tuple[float, float]:
@@ -110,8 +118,13 @@ def starts() -> None:
     print("| what | median (minimum) |\n|---|---|")
     with tempfile.TemporaryDirectory() as folder:
         for name, words in PROCESSES.items():
-            run = partial(subprocess.run, [sys.executable, *words], check=True, cwd=folder,
-                          capture_output=True)  # fmt: skip
+            run = partial(
+                subprocess.run,
+                [sys.executable, *words],
+                check=True,
+                cwd=folder,
+                capture_output=True,
+            )
             run()
             t = timed(run, 5)
             print(f"| {name}, new process | {t[0]:.3g} ({t[1]:.3g}) s |", flush=True)

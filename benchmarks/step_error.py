@@ -44,13 +44,19 @@ def main(names):
             played = recorded_parts(scene, found.time, found.signals)
             truth = truth or run(replace(scene, step=1e-3 * TRUE), played)
             twice = errors_between(run(replace(scene, step=2e-3 * ms), played), found, 1.0)
-            said = step_error(found, lambda s, given: {
-                n: given.get(n) or DirectInstance(p.spec, parameters=p.parameters())
-                for n, p in s.parts.items()
-            }, run_shift).errors()  # fmt: skip
+            said = step_error(
+                found,
+                lambda s, given: {
+                    n: given.get(n) or DirectInstance(p.spec, parameters=p.parameters())
+                    for n, p in s.parts.items()
+                },
+                run_shift,
+            ).errors()
             true = errors_between(found, truth, 1.0)
-            words = (f"{n} {1e2 * said[n]:.2g} / {1e2 * true[n]:.2g} [{1e2 * twice[n]:.2g}]"
-                     for n in true)  # fmt: skip
+            words = (
+                f"{n} {1e2 * said[n]:.2g} / {1e2 * true[n]:.2g} [{1e2 * twice[n]:.2g}]"
+                for n in true
+            )
             print(f"  {ms:4g} ms  {', '.join(words)}", flush=True)
 
 

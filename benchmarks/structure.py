@@ -86,9 +86,11 @@ def _targets(node: ast.AST, package: str) -> Iterable[str]:
         yield from (alias.name for alias in node.names)
     elif isinstance(node, ast.ImportFrom):
         above = package.split(".")[: len(package.split(".")) - node.level + 1]
-        base = ".".join([*above, *([node.module] if node.module else [])]) if node.level else (
-            node.module or ""
-        )  # fmt: skip
+        base = (
+            ".".join([*above, *([node.module] if node.module else [])])
+            if node.level
+            else (node.module or "")
+        )
         names = [f"{base}.{alias.name}" for alias in node.names]
         inside = [name for name in names if name in modules()]
         yield from inside
@@ -149,10 +151,13 @@ def shell_sources() -> list[Path]:
 def sources() -> list[Path]:
     """Return all sources written by hand that a user gets: no vendored file, no FMI header."""
     return sorted(
-        path for folder in (PACKAGE, ROOT / "fmu_src") for path in folder.rglob("*")
-        if path.suffix in SUFFIXES and not {"vendor", "__pycache__"} & set(path.parts)
+        path
+        for folder in (PACKAGE, ROOT / "fmu_src")
+        for path in folder.rglob("*")
+        if path.suffix in SUFFIXES
+        and not {"vendor", "__pycache__"} & set(path.parts)
         and not FMI_HEADER.fullmatch(path.name)
-    )  # fmt: skip
+    )
 
 
 def test_sources() -> list[Path]:
@@ -278,8 +283,12 @@ def _way(
         x0, y0 = found[-1]
         straight = x0 + (end[0] - x0) * (y0 - y) / (y0 - end[1])
         free = [(a + SPACE, b - SPACE) for a, b in gaps[y] if b - a > 2.0 * SPACE]
-        found.append((min((min(max(straight, a), b) for a, b in free),
-                          key=lambda x: abs(x - straight)), float(y)))  # fmt: skip
+        found.append(
+            (
+                min((min(max(straight, a), b) for a, b in free), key=lambda x: abs(x - straight)),
+                float(y),
+            )
+        )
     return [*found, end]
 
 
@@ -307,19 +316,28 @@ def draw(path: Path) -> None:
         x = gap
         for name in row:
             place[name] = (x + 0.5 * wide[name], float(y))
-            axis.add_patch(FancyBboxPatch(
-                (x, y - HALF_HEIGHT), wide[name], 2.0 * HALF_HEIGHT, facecolor="#e8f1f8",
-                boxstyle="round,pad=0,rounding_size=0.012", edgecolor="#0072b2",
-                mutation_aspect=9.0,
-            ))  # fmt: skip
+            axis.add_patch(
+                FancyBboxPatch(
+                    (x, y - HALF_HEIGHT),
+                    wide[name],
+                    2.0 * HALF_HEIGHT,
+                    facecolor="#e8f1f8",
+                    boxstyle="round,pad=0,rounding_size=0.012",
+                    edgecolor="#0072b2",
+                    mutation_aspect=9.0,
+                )
+            )
             told = f"{name}\n{sizes[name] / 1000:.1f} k lines"
             axis.text(*place[name], told, ha="center", va="center", fontsize=9)
             gaps[y].append((x - gap, x))
             x += wide[name] + gap
         gaps[y].append((x - gap, x))
     for source, target in not_implied(arrows()):
-        way = [point for x, y in _way(place[source], place[target], gaps)
-               for point in ((x, y + HALF_HEIGHT), (x, y - HALF_HEIGHT))][1:-1]  # fmt: skip
+        way = [
+            point
+            for x, y in _way(place[source], place[target], gaps)
+            for point in ((x, y + HALF_HEIGHT), (x, y - HALF_HEIGHT))
+        ][1:-1]
         axis.plot(*zip(*way, strict=True), color="0.5", lw=0.9, solid_joinstyle="round")
         axis.annotate("", way[-1], way[-2], arrowprops=ARROW)
     axis.set(xlim=(0.0, 1.0), ylim=(-0.4, len(rows) - 0.6))

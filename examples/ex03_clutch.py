@@ -7,8 +7,10 @@ def main() -> float:
     pack = ClutchParams(friction_law="wang")
     for speed in (200.0, 100.0, 50.0, 25.0, 10.0):
         result = solve_clutch(pack, load=5898.0, speed=speed, fidelity="stribeck")
-        print(f"{speed:5.0f} rad/s  mu {result.friction_coefficient:.4f}  "
-              f"{result.friction_torque:6.1f} N m")  # fmt: skip
+        print(
+            f"{speed:5.0f} rad/s  mu {result.friction_coefficient:.4f}  "
+            f"{result.friction_torque:6.1f} N m"
+        )
     print("boundary friction at full shear strength:", boundary_friction(0.1, 1.0, 0.085275))
 
     slow = solve_clutch(pack, load=5898.0, speed=25.0, fidelity="stribeck")

@@ -38,9 +38,11 @@ def main() -> float:
         told = read_model_description(path)
         reference = {v.name: v.valueReference for v in told.modelVariables}
         fmu = FMU2Slave(
-            guid=told.guid, modelIdentifier=told.coSimulation.modelIdentifier,
-            unzipDirectory=extract(path, Path(folder) / "washer"), instanceName="washer",
-        )  # fmt: skip
+            guid=told.guid,
+            modelIdentifier=told.coSimulation.modelIdentifier,
+            unzipDirectory=extract(path, Path(folder) / "washer"),
+            instanceName="washer",
+        )
         fmu.instantiate()
         fmu.setupExperiment(startTime=0.0)
         fmu.enterInitializationMode()

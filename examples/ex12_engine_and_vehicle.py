@@ -17,9 +17,11 @@ class Part:
         told = read_model_description(path)
         self.reference = {v.name: [v.valueReference] for v in told.modelVariables}
         self.fmu = FMU2Slave(
-            guid=told.guid, modelIdentifier=told.coSimulation.modelIdentifier,
-            unzipDirectory=extract(path, path.with_suffix("")), instanceName=name,
-        )  # fmt: skip
+            guid=told.guid,
+            modelIdentifier=told.coSimulation.modelIdentifier,
+            unzipDirectory=extract(path, path.with_suffix("")),
+            instanceName=name,
+        )
         self.fmu.instantiate()
         self.fmu.setupExperiment(startTime=0.0)
         self.fmu.enterInitializationMode()

@@ -21,10 +21,15 @@ def with_more(description: bytes, fmus: dict[str, Path]) -> bytes:
     root = fromstring(description)
     top = root.find(f"{SSD}System")
     for name in ("engine", "vehicle"):
-        part = SubElement(top.find(f"{SSD}Elements"), f"{SSD}Component", {
-            "name": name, "type": "application/x-fmu-sharedlibrary",
-            "source": f"resources/{name}.fmu",
-        })  # fmt: skip
+        part = SubElement(
+            top.find(f"{SSD}Elements"),
+            f"{SSD}Component",
+            {
+                "name": name,
+                "type": "application/x-fmu-sharedlibrary",
+                "source": f"resources/{name}.fmu",
+            },
+        )
         connectors = SubElement(part, f"{SSD}Connectors")
         for variable in read_model_description(fmus[name]).modelVariables:
             if variable.causality in ("input", "output"):
@@ -37,8 +42,9 @@ def with_more(description: bytes, fmus: dict[str, Path]) -> bytes:
         SubElement(SubElement(own[0], f"{SSD}Connector", kind), f"{SSC}Real", unit="N.m")
     names = ("startElement", "startConnector", "endElement", "endConnector")
     for wire in WIRES:
-        SubElement(top.find(f"{SSD}Connections"), f"{SSD}Connection",
-                   dict(zip(names, wire, strict=True)))  # fmt: skip
+        SubElement(
+            top.find(f"{SSD}Connections"), f"{SSD}Connection", dict(zip(names, wire, strict=True))
+        )
     return tostring(root)
 
 

@@ -46,12 +46,21 @@ def main(fidelity: str = "field", most: int = 2) -> float:
     data, values = read(), []
     for name, start, fit in FITS[:most]:
         found = calibrate(start, data, fit=fit, fidelity=fidelity)
-        words = [f"{e.name} {e.value:.3g}" + (f" ({e.interval[0]:.2g} .. {e.interval[1]:.2g})"
-                 if e.identifiable else " (not told)") for e in found.estimates]  # fmt: skip
+        words = [
+            f"{e.name} {e.value:.3g}"
+            + (
+                f" ({e.interval[0]:.2g} .. {e.interval[1]:.2g})"
+                if e.identifiable
+                else " (not told)"
+            )
+            for e in found.estimates
+        ]
         loads = ", ".join(f"{load:.0f}" for load in found.fitted)
         chi = float(((found.residuals / 35.0) ** 2).sum())
-        print(f"| {name} | {', '.join(words)} | {loads} N | {chi:.3g} | "
-              f"{elsewhere(found.params)} |", flush=True)  # fmt: skip
+        print(
+            f"| {name} | {', '.join(words)} | {loads} N | {chi:.3g} | {elsewhere(found.params)} |",
+            flush=True,
+        )
         values.append(found.estimates[0].value)
     return values[0]
 

@@ -39,18 +39,25 @@ class PetroffWasher:
 
     def outputs(self):
         _, speed, _, oil, *_ = self.values
-        known = {"friction_torque": 7.5e-5 * speed, "temperature": oil, "temperature_max": oil,
-                 "film_ratio": 6.0, "friction_power": 7.5e-5 * speed**2, "regime": 1.0}  # fmt: skip
+        known = {
+            "friction_torque": 7.5e-5 * speed,
+            "temperature": oil,
+            "temperature_max": oil,
+            "film_ratio": 6.0,
+            "friction_power": 7.5e-5 * speed**2,
+            "regime": 1.0,
+        }
         return [known.get(n, 0.0) for n in self.output_names]
 
 
 def instances(scene):
     """Return an instance for every part."""
     return {
-        name: PetroffWasher(part.spec) if name == "washer" else
-        DirectInstance(part.spec, parameters=part.parameters())
+        name: PetroffWasher(part.spec)
+        if name == "washer"
+        else DirectInstance(part.spec, parameters=part.parameters())
         for name, part in scene.parts.items()
-    }  # fmt: skip
+    }
 
 
 def shift(name, *, parts=None, **options):

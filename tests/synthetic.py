@@ -18,8 +18,12 @@ WHOLE = {
     "tilt": Axis(1e-3, 3e-3, "rad", "log"),
     "oil_temperature": Axis(290.0, 400.0, "K", "linear"),
 }
-BOX = {"load": (30.0, 1000.0), "speed": (100.0, 1000.0), "tilt": (2e-3, 2e-3),
-       "oil_temperature": (300.0, 300.0)}  # fmt: skip
+BOX = {
+    "load": (30.0, 1000.0),
+    "speed": (100.0, 1000.0),
+    "tilt": (2e-3, 2e-3),
+    "oil_temperature": (300.0, 300.0),
+}
 CALLS = {"map": 2e-6, "field": 2e-4, "fine": 2e-3}
 
 
@@ -28,37 +32,56 @@ def regions(worst, kelvin=0.1):
     if not isinstance(worst, list):
         worst = [[worst] * 2] * 2
     loads, speeds = ((20.0, 200.0), (200.0, 2000.0)), ((50.0, 250.0), (250.0, 1400.0))
-    return Division(("load", "speed"), tuple(
-        (*load, *speed, 75, worst[i][j], kelvin, 1e-9, 1e-3)
-        for i, load in enumerate(loads) for j, speed in enumerate(speeds)
-    ))  # fmt: skip
+    return Division(
+        ("load", "speed"),
+        tuple(
+            (*load, *speed, 75, worst[i][j], kelvin, 1e-9, 1e-3)
+            for i, load in enumerate(loads)
+            for j, speed in enumerate(speeds)
+        ),
+    )
 
 
 def film_ratios(*worst):
     """Return a division by the film ratio: below 3, 3 .. 5, above 5."""
     ends = ((-1e9, 3.0), (3.0, 5.0), (5.0, 1e9))
-    return Division(("film_ratio",), tuple(
-        (*end, 30, error, 0.1, 1e-9, 1e-3) for end, error in zip(ends, worst, strict=True)
-    ))  # fmt: skip
+    return Division(
+        ("film_ratio",),
+        tuple((*end, 30, error, 0.1, 1e-9, 1e-3) for end, error in zip(ends, worst, strict=True)),
+    )
 
 
-def rung(fidelity="field", worst=5e-3, *more, box=None, beside_fold=0.0, sources=None, files=(),
-         **charts):  # fmt: skip
+def rung(
+    fidelity="field", worst=5e-3, *more, box=None, beside_fold=0.0, sources=None, files=(), **charts
+):
     """Return a rung of the washer: one chart of ``worst``, or several by name."""
     found = charts or {"": worst}
     return RungErrors(
-        fidelity, sources or sources_of("washer", fidelity), files, CALLS[fidelity], box or WHOLE,
-        tuple(Chart(name or None, 300, 1e-3, beside_fold, (regions(errors), *more))
-              for name, errors in found.items()),
-    )  # fmt: skip
+        fidelity,
+        sources or sources_of("washer", fidelity),
+        files,
+        CALLS[fidelity],
+        box or WHOLE,
+        tuple(
+            Chart(name or None, 300, 1e-3, beside_fold, (regions(errors), *more))
+            for name, errors in found.items()
+        ),
+    )
 
 
 def table(*rungs, params=None, name="default"):
     """Return a table of the washer."""
     return ErrorTable(
-        "washer", name, params_digest(params or WasherParams()), {}, "2026-01-01T00:00:00Z",
-        "0.4.0", "a cpu, 2 cores", ("two grids extrapolated",), rungs,
-    )  # fmt: skip
+        "washer",
+        name,
+        params_digest(params or WasherParams()),
+        {},
+        "2026-01-01T00:00:00Z",
+        "0.4.0",
+        "a cpu, 2 cores",
+        ("two grids extrapolated",),
+        rungs,
+    )
 
 
 def put(folder, monkeypatch, *rungs, **options):

@@ -71,8 +71,15 @@ def test_a_model_without_cards_says_so(run):
 
 
 def test_the_sweep_writes_a_table(run, solved, folder):
-    run("sweep", "journal", "--over=load=500:1500:500", "--over=viscosity=0.02,0.04",
-        *WORDS[1:], "--workers=2", "--out=table.csv")  # fmt: skip
+    run(
+        "sweep",
+        "journal",
+        "--over=load=500:1500:500",
+        "--over=viscosity=0.02,0.04",
+        *WORDS[1:],
+        "--workers=2",
+        "--out=table.csv",
+    )
     with (folder / "table.csv").open(newline="") as stream:
         rows = list(csv.DictReader(stream))
     assert [row["status"] for row in rows][:2] == ["OK", "OK"]

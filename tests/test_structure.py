@@ -22,7 +22,7 @@ import structure
 SOURCE_LINES = 57_800  # of the package and fmu_src, all languages
 TEST_LINES = 37_000
 FILE_LINES, FUNCTION_LINES, FOLDER_FILES = 600, 110, 20
-FORMAT_MARKS = {"sources": 600, "tests": 500}  # to be lowered, as the lines
+FORMAT_MARKS = {"sources": 40, "tests": 40}  # tables of numbers
 IN_CIRCLES = {  # modules that may still name each other in a circle as "module:NAME"
     f"thrustwasher.washer.{name}"
     for name in (

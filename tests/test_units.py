@@ -43,9 +43,22 @@ def test_a_difference_of_temperatures_has_no_offset():
 
 
 @pytest.mark.parametrize(
-    "value", ["24 degC", "abc", "", "nan", "inf", "1e999", "3,5 N", "300 N extra", math.nan, True,
-              None, "--3"],
-)  # fmt: skip
+    "value",
+    [
+        "24 degC",
+        "abc",
+        "",
+        "nan",
+        "inf",
+        "1e999",
+        "3,5 N",
+        "300 N extra",
+        math.nan,
+        True,
+        None,
+        "--3",
+    ],
+)
 def test_what_is_no_load_is_refused_in_one_line(value):
     with pytest.raises(ParameterError) as caught:
         parse_quantity(value, "N", "load")

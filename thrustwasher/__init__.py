@@ -44,12 +44,37 @@ _HOMES = {
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
-    "BranchError", "Calibration", "Choice", "ClutchParams", "Engagement", "GearMeshParams",
-    "GearMeshResult", "LoadCurve", "ModelCalibration", "Oil", "ParameterError", "PartFile",
-    "SolveError", "Status", "SweepTable", "WasherCourse", "WasherParams", "WasherResult",
-    "boundary_friction", "calibrate", "choose", "engage_clutch", "follow_washer", "load_curve",
-    "load_part", "oil", "run_sweep", "solve_clutch", "solve_gearmesh", "solve_washer",
-]  # fmt: skip
+    "BranchError",
+    "Calibration",
+    "Choice",
+    "ClutchParams",
+    "Engagement",
+    "GearMeshParams",
+    "GearMeshResult",
+    "LoadCurve",
+    "ModelCalibration",
+    "Oil",
+    "ParameterError",
+    "PartFile",
+    "SolveError",
+    "Status",
+    "SweepTable",
+    "WasherCourse",
+    "WasherParams",
+    "WasherResult",
+    "boundary_friction",
+    "calibrate",
+    "choose",
+    "engage_clutch",
+    "follow_washer",
+    "load_curve",
+    "load_part",
+    "oil",
+    "run_sweep",
+    "solve_clutch",
+    "solve_gearmesh",
+    "solve_washer",
+]
 
 
 def __getattr__(name: str) -> Any:

@@ -61,18 +61,22 @@ class Status(IntEnum):
     advice: str
     OK = 0, "solved"
     OUTSIDE_VERIFIED = (
-        1, "an input is outside the range the accuracy was verified for; use with care"
-    )  # fmt: skip
+        1,
+        "an input is outside the range the accuracy was verified for; use with care",
+    )
     HOT = (
-        2, "the contact is above 250 degC, too hot for oil and lining; lower load, speed or time"
-    )  # fmt: skip
+        2,
+        "the contact is above 250 degC, too hot for oil and lining; lower load, speed or time",
+    )
     DISTRESS = 3, "the oil film is lost (thermo-viscous distress); lower the load to regain it"
     STALLED = (
-        4, "both packs hold: the driveline stands still or the engine stalls; release one pack"
-    )  # fmt: skip
+        4,
+        "both packs hold: the driveline stands still or the engine stalls; release one pack",
+    )
     MAX_ITERATIONS = (
-        10, "not converged; start from a neighbouring result or refine in smaller steps"
-    )  # fmt: skip
+        10,
+        "not converged; start from a neighbouring result or refine in smaller steps",
+    )
     SINGULAR = 11, "the equations are singular here, as at a fold; move the load a little"
     NO_BRANCH = 12, "the wanted branch has no solution at this load; ask for the other branch"
     NO_EVENT = 13, "a lock-up or break-away could not be located; use a smaller communication step"

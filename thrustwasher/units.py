@@ -28,8 +28,13 @@ _DISPLAY: dict[str, list[str]] = _TABLES["display"]
 # In which unit a bare number was probably meant, the likeliest first.
 _MEANT: dict[str, list[str]] = _TABLES["meant"]
 # More units that a number may be exact in.
-_EXACT = {"m": ("nm", "mm"), "K": ("degC",), "rad": ("deg",), "1/m2": ("1/mm2",),
-          "m2/s": ("mm2/s",)}  # fmt: skip
+_EXACT = {
+    "m": ("nm", "mm"),
+    "K": ("degC",),
+    "rad": ("deg",),
+    "1/m2": ("1/mm2",),
+    "m2/s": ("mm2/s",),
+}
 LEAST_PERCENT = 2.0  # 1.5 is rather a share that is too large than 1.5 %
 _PRETTY = {"um": "µm", "us": "µs", "degC": "°C"}
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)

@@ -138,9 +138,15 @@ def clamp(p: Pad) -> Film:
 
 @rival
 def _relax(
-    east: Array, north: Array, source: Array, p: Array, relaxation: float, change: float,
-    rest: float, most: int,
-) -> int:  # fmt: skip
+    east: Array,
+    north: Array,
+    source: Array,
+    p: Array,
+    relaxation: float,
+    change: float,
+    rest: float,
+    most: int,
+) -> int:
     """Projected over-relaxation; stop at a small change of a sweep or a small residual."""
     n = source.shape[0]
     for sweep in range(most):

@@ -102,31 +102,57 @@ def edge(holds: Callable[[float], bool], inside: float, outside: float) -> float
 def _limit(loop: str, formula: str, predicted: float, measured: float) -> Limit:
     """Return one formula and what a run of its loop gives."""
     return {
-        "loop": loop, "formula": formula, "predicted": predicted, "measured": measured,
+        "loop": loop,
+        "formula": formula,
+        "predicted": predicted,
+        "measured": measured,
         "deviation": measured / predicted - 1.0,
-    }  # fmt: skip
+    }
 
 
 def limits() -> list[Limit]:
     """Return all limits as JSON types, each by bisection or by the growth over a run."""
     return [
-        _limit("torque fresh, held (Gauss-Seidel)", "H < 2 J/c: stable", 2.0,
-              _kappa(dies_out, "fresh", ONE)),
-        _limit("torque fresh, held (Gauss-Seidel)", "H < J/c: no overshoot", 1.0,
-              _kappa(keeps_its_side, "fresh", ONE)),
+        _limit(
+            "torque fresh, held (Gauss-Seidel)",
+            "H < 2 J/c: stable",
+            2.0,
+            _kappa(dies_out, "fresh", ONE),
+        ),
+        _limit(
+            "torque fresh, held (Gauss-Seidel)",
+            "H < J/c: no overshoot",
+            1.0,
+            _kappa(keeps_its_side, "fresh", ONE),
+        ),
         _limit("torque a step old (Jacobi)", "H < J/c: stable", 1.0, _kappa(dies_out, "late", TWO)),
-        _limit("torque a step old (Jacobi)", "H < J/(4 c): no overshoot", 0.25,
-              _kappa(keeps_its_side, "late", TWO)),
-        _limit("torque extrapolated", "H < J/c: stable", 1.0,
-              _kappa(dies_out, "extrapolated", TWO)),
-        _limit("T tanh(w/w_0), held", "H < 2 J w_0/T: stable", 2.0,
-              _kappa(dies_out, "tanh", (1e-6,))),
-        _limit("torque with its slope, kappa 10", "factor 1/(1 + kappa) a step: always stable",
-              1.0 / 11.0, factor(partial(TORQUES["implicit"], 10.0), ONE, 40)),
-        _limit("falling friction, kappa -0.1", "grows by 1 + H abs(c)/J a step: physics",
-              1.1, factor(partial(TORQUES["fresh"], -0.1), ONE)),
-        *_springs(), *_rest(),
-    ]  # fmt: skip
+        _limit(
+            "torque a step old (Jacobi)",
+            "H < J/(4 c): no overshoot",
+            0.25,
+            _kappa(keeps_its_side, "late", TWO),
+        ),
+        _limit(
+            "torque extrapolated", "H < J/c: stable", 1.0, _kappa(dies_out, "extrapolated", TWO)
+        ),
+        _limit(
+            "T tanh(w/w_0), held", "H < 2 J w_0/T: stable", 2.0, _kappa(dies_out, "tanh", (1e-6,))
+        ),
+        _limit(
+            "torque with its slope, kappa 10",
+            "factor 1/(1 + kappa) a step: always stable",
+            1.0 / 11.0,
+            factor(partial(TORQUES["implicit"], 10.0), ONE, 40),
+        ),
+        _limit(
+            "falling friction, kappa -0.1",
+            "grows by 1 + H abs(c)/J a step: physics",
+            1.1,
+            factor(partial(TORQUES["fresh"], -0.1), ONE),
+        ),
+        *_springs(),
+        *_rest(),
+    ]
 
 
 def _kappa(holds: Callable[[Stepper, State], bool], torque: str, start: State) -> float:
@@ -146,16 +172,31 @@ def _springs() -> list[Limit]:
 
     undamped = partial(spring, SPRING, 0.0, STEP)
     return [
-        _limit("undamped spring, force held", "grows by sqrt(1 + k H^2/(2 m)) a step: never",
-              math.sqrt(1.0 + SPRING * STEP**2 / (2.0 * MASS)),
-              factor(undamped, (1.0, 0.0), 5000)),
-        _limit("spring and damper, force held", "c > k H/2: stable", 0.5 * SPRING * STEP,
-              edge(held, 50.0, 0.0)),
-        _limit("spring and damper, force held", "c < 2 m/H: stable", 2.0 * MASS / STEP,
-              edge(held, 50.0, 1e4)),
-        _limit("spring and damper, force a step old", "c > 1.5 k H for small H: stable",
-              1.5 * SPRING * 1e-4, edge(late, 50.0, 0.0)),
-    ]  # fmt: skip
+        _limit(
+            "undamped spring, force held",
+            "grows by sqrt(1 + k H^2/(2 m)) a step: never",
+            math.sqrt(1.0 + SPRING * STEP**2 / (2.0 * MASS)),
+            factor(undamped, (1.0, 0.0), 5000),
+        ),
+        _limit(
+            "spring and damper, force held",
+            "c > k H/2: stable",
+            0.5 * SPRING * STEP,
+            edge(held, 50.0, 0.0),
+        ),
+        _limit(
+            "spring and damper, force held",
+            "c < 2 m/H: stable",
+            2.0 * MASS / STEP,
+            edge(held, 50.0, 1e4),
+        ),
+        _limit(
+            "spring and damper, force a step old",
+            "c > 1.5 k H for small H: stable",
+            1.5 * SPRING * 1e-4,
+            edge(late, 50.0, 0.0),
+        ),
+    ]
 
 
 def _rest() -> list[Limit]:
@@ -170,12 +211,25 @@ def _rest() -> list[Limit]:
     least = -CONDUCTANCE / math.tanh(0.5 * CONDUCTANCE * HEAT_STEP / CAPACITY)
     low, high = coulomb_reach(FRICTION, DRIVE, STEP)
     return [
-        _limit("power held, G and C exact", "dq/dT < G: stable", CONDUCTANCE,
-              edge(settles, 0.0, 100.0)),
-        _limit("power held, G and C exact", "dq/dT > -G coth(G H/(2 C)): stable", least,
-              edge(settles, 0.0, -200.0)),
-        _limit("Coulomb friction, held", "slip up to (T + T_x) H/J: bounded chatter",
-              (FRICTION + DRIVE) * STEP, high),
-        _limit("Coulomb friction, held", "slip down to -(T - T_x) H/J: bounded chatter",
-              -(FRICTION - DRIVE) * STEP, low),
-    ]  # fmt: skip
+        _limit(
+            "power held, G and C exact", "dq/dT < G: stable", CONDUCTANCE, edge(settles, 0.0, 100.0)
+        ),
+        _limit(
+            "power held, G and C exact",
+            "dq/dT > -G coth(G H/(2 C)): stable",
+            least,
+            edge(settles, 0.0, -200.0),
+        ),
+        _limit(
+            "Coulomb friction, held",
+            "slip up to (T + T_x) H/J: bounded chatter",
+            (FRICTION + DRIVE) * STEP,
+            high,
+        ),
+        _limit(
+            "Coulomb friction, held",
+            "slip down to -(T - T_x) H/J: bounded chatter",
+            -(FRICTION - DRIVE) * STEP,
+            low,
+        ),
+    ]

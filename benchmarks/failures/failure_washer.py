@@ -128,9 +128,15 @@ def _ours(point: Hazard, fidelity: str, warm: bool, preset: str | None = None) -
 
     def solve(load: float, speed: float, tilt: float, start: Any = None) -> Any:
         return solve_washer(
-            params, load=load, speed=speed, tilt=tilt, oil_temperature=point.oil,
-            fidelity=fidelity, start=start, throw=False,
-        )  # fmt: skip
+            params,
+            load=load,
+            speed=speed,
+            tilt=tilt,
+            oil_temperature=point.oil,
+            fidelity=fidelity,
+            start=start,
+            throw=False,
+        )
 
     start = solve(*point.before) if warm and point.before else None
     r = solve(point.load, point.speed, point.tilt, start)
@@ -141,9 +147,12 @@ def _ours(point: Hazard, fidelity: str, warm: bool, preset: str | None = None) -
 def _curve(point: Hazard) -> Found:
     """Read the branch that a washer loaded from nothing is on off the whole curve of solutions."""
     curve = load_curve(
-        WasherParams(), speed=point.speed, tilt=point.tilt, oil_temperature=point.oil,
+        WasherParams(),
+        speed=point.speed,
+        tilt=point.tilt,
+        oil_temperature=point.oil,
         load_min=min(20.0, point.load),
-    )  # fmt: skip
+    )
     points = [p for p in curve.points if p.branch == "film"]
     if not points or points[-1].load < point.load:
         points = [p for p in curve.points if p.branch != "film" and p.branch != "unstable"]
@@ -176,9 +185,11 @@ def closed_forms() -> Group:
         "the same, the package's": (lambda z: exponential_weights(z)[2], _weight, times),
     }
     hazards = {
-        "middle of its range": "usual", "differences of near numbers": "far",
-        "the end of its range": "end", "zero itself": "zero",
-    }  # fmt: skip
+        "middle of its range": "usual",
+        "differences of near numbers": "far",
+        "the end of its range": "end",
+        "zero itself": "zero",
+    }
 
     def judge(form: Form, place: str) -> Cell:
         formula, true, places = form

@@ -243,9 +243,14 @@ def _stretch(clutch: Clutch, method: str, y: Row, times: Row) -> tuple[Row, Row,
         return [(clutch.drive - torque) / clutch.inertia, torque * y[0], film]
 
     found = solve_ivp(
-        rate, (times[0], times[-1]), y, method=method, t_eval=times, rtol=SOLVERS,
+        rate,
+        (times[0], times[-1]),
+        y,
+        method=method,
+        t_eval=times,
+        rtol=SOLVERS,
         atol=SOLVERS,
-    )  # fmt: skip
+    )
     return found.y[0], found.y[:, -1], int(found.nfev)
 
 

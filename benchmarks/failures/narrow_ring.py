@@ -2,9 +2,13 @@
 
 
 def narrow_ring_load(
-    viscosity: float, speed: float, inner_radius: float, outer_radius: float, least_gap: float,
+    viscosity: float,
+    speed: float,
+    inner_radius: float,
+    outer_radius: float,
+    least_gap: float,
     largest_gap: float,
-) -> float:  # fmt: skip
+) -> float:
     """Return the load [N] of a tilted narrow ring with Reynolds cavitation.
 
     The pressure is a parabola across the width L where the film closes and zero where it opens;

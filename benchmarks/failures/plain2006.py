@@ -84,9 +84,20 @@ def forces(
 
 @rival
 def _residual(
-    m: WasherModel, g: Mesh, q: Array, speed: float, tilt: float, load: float, mu: Array, p: Array,
-    s: Settings, east: Array, north: Array, source: Array, force: Array,
-) -> int:  # fmt: skip
+    m: WasherModel,
+    g: Mesh,
+    q: Array,
+    speed: float,
+    tilt: float,
+    load: float,
+    mu: Array,
+    p: Array,
+    s: Settings,
+    east: Array,
+    north: Array,
+    source: Array,
+    force: Array,
+) -> int:
     """Solve the pressure at ``q`` and fill the scaled residual of the four balances."""
     conductances(m, g, q, speed, mu, east, north, source)
     sweeps = relax_pressure(east, north, source, p, s, MOST_SWEEPS)
@@ -99,9 +110,17 @@ def _residual(
 
 @rival
 def balance(
-    m: WasherModel, g: Mesh, q: Array, speed: float, tilt: float, load: float, mu: Array, p: Array,
-    s: Settings, out: Array,
-) -> int:  # fmt: skip
+    m: WasherModel,
+    g: Mesh,
+    q: Array,
+    speed: float,
+    tilt: float,
+    load: float,
+    mu: Array,
+    p: Array,
+    s: Settings,
+    out: Array,
+) -> int:
     """Newton-Raphson on four positions with centred differences; return a status."""
     n_t, n_r = p.shape
     east, north, source = np.zeros((n_t, n_r)), np.zeros((n_t, n_r)), np.zeros((n_t, n_r))
@@ -144,9 +163,16 @@ def balance(
 
 @rival
 def outputs(
-    m: WasherModel, g: Mesh, q: Array, speed: float, mu: Array, rise: Array, contact: float,
-    oil: float, out: Array,
-) -> None:  # fmt: skip
+    m: WasherModel,
+    g: Mesh,
+    q: Array,
+    speed: float,
+    mu: Array,
+    rise: Array,
+    contact: float,
+    oil: float,
+    out: Array,
+) -> None:
     """Fill torque, mean temperature and least film thickness."""
     n_t, n_r = mu.shape
     friction, _ = dry_friction(m.par, contact)
@@ -169,9 +195,17 @@ def outputs(
 
 @rival
 def solve_point(
-    par: Array, n_r: int, n_t: int, load: float, speed: float, tilt: float, oil: float,
-    s: Settings, memory: Array, out: Array,
-) -> int:  # fmt: skip
+    par: Array,
+    n_r: int,
+    n_t: int,
+    load: float,
+    speed: float,
+    tilt: float,
+    oil: float,
+    s: Settings,
+    memory: Array,
+    out: Array,
+) -> int:
     """Solve one operating point from what ``memory`` holds (all zero: the start), into ``out``.
 
     Temperature, viscosity and balance follow each other until the temperatures stay.
@@ -249,17 +283,29 @@ class Plain2006:
     def solve(self, load: float, speed: float, tilt: float, oil_temperature: float) -> Status:
         """Solve one point, warm if there was one before; ``found`` is the result."""
         settings = Settings(
-            self.relaxation, HEAT_RELAXATION, self.tolerance, DIFFERENCE, self.share, MOST_ROUNDS,
+            self.relaxation,
+            HEAT_RELAXATION,
+            self.tolerance,
+            DIFFERENCE,
+            self.share,
+            MOST_ROUNDS,
             1.0 if self.limited else 1e300,
-        )  # fmt: skip
+        )
         if self.level and self.memory[0] == 0.0:
             gap = 3.0 * float(self._par[D_SIGMA1])
             self.memory[0] = gap
             self.memory[1] = 2.0 * gap + tilt * self.params.outer_radius
         status = solve_point(
-            self._par, *self.grid, float(load), float(speed), float(tilt), float(oil_temperature),
-            settings, self.memory, self.out,
-        )  # fmt: skip
+            self._par,
+            *self.grid,
+            float(load),
+            float(speed),
+            float(tilt),
+            float(oil_temperature),
+            settings,
+            self.memory,
+            self.out,
+        )
         return Status(status)
 
     @property
@@ -300,13 +346,23 @@ def charted(*, quick: bool = False) -> list[Configuration]:
     """Return the method over its tolerance, and over its mesh at the best tolerance."""
     made = partial(Configuration, count_of="sweeps x nodes", is_rival=True, preset="paper")
     tolerances = [
-        made("2006, 9 x 67, tolerance", f"2006, 9 x 67, {t:g}", "tolerance", f"{t:g}",
-             partial(Method2006, tolerance=t))
+        made(
+            "2006, 9 x 67, tolerance",
+            f"2006, 9 x 67, {t:g}",
+            "tolerance",
+            f"{t:g}",
+            partial(Method2006, tolerance=t),
+        )
         for t in (TOLERANCES[1:2] if quick else TOLERANCES)
-    ]  # fmt: skip
+    ]
     meshes = [
-        made("2006, 1e-5, mesh", f"2006, mesh {r} x {t}", "grid", f"{r}x{t}",
-             partial(Method2006, tolerance=1e-5, grid=(r, t)))
+        made(
+            "2006, 1e-5, mesh",
+            f"2006, mesh {r} x {t}",
+            "grid",
+            f"{r}x{t}",
+            partial(Method2006, tolerance=1e-5, grid=(r, t)),
+        )
         for r, t in (() if quick else GRIDS)
-    ]  # fmt: skip
+    ]
     return tolerances + meshes

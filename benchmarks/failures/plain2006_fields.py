@@ -80,9 +80,15 @@ def gap_at(g: Mesh, q: Array, j: int, i: int) -> float:
 
 @rival
 def conductances(
-    m: WasherModel, g: Mesh, q: Array, speed: float, mu: Array, east: Array, north: Array,
+    m: WasherModel,
+    g: Mesh,
+    q: Array,
+    speed: float,
+    mu: Array,
+    east: Array,
+    north: Array,
     source: Array,
-) -> None:  # fmt: skip
+) -> None:
     """Fill the flow conductances to the next angle and radius, and what drives the flow."""
     n_t, n_r = mu.shape
     source[:, 1 : n_r - 1] = 0.0
@@ -106,9 +112,13 @@ def conductances(
                 h = 0.5 * (h0 + gap_at(g, q, j, i + 1))
                 flow, _ = flow_conductance(h, m.sigma1)
                 north[j, i] = (
-                    flow * 0.5 * (g.r[i] + g.r[i + 1]) * g.d_theta / (g.r[i + 1] - g.r[i])
+                    flow
+                    * 0.5
+                    * (g.r[i] + g.r[i + 1])
+                    * g.d_theta
+                    / (g.r[i + 1] - g.r[i])
                     / (6.0 * (mu[j, i] + mu[j, i + 1]))
-                )  # fmt: skip
+                )
 
 
 @rival
@@ -141,9 +151,16 @@ def relax_pressure(
 
 @rival
 def _across(
-    m: WasherModel, g: Mesh, q: Array, speed: float, tilt: float, mu: Array, contact: float,
-    made: Array, across: Array,
-) -> None:  # fmt: skip
+    m: WasherModel,
+    g: Mesh,
+    q: Array,
+    speed: float,
+    tilt: float,
+    mu: Array,
+    contact: float,
+    made: Array,
+    across: Array,
+) -> None:
     """Fill heat made in the film [W] and the conductances across both gaps (2, n_t, n_r) [W/K]."""
     n_t, n_r = mu.shape
     friction, _ = dry_friction(m.par, contact)
@@ -184,9 +201,17 @@ def _plate(
 
 @rival
 def _sweep(
-    m: WasherModel, body: int, first: int, along: Array, outwards: Array, far: Array, made: Array,
-    across: Array, rise: Array, relaxation: float,
-) -> tuple[float, float]:  # fmt: skip
+    m: WasherModel,
+    body: int,
+    first: int,
+    along: Array,
+    outwards: Array,
+    far: Array,
+    made: Array,
+    across: Array,
+    rise: Array,
+    relaxation: float,
+) -> tuple[float, float]:
     """Relax one body once; return the sum of changes and of temperatures."""
     n_t, n_r = made.shape
     change, total = 0.0, 0.0
@@ -219,9 +244,16 @@ def _sweep(
 
 @rival
 def heat(
-    m: WasherModel, g: Mesh, q: Array, speed: float, tilt: float, mu: Array, contact: float,
-    rise: Array, s: Settings,
-) -> int:  # fmt: skip
+    m: WasherModel,
+    g: Mesh,
+    q: Array,
+    speed: float,
+    tilt: float,
+    mu: Array,
+    contact: float,
+    rise: Array,
+    s: Settings,
+) -> int:
     """Solve for the rises of the three bodies (3, n_t, n_r) at given gaps; return the sweeps."""
     n_t, n_r = mu.shape
     made, across = np.zeros((n_t, n_r)), np.zeros((2, n_t, n_r))
@@ -235,9 +267,17 @@ def heat(
         change, total = 0.0, 0.0
         for body in range(3):
             c, t = _sweep(
-                m, body, first[body], along[body], outwards[body], far[body], made, across, rise,
+                m,
+                body,
+                first[body],
+                along[body],
+                outwards[body],
+                far[body],
+                made,
+                across,
+                rise,
                 s.heat_relaxation,
-            )  # fmt: skip
+            )
             change += c
             total += t
         if change <= 0.1 * s.tolerance * total:

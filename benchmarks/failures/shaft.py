@@ -47,9 +47,13 @@ def lsoda(shaft: Shaft) -> float:
 
     end = shaft.turn * shaft.steps
     found = odeint(
-        lambda y, t: (y[1], -y[0]), (1.0, 0.0), (0.0, end), rtol=1e-10, atol=1e-10,
+        lambda y, t: (y[1], -y[0]),
+        (1.0, 0.0),
+        (0.0, end),
+        rtol=1e-10,
+        atol=1e-10,
         mxstep=10_000_000,
-    )  # fmt: skip
+    )
     return float(np.sum(found[-1] ** 2))
 
 

@@ -23,8 +23,12 @@ STEP = 1e-3  # s
 def system() -> Structure:
     """Return the shift without washer, mesh, engine and load of its own."""
     scene = prepared(load_scene("planetary").with_options(step=STEP))
-    alone = {"engine_torque": 0.0, "engine_torque_points": 0, "load_torque": 0.0,
-             "rolling_torque": 0.0}  # fmt: skip
+    alone = {
+        "engine_torque": 0.0,
+        "engine_torque_points": 0,
+        "load_torque": 0.0,
+        "rolling_torque": 0.0,
+    }
     gearbox = scene.parts["transmission"]
     parts = {n: scene.parts[n] for n in ("clutch", "brake")}
     parts["transmission"] = replace(gearbox, params=replace(gearbox.params, **alone))

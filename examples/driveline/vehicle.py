@@ -15,8 +15,9 @@ class Vehicle(Fmi2Slave):
         for name in ("load", "distance"):
             self.register_variable(Real(name, causality=Fmi2Causality.output))
         for name in ("mass", "reach", "rolling", "drag_area", "grade"):
-            self.register_variable(Real(
-                name, causality=Fmi2Causality.parameter, variability="tunable"))  # fmt: skip
+            self.register_variable(
+                Real(name, causality=Fmi2Causality.parameter, variability="tunable")
+            )
 
     def do_step(self, current_time, step_size):
         weight, v = 9.80665 * self.mass, self.speed * self.reach

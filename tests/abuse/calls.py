@@ -24,7 +24,7 @@ RUNGS = {
     "washer": ("field",),
     "gearmesh": ("field", "fine"),
     "clutch": ("closed", "stribeck", "field", "fine"),
-}  # fmt: skip
+}
 POWER = Signal(name="power", unit="W", help="", low=-1e9, high=1e9)
 SANE = {
     "washer": (solve_washer, WasherParams, {"load": 300.0, "speed": 953.0, "tilt": 0.002}),

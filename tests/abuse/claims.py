@@ -16,11 +16,12 @@ def washer(r):
         "film_ratio is film over sigma": r.film_ratio == 0.0 or close(sigma, roughest, 1e-9),
         "friction takes power": r.friction_torque * r.speed >= 0.0,
         "no friction at rest": r.speed != 0.0 or r.friction_torque == 0.0,
-        "nothing is colder than the oil":
-            r.temperature_max >= r.temperature - 1e-7 >= r.oil_temperature - 2e-7,
+        "nothing is colder than the oil": r.temperature_max
+        >= r.temperature - 1e-7
+        >= r.oil_temperature - 2e-7,
         "nothing pulls": r.fluid_load >= -SLACK * r.load and r.contact_load >= 0.0,
         "the error is a share": r.error_estimate is None or r.error_estimate >= 0.0,
-    }  # fmt: skip
+    }
 
 
 def clutch(r, params, load, speed, oil):
@@ -30,13 +31,14 @@ def clutch(r, params, load, speed, oil):
         "torque is contact and shear": close(r.friction_torque, parts, 1e-12),
         "friction takes power": r.friction_torque * speed >= 0.0 and r.friction_power >= 0.0,
         "no friction at rest": speed != 0.0 or r.friction_torque == 0.0,
-        "film_ratio is film over roughness":
-            close(r.film_thickness, r.film_ratio * params.roughness, 1e-12),
+        "film_ratio is film over roughness": close(
+            r.film_thickness, r.film_ratio * params.roughness, 1e-12
+        ),
         "the interface is not colder than the oil": r.temperature >= oil * (1.0 - 1e-12),
         "the capacity bears the torque": abs(r.friction_torque) <= r.torque_capacity * (1 + 1e-12),
         "contact is a share": 0.0 <= r.contact_share <= 1.0,
         "power is torque times slip": close(r.friction_power, r.friction_torque * speed, 1e-12),
-    }  # fmt: skip
+    }
 
 
 def gearmesh(r, speed, oil):
@@ -44,16 +46,16 @@ def gearmesh(r, speed, oil):
     return {
         "friction takes power": r.friction_torque * speed >= 0.0 and r.friction_power >= 0.0,
         "no friction at rest": speed != 0.0 or r.friction_torque == 0.0,
-        "flank, film and asperities are not colder than the oil":
-            min(r.surface_temperature, r.film_temperature, r.asperity_temperature)
-            >= oil * (1.0 - 1e-12),
+        "flank, film and asperities are not colder than the oil": min(
+            r.surface_temperature, r.film_temperature, r.asperity_temperature
+        )
+        >= oil * (1.0 - 1e-12),
         "stresses press": r.contact_stress >= 0.0 and r.hertz_pressure >= 0.0,
         "the film is there": r.film_thickness >= 0.0 and r.film_ratio >= 0.0,
-        "thermal stress takes of the allowable":
-            r.allowable_ratio is None or 0.0 < r.allowable_ratio <= 1.0,
-        "power is torque times speed":
-            close(r.friction_power, r.friction_torque * speed, 1e-12),
-    }  # fmt: skip
+        "thermal stress takes of the allowable": r.allowable_ratio is None
+        or 0.0 < r.allowable_ratio <= 1.0,
+        "power is torque times speed": close(r.friction_power, r.friction_torque * speed, 1e-12),
+    }
 
 
 def outputs(spec, inp, out, tolerance=1e-11):

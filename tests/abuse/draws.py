@@ -58,6 +58,7 @@ def _parameter(rng, meta):
     if meta["kind"] == "boolean":
         return rng.choice([True, False])
     if meta["kind"] == "integer":
-        return rng.choice([int(meta["min"]), int(meta["max"]),
-                           rng.randint(int(meta["min"]), int(meta["max"]))])  # fmt: skip
+        return rng.choice(
+            [int(meta["min"]), int(meta["max"]), rng.randint(int(meta["min"]), int(meta["max"]))]
+        )
     return inside(rng, meta["min"], meta["max"])

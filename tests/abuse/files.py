@@ -40,9 +40,11 @@ def command(*words):
 def one_line(error, name):
     """Return REFUSED if the refusal is one line that names the file."""
     text = str(error)
-    if "\n" in text.strip() or name not in text or not isinstance(
-        error, ParameterError | SolveError | EnvironmentProblem
-    ):  # fmt: skip
+    if (
+        "\n" in text.strip()
+        or name not in text
+        or not isinstance(error, ParameterError | SolveError | EnvironmentProblem)
+    ):
         raise Wrong(f"refused without a name: {error!r}")
     return REFUSED
 
@@ -67,9 +69,11 @@ class Scenes:
         table = tomllib.loads(data.decode())
         found = [k for k in ("step", "stop_time") if _differs(table.get(k), getattr(scene, k))]
         for name, part in scene.parts.items():
-            found += [f"{name}.{f.name}" for f in fields(part.params)
-                      if _differs(table.get(name, {}).get(f.name), getattr(part.params, f.name))
-                      ]  # fmt: skip
+            found += [
+                f"{name}.{f.name}"
+                for f in fields(part.params)
+                if _differs(table.get(name, {}).get(f.name), getattr(part.params, f.name))
+            ]
         say_if_wrong(found, data)
         return RIGHT
 
@@ -230,8 +234,13 @@ class Calibrations:
         if status == 0:
             json.loads(out, parse_constant=_no_number)
             return RIGHT
-        say_if_wrong([] if status in (2, 3) and len(lines) == 1 and "defect" not in said
-                     else ["no named refusal"], status, said)  # fmt: skip
+        say_if_wrong(
+            []
+            if status in (2, 3) and len(lines) == 1 and "defect" not in said
+            else ["no named refusal"],
+            status,
+            said,
+        )
         return REFUSED
 
 
@@ -298,8 +307,9 @@ class Archives:
             folder = unpack(self.path)
         except (ParameterError, EnvironmentProblem) as error:
             return one_line(error, "Spoiled.fmu")
-        found = {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*")
-                 if p.is_file()}  # fmt: skip
+        found = {
+            str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()
+        }
         other = [n for n, data in found.items() if self.files.get(n, data) != data]
         say_if_wrong([f"{n} is another" for n in other])
         return RIGHT
@@ -310,28 +320,67 @@ def chart_record():
     quantity = {"name": "friction_torque", "kind": "relative", "unit": "1", "floor": 1e-3}
     samples = [
         {
-            "family": "rungs", "label": label, "knob": "rung", "value": label, "cases": "0",
+            "family": "rungs",
+            "label": label,
+            "knob": "rung",
+            "value": label,
+            "cases": "0",
             "errors": {"friction_torque": {"worst": error, "rms": 0.4 * error, "case": "a"}},
-            "ref_uncertainty": {"friction_torque": 1e-5}, "call_median": cost,
-            "call_iqr": 0.05 * cost, "call_min": cost, "repeats": 9, "first_call_s": cost,
-            "setup_s": 1e-3, "count": 3.0, "count_of": "turns", "n_cases": 2, "n_failed": failed,
-            "failures": {"b": "SINGULAR"} if failed else {}, "is_rival": False,
-            "slowest_call_s": cost, "slowest_case": "b", "build_s": 0.0,
+            "ref_uncertainty": {"friction_torque": 1e-5},
+            "call_median": cost,
+            "call_iqr": 0.05 * cost,
+            "call_min": cost,
+            "repeats": 9,
+            "first_call_s": cost,
+            "setup_s": 1e-3,
+            "count": 3.0,
+            "count_of": "turns",
+            "n_cases": 2,
+            "n_failed": failed,
+            "failures": {"b": "SINGULAR"} if failed else {},
+            "is_rival": False,
+            "slowest_call_s": cost,
+            "slowest_case": "b",
+            "build_s": 0.0,
         }
         for label, cost, error, failed in (("closed", 1e-6, 0.5, 0), ("field", 2e-4, 2e-3, 1))
-    ]  # fmt: skip
+    ]
     survey = {
-        "cases": [{"name": "a", "point": [1.0], "before": []}], "cases_digest": "0",
-        "cost_of": "a call [s]", "quantities": [quantity], "truths": [], "samples": samples,
-    }  # fmt: skip
+        "cases": [{"name": "a", "point": [1.0], "before": []}],
+        "cases_digest": "0",
+        "cost_of": "a call [s]",
+        "quantities": [quantity],
+        "truths": [],
+        "samples": samples,
+    }
     cell = {"verdict": "ok", "figure": "", "words": ""}
-    group = {"name": "films", "judged": "load off", "methods": ["good"], "hazards": ["a"],
-             "cells": [[cell]]}  # fmt: skip
-    machine = {"cpu": "a cpu", "cores": 2, "os": "an os", "python": "3", "numpy": "2",
-               "numba": "1", "compiled": True, "threads": {}, "load": 0.1}  # fmt: skip
+    group = {
+        "name": "films",
+        "judged": "load off",
+        "methods": ["good"],
+        "hazards": ["a"],
+        "cells": [[cell]],
+    }
+    machine = {
+        "cpu": "a cpu",
+        "cores": 2,
+        "os": "an os",
+        "python": "3",
+        "numpy": "2",
+        "numba": "1",
+        "compiled": True,
+        "threads": {},
+        "load": 0.1,
+    }
     return {
-        "schema": 1, "command": "thrustwasher chart", "date": "2026-11-21T18:00:00Z",
-        "machine": machine, "calibration_s": 0.01, "quick": False, "run_s": 1.0,
+        "schema": 1,
+        "command": "thrustwasher chart",
+        "date": "2026-11-21T18:00:00Z",
+        "machine": machine,
+        "calibration_s": 0.01,
+        "quick": False,
+        "run_s": 1.0,
         "package": {"version": "0", "kernels": "0", "commit": "abc", "dirty": True},
-        "models": {"clutch": survey}, "stability": [group],
-    }  # fmt: skip
+        "models": {"clutch": survey},
+        "stability": [group],
+    }

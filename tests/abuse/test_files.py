@@ -28,15 +28,22 @@ def spoil(deed, n):
     one()
 
 
-KINDS = [(files.Scenes, 150), (files.Cards, 100), (files.Maps, 150), (files.SweepJournals, 30),
-         (files.MapJournals, 50)]  # fmt: skip
+KINDS = [
+    (files.Scenes, 150),
+    (files.Cards, 100),
+    (files.Maps, 150),
+    (files.SweepJournals, 30),
+    (files.MapJournals, 50),
+]
 
 
 @pytest.mark.parametrize(
     ("kind", "n"),
-    [*((kind, n // 10) for kind, n in KINDS),
-     *(pytest.param(kind, n, marks=pytest.mark.abuse) for kind, n in KINDS)],
-)  # fmt: skip
+    [
+        *((kind, n // 10) for kind, n in KINDS),
+        *(pytest.param(kind, n, marks=pytest.mark.abuse) for kind, n in KINDS),
+    ],
+)
 def test_a_spoiled_file_is_refused_by_name_or_means_what_it_says(kind, n, tmp_path):
     spoil(kind(tmp_path), n)
 
@@ -69,10 +76,15 @@ def test_a_spoiled_fmu_is_refused_by_name(tmp_path, fmu_of, n):
 
 @pytest.mark.parametrize(
     ("kind", "n"),
-    [("direct", 15), ("native-fmi2", 15),
-     *(pytest.param(kind, 150, marks=pytest.mark.abuse)
-       for kind in ("direct", "native-fmi2", "native-fmi3", "python-fmi2"))],
-)  # fmt: skip
+    [
+        ("direct", 15),
+        ("native-fmi2", 15),
+        *(
+            pytest.param(kind, 150, marks=pytest.mark.abuse)
+            for kind in ("direct", "native-fmi2", "native-fmi3", "python-fmi2")
+        ),
+    ],
+)
 def test_spoiled_states_are_refused_and_harm_nothing(kind, n, instance_of):
     other = DirectInstance(find_spec("transmission"))
     other.initialize()

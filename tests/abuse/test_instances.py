@@ -10,8 +10,11 @@ from examples import examples
 from thrustwasher.fmu.stepper import DirectInstance
 from thrustwasher.model.registry import find_spec
 
-KINDS = [(model, kind) for model in ("clutch", "gearmesh", "transmission")
-         for kind in ("native-fmi2", "python-fmi2")]  # fmt: skip
+KINDS = [
+    (model, kind)
+    for model in ("clutch", "gearmesh", "transmission")
+    for kind in ("native-fmi2", "python-fmi2")
+]
 MOVES = 12
 walks = st.lists(st.randoms(use_true_random=False), min_size=MOVES, max_size=MOVES)
 
@@ -25,9 +28,14 @@ def walk(spec, instance, rngs):
 
 @pytest.mark.parametrize(
     ("model", "kind"),
-    [KINDS[0], *(pytest.param(*one, marks=pytest.mark.abuse)
-                 for one in [*KINDS[1:], ("clutch", "native-fmi3")])],
-)  # fmt: skip
+    [
+        KINDS[0],
+        *(
+            pytest.param(*one, marks=pytest.mark.abuse)
+            for one in [*KINDS[1:], ("clutch", "native-fmi3")]
+        ),
+    ],
+)
 def test_a_wild_master_gets_right_outputs_or_named_errors(model, kind, instance_of):
     instance = instance_of(model, kind)
 

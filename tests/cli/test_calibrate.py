@@ -51,9 +51,14 @@ def test_numbers_are_those_of_the_api(table, capsys):
 def test_units_in_the_head_are_read_and_other_columns_passed_over(table, tmp_path, capsys):
     plain = json.loads(run(capsys, table, "--json").out)
     other = write(
-        tmp_path / "other.csv", "# rig 3\nTime [s];Load [kN];Speed [rpm];friction [%]",
-        SLIP, SLIP * 0 + 1, SLIP * 30 / np.pi, FRICTION * 100, separator=";",
-    )  # fmt: skip
+        tmp_path / "other.csv",
+        "# rig 3\nTime [s];Load [kN];Speed [rpm];friction [%]",
+        SLIP,
+        SLIP * 0 + 1,
+        SLIP * 30 / np.pi,
+        FRICTION * 100,
+        separator=";",
+    )
     record = json.loads(run(capsys, other, "--json").out)
     assert record["fitted"] == pytest.approx(plain["fitted"], rel=1e-6)
     assert record["speed"] == pytest.approx(plain["speed"], rel=1e-14)
@@ -108,9 +113,11 @@ def test_what_was_given_beside_the_fit_is_in_the_command_that_uses_it(table, cap
 def test_what_the_box_decided_is_said_and_the_command_solves_the_same_part(tmp_path, capsys):
     part, box = tmp_path / "mine.toml", 'tilt = "1.5 mrad"\noil_temperature = "80 degC"'
     part.write_text(f'model = "washer"\nname = "Mine"\n[box]\n{box}\n', "utf-8")
-    data = write(tmp_path / "rig.csv", "load,speed,friction_torque", *np.array(
-        [(150.0, 200.0, 0.070), (200.0, 200.0, 0.25), (250.0, 200.0, 0.487)]
-    ).T)  # fmt: skip
+    data = write(
+        tmp_path / "rig.csv",
+        "load,speed,friction_torque",
+        *np.array([(150.0, 200.0, 0.070), (200.0, 200.0, 0.25), (250.0, 200.0, 0.487)]).T,
+    )
     out, _ = run(capsys, str(part), data, "--fit", "roughness")
     assert "Taken from the part's box: tilt = 1.5 mrad, oil_temperature = 80 °C." in out
     words = shlex.split(out.splitlines()[-1].removeprefix("Use it: thrustwasher "))
@@ -122,8 +129,14 @@ def test_what_the_box_decided_is_said_and_the_command_solves_the_same_part(tmp_p
 def test_a_plot_is_drawn_whatever_the_points_tell(fastest, tmp_path, capsys):
     kept = fastest >= SLIP
     load = np.linspace(1e3, 5e3, 30)[kept]
-    data = write(tmp_path / "rig.csv", "speed,load,friction,friction_error", SLIP[kept], load,
-                 FRICTION[kept], load * 0 + 1e-3)  # fmt: skip
+    data = write(
+        tmp_path / "rig.csv",
+        "speed,load,friction,friction_error",
+        SLIP[kept],
+        load,
+        FRICTION[kept],
+        load * 0 + 1e-3,
+    )
     run(capsys, data, "--plot", str(tmp_path / "fit.png"))
     assert (tmp_path / "fit.png").read_bytes()[:4] == b"\x89PNG"
 
@@ -194,8 +207,14 @@ WORDS = ["gearmesh", "{}", "--fit", "constant_friction", "--set", "friction_law=
 
 @pytest.fixture
 def mesh(tmp_path):
-    return write(tmp_path / "mesh.csv", "power,speed [rad/s],friction_torque,_time [s]", POWER,
-                 SPEED, LOSS, SPEED)  # fmt: skip
+    return write(
+        tmp_path / "mesh.csv",
+        "power,speed [rad/s],friction_torque,_time [s]",
+        POWER,
+        SPEED,
+        LOSS,
+        SPEED,
+    )
 
 
 def of(mesh, *more):
@@ -205,8 +224,12 @@ def of(mesh, *more):
 def test_a_model_s_parameters_are_fitted_as_by_the_api(mesh, capsys):
     record = json.loads(run(capsys, *of(mesh, "--error", "friction_torque=2%", "--json")).out)
     data = {"power": POWER, "speed": SPEED, "friction_torque": LOSS}
-    found = calibrate(GearMeshParams(friction_law="constant"), data, fit="constant_friction",
-                            errors={"friction_torque": "2 %"})  # fmt: skip
+    found = calibrate(
+        GearMeshParams(friction_law="constant"),
+        data,
+        fit="constant_friction",
+        errors={"friction_torque": "2 %"},
+    )
     assert record["fitted"] == {"constant_friction": found.params.constant_friction}
     assert record["error"] == pytest.approx(0.02 * LOSS)
     assert record["estimates"][0]["interval"] == list(found.estimates[0].interval)

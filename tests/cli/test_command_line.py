@@ -72,7 +72,7 @@ def one_line(capsys):
         (["chart", "--only", "accuracy"], ["--only", "accuracy"]),
         (["chart", "--only", "stability", "--out", "/proc/x.md"], ["--out /proc: cannot"]),
     ],
-)  # fmt: skip
+)
 def test_wrong_input_is_one_line_that_names_it(words, named, capsys, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     assert main(words) == 2

@@ -11,8 +11,16 @@ from thrustwasher.washer.map.map_file import plain, read_map
 from thrustwasher.washer.parameters import WasherParams
 from thrustwasher.washer.solve import solve_washer
 
-BOX = ["--load", "200:400", "--speed", "5000 rpm:5200 rpm", "--tilt", "0.002",
-       "--oil-temperature", "24 degC"]  # fmt: skip
+BOX = [
+    "--load",
+    "200:400",
+    "--speed",
+    "5000 rpm:5200 rpm",
+    "--tilt",
+    "0.002",
+    "--oil-temperature",
+    "24 degC",
+]
 MINE = (
     'model = "washer"\nname = "Mine"\n[parameters]\nroughness = "0.5 um"\n[box]\n'
     'load = ["200 N", "400 N"]\nspeed = 530\ntilt = 0.002\noil_temperature = "50 degC"\n'

@@ -86,9 +86,21 @@ def test_a_bare_call_answers_with_a_table_for_a_person(command, words, capsys):
 
 
 def test_units_grids_and_settings_reach_the_model(capsys):
-    words = ["washer", "--load", "0.3 kN", "--speed", "9100.479 rpm", "--tilt", "2 mrad",
-             "--oil-temperature", "40 degC", "--set", "roughness=0.4 um",
-             "--grid", "9x24"]  # fmt: skip
+    words = [
+        "washer",
+        "--load",
+        "0.3 kN",
+        "--speed",
+        "9100.479 rpm",
+        "--tilt",
+        "2 mrad",
+        "--oil-temperature",
+        "40 degC",
+        "--set",
+        "roughness=0.4 um",
+        "--grid",
+        "9x24",
+    ]
     record = told(words, capsys)
     assert record["speed"] == pytest.approx(953.0, abs=1e-3)
     assert record["oil_temperature"] == pytest.approx(313.15)
@@ -127,9 +139,13 @@ def test_the_table_of_a_mesh_sets_both_steels_side_by_side(capsys):
     assert "these gears" in steels[1] and "these gears" not in steels[0]
     result = solve_gearmesh(GearMeshParams.preset("paper"), **MESH)
     assert [float(text) for text in steels[0].split()[2:5]] == pytest.approx(
-        [result.modification_factor_aisi1020, result.allowable_ratio_aisi1020,
-         result.stress_utilization_aisi1020], rel=1e-4,
-    )  # fmt: skip
+        [
+            result.modification_factor_aisi1020,
+            result.allowable_ratio_aisi1020,
+            result.stress_utilization_aisi1020,
+        ],
+        rel=1e-4,
+    )
 
 
 @pytest.mark.parametrize(

@@ -149,8 +149,9 @@ def test_build_writes_the_fmu_of_the_part(mine, tmp_path, capsys):
     assert main(words) == 0
     folder = tmp_path / "native-fmi2"
     assert capsys.readouterr().out.splitlines() == [
-        str(folder / "Mine.fmu"), str(folder / "CommandSource.fmu"),
-    ]  # fmt: skip
+        str(folder / "Mine.fmu"),
+        str(folder / "CommandSource.fmu"),
+    ]
 
 
 @pytest.mark.parametrize(
@@ -161,11 +162,13 @@ def test_build_writes_the_fmu_of_the_part(mine, tmp_path, capsys):
         ("Bad", '[parameters]\nroughnes = "1 um"\n', [], "did you mean 'roughness'?"),
         ("Bad", 'colour = "red"\n', [], "there is no 'colour' here"),
         ("Bad", '[box]\nload = ["1 N", "9 MN"]\n', [], "load = 9000000.0 N, allowed: 0 .."),
-        *((name, "", [], f"name = {name!r}, allowed: letters, digits and _")
-          for name in ("2nd", "my part", "M\u00e4rz", "", "../up", "a" * 61)),
+        *(
+            (name, "", [], f"name = {name!r}, allowed: letters, digits and _")
+            for name in ("2nd", "my part", "M\u00e4rz", "", "../up", "a" * 61)
+        ),
         ("Bad", "", ["--target", "python"], "for native FMUs only"),
     ],
-)  # fmt: skip
+)
 def test_build_refuses_a_bad_part_in_one_line(name, line, words, said, tmp_path, capsys):
     file = tmp_path / "bad.toml"
     file.write_text(f'model = "washer"\nname = "{name}"\n{line}', "utf-8")

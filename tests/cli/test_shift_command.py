@@ -23,8 +23,11 @@ def msl(tmp_path_factory):
     words = ["shift", "--scene", "msl", "--out", str(folder), "--json"]
     done = subprocess.run(
         [sys.executable, "-m", "thrustwasher", *words],
-        capture_output=True, text=True, check=False, cwd=Path(__file__).parents[2],
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=Path(__file__).parents[2],
+    )
     return folder, done
 
 
@@ -99,29 +102,46 @@ def test_numbers_alone_leave_no_file_and_load_no_tables(tmp_path):
         "sys.exit(status or ', '.join({'pyarrow', 'matplotlib'} & set(sys.modules)) or 0)"
     )
     done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=tmp_path,
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=tmp_path,
         env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
-    )  # fmt: skip
+    )
     assert done.returncode == 0 and done.stderr.startswith("warning: Tie-up")
     assert json.loads(done.stdout)["out"] is None
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize(("text", "said"), [
-    ("[transmission]\nplanets = 14", "planets = 14, allowed: so many that their tips do not meet"),
-    ("[pressure.clutch]\npoints = [[0.2, 0.0], [0.1, 1e5]]",
-     "clutch_pressure_time_2 = 0.1 s, allowed: above"),
-    ("[pressure.clutch]\npoints = [[0.2, -1.0]]", "clutch_pressure_1 = -1.0 Pa, allowed: 0 .. "),
-    ("[shift]\nstart = 0.1", "[shift] beside [pressure], allowed: a ramp or courses"),
-    ("[transmission]\ncarrier_inertia = 8.0", "carrier_inertia = 8.0 beside a table"),
-    ('[oil]\nviscosity = [["40 degC", "5 mPa.s"], ["100 degC", "15 mPa.s"]]',
-     "viscosity = 0.015 Pa.s at 100 degC, allowed: above 0 and below that at 40 degC"),
-    ('[clutch]\ngroove_width = "30 mm"', "groove_width = 0.03 m, allowed: below"),
-    ("[sump]\nvolume = 0.0", "volume = 0.0 m3, allowed: 1e-06 .. 100 m3"),
-    ('[transmission]\nhelix_angle = "45.5 deg"', " rad, allowed: 0 .. 0.785398 rad"),
-    ('[mesh]\nhelix_angle = "45.5 deg"', " rad, allowed: 0 .. 0.785398 rad"),
-    ("[mesh]\naddendum = 0.3", "the contact ratio is 0.4984, allowed: 1 and more"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (
+            "[transmission]\nplanets = 14",
+            "planets = 14, allowed: so many that their tips do not meet",
+        ),
+        (
+            "[pressure.clutch]\npoints = [[0.2, 0.0], [0.1, 1e5]]",
+            "clutch_pressure_time_2 = 0.1 s, allowed: above",
+        ),
+        (
+            "[pressure.clutch]\npoints = [[0.2, -1.0]]",
+            "clutch_pressure_1 = -1.0 Pa, allowed: 0 .. ",
+        ),
+        ("[shift]\nstart = 0.1", "[shift] beside [pressure], allowed: a ramp or courses"),
+        ("[transmission]\ncarrier_inertia = 8.0", "carrier_inertia = 8.0 beside a table"),
+        (
+            '[oil]\nviscosity = [["40 degC", "5 mPa.s"], ["100 degC", "15 mPa.s"]]',
+            "viscosity = 0.015 Pa.s at 100 degC, allowed: above 0 and below that at 40 degC",
+        ),
+        ('[clutch]\ngroove_width = "30 mm"', "groove_width = 0.03 m, allowed: below"),
+        ("[sump]\nvolume = 0.0", "volume = 0.0 m3, allowed: 1e-06 .. 100 m3"),
+        ('[transmission]\nhelix_angle = "45.5 deg"', " rad, allowed: 0 .. 0.785398 rad"),
+        ('[mesh]\nhelix_angle = "45.5 deg"', " rad, allowed: 0 .. 0.785398 rad"),
+        ("[mesh]\naddendum = 0.3", "the contact ratio is 0.4984, allowed: 1 and more"),
+    ],
+)
 def test_a_scene_that_cannot_be_is_refused_in_one_line(text, said, tmp_path, capsys):
     scene = tmp_path / "mine.toml"
     scene.write_text(f'base = "planetary"\n{text}\n', "utf-8")

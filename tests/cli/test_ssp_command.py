@@ -102,9 +102,14 @@ def test_the_package_is_whole(package):
     with zipfile.ZipFile(package("msl")) as archive:
         assert archive.testzip() is None
         assert sorted(archive.namelist()) == [
-            "Parts.ssd", "SystemStructure.ssd", "documentation/index.html", "resources/brake.fmu",
-            "resources/clutch.fmu", "resources/command.fmu", "resources/transmission.fmu",
-        ]  # fmt: skip
+            "Parts.ssd",
+            "SystemStructure.ssd",
+            "documentation/index.html",
+            "resources/brake.fmu",
+            "resources/clutch.fmu",
+            "resources/command.fmu",
+            "resources/transmission.fmu",
+        ]
 
 
 def test_json_names_the_files(tmp_path, capsys):

@@ -119,14 +119,17 @@ TABLE = [
     ("shift --list --scene msl", "--scene: has no effect with --list"),
     ("shift --ssp a.ssp --no-guard", "--no-guard: has no effect with --ssp"),
     ("doctor --speed 3", "unrecognized arguments: --speed 3"),
-]  # fmt: skip
+]
 
 
 STATED = [  # with the unit that was meant
-    "washer --speed '30000 rpm'", "washer --oil-temperature '-300 degC'", "curve --speed '5e5 rpm'",
-    "sweep washer --over 'speed [rpm]=30000'", "washer --set roughness=0.5mm",
+    "washer --speed '30000 rpm'",
+    "washer --oil-temperature '-300 degC'",
+    "curve --speed '5e5 rpm'",
+    "sweep washer --over 'speed [rpm]=30000'",
+    "washer --set roughness=0.5mm",
     "washer --part thick.toml",
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize("words", STATED)

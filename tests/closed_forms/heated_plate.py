@@ -14,9 +14,13 @@ def semi_infinite_rise(
 
 
 def insulated_plate_rise(
-    flux: float, time: float, thickness: float, conductivity: float, density: float,
+    flux: float,
+    time: float,
+    thickness: float,
+    conductivity: float,
+    density: float,
     heat_capacity: float,
-) -> float:  # fmt: skip
+) -> float:
     """Return the rise [K] of the heated face of a plate whose other side is insulated.
 
     q t/(rho c l) + (q l/k) (1/3 - 2/pi^2 sum exp(-n^2 pi^2 a t/l^2)/n^2), ``thickness`` l [m].

@@ -8,9 +8,14 @@ from scipy.special import iv, ivp, kv, kvp
 
 
 def annulus_rise(
-    radius: NDArray[np.float64], heat: float, harmonic: int, conductivity: float, thickness: float,
-    inner_radius: float, outer_radius: float,
-) -> NDArray[np.float64]:  # fmt: skip
+    radius: NDArray[np.float64],
+    heat: float,
+    harmonic: int,
+    conductivity: float,
+    thickness: float,
+    inner_radius: float,
+    outer_radius: float,
+) -> NDArray[np.float64]:
     """Return the amplitude [K] over ``radius`` [m] of T = amplitude cos(n theta).
 
     K t lap T - (K/t) T + q_0 (r/r_o)^n cos(n theta) = 0 with no flux through either rim: heat
@@ -34,9 +39,13 @@ class StackRise(NamedTuple):
 
 
 def stack_rise(
-    heat: float, share: float, between_carrier_washer: float, between_washer_gear: float,
-    behind_carrier: float, behind_gear: float,
-) -> StackRise:  # fmt: skip
+    heat: float,
+    share: float,
+    between_carrier_washer: float,
+    between_washer_gear: float,
+    behind_carrier: float,
+    behind_gear: float,
+) -> StackRise:
     """Return the rises for a heat flow [W/m2] made between carrier and washer.
 
     ``share`` of it enters the carrier, the rest the washer; resistances in m2 K/W. The heat that

@@ -13,9 +13,14 @@ class Engagement(NamedTuple):
 
 
 def engagement(
-    capacity: float, drive: float, resistance: float,
-    drive_inertia: float, driven_inertia: float, drive_speed: float, driven_speed: float,
-) -> Engagement:  # fmt: skip
+    capacity: float,
+    drive: float,
+    resistance: float,
+    drive_inertia: float,
+    driven_inertia: float,
+    drive_speed: float,
+    driven_speed: float,
+) -> Engagement:
     """Return lock time, heat and speed for constant torques [N m], inertias [kg m2].
 
     ``drive`` turns the first inertia, ``resistance`` holds the second back, the clutch carries its
@@ -28,9 +33,10 @@ def engagement(
         return Engagement(float("inf"), float("inf"), float("nan"))
     time = slip / slowing
     return Engagement(
-        time, 0.5 * capacity * slip * time,
+        time,
+        0.5 * capacity * slip * time,
         driven_speed + (capacity - resistance) / driven_inertia * time,
-    )  # fmt: skip
+    )
 
 
 def reduced_inertia(ratio: float, sun: float, ring: float, carrier: float) -> float:
@@ -47,9 +53,14 @@ def reduced_inertia(ratio: float, sun: float, ring: float, carrier: float) -> fl
 
 
 def speed_against_quadratic_load(
-    time: float, torque: float, load_torque: float, load_speed: float,
-    inertia: float, output_inertia: float, ratio: float,
-) -> float:  # fmt: skip
+    time: float,
+    torque: float,
+    load_torque: float,
+    load_speed: float,
+    inertia: float,
+    output_inertia: float,
+    ratio: float,
+) -> float:
     """Return the input speed [rad/s] ``time`` s after a constant torque is applied at rest.
 
     A gear of the given ratio drives the output with inertia and a load that grows with the square

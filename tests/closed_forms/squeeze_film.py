@@ -25,9 +25,13 @@ def squeeze_time(
 
 
 def pumped_flow(
-    density: float, viscosity: float, speeds: tuple[float, float], gap: float, inner: float,
+    density: float,
+    viscosity: float,
+    speeds: tuple[float, float],
+    gap: float,
+    inner: float,
     outer: float,
-) -> float:  # fmt: skip
+) -> float:
     """Return the flow [m3/s] that centrifugal force drives through a full gap between two discs.
 
     The oil turns with the discs at its sides, linearly in between; radial momentum at low Reynolds
@@ -36,6 +40,11 @@ def pumped_flow(
     """
     square = outer**2 - inner**2
     mean, slip = 0.5 * (speeds[0] + speeds[1]), speeds[0] - speeds[1]
-    return math.pi * density * (mean**2 + slip**2 / 20.0) * gap**3 * square / (
-        12.0 * viscosity * math.log(outer / inner)
-    )  # fmt: skip
+    return (
+        math.pi
+        * density
+        * (mean**2 + slip**2 / 20.0)
+        * gap**3
+        * square
+        / (12.0 * viscosity * math.log(outer / inner))
+    )

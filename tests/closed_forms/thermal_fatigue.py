@@ -39,9 +39,17 @@ def allowable_ratio(factor: float) -> float:
 
 
 def grouped_factor(
-    mesh: Mesh, power: float, speed: float, face_width: float, heat: float, steel: Endurance,
-    youngs_modulus: float, poisson_ratio: float, expansion: float, effusivity: float,
-) -> float:  # fmt: skip
+    mesh: Mesh,
+    power: float,
+    speed: float,
+    face_width: float,
+    heat: float,
+    steel: Endurance,
+    youngs_modulus: float,
+    poisson_ratio: float,
+    expansion: float,
+    effusivity: float,
+) -> float:
     """Return K [-] as one product, Eq 12 with power per face width and E_eq = E/2.
 
     ``heat`` is psi f A_0/A_c. The printed 2.36 is 3 pi^(1/4) 0.591, rounded.

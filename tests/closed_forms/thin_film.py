@@ -19,9 +19,15 @@ def _strength(viscosity: float, speed: float, tilt: float, gap: float) -> float:
 
 
 def wedge_pressure(
-    radius: float, angle: float, viscosity: float, speed: float, tilt: float, gap: float,
-    inner_radius: float, outer_radius: float,
-) -> float:  # fmt: skip
+    radius: float,
+    angle: float,
+    viscosity: float,
+    speed: float,
+    tilt: float,
+    gap: float,
+    inner_radius: float,
+    outer_radius: float,
+) -> float:
     """Return the pressure [Pa] of the film h = gap - tilt r cos(theta), without cavitation.
 
     First order in the tilt: p = C/8 (r^2 - r_i^2)(r^2 - r_o^2)/r sin(theta) with
@@ -33,9 +39,13 @@ def wedge_pressure(
 
 
 def wedge_moment(
-    viscosity: float, speed: float, tilt: float, gap: float, inner_radius: float,
+    viscosity: float,
+    speed: float,
+    tilt: float,
+    gap: float,
+    inner_radius: float,
     outer_radius: float,
-) -> float:  # fmt: skip
+) -> float:
     """Return the moment [N m] of `wedge_pressure` about x, -pi C/96 (r_o^2 - r_i^2)^3."""
     width = (outer_radius**2 - inner_radius**2) ** 3
     return -math.pi / 96.0 * _strength(viscosity, speed, tilt, gap) * width

@@ -15,8 +15,10 @@ UNCOOLED = ClutchParams.preset("paper", heat_transfer=0.0)
 def test_paper_like_sample_has_friction_of_the_paper():
     """0.11 at lock-up, falling with speed; 85 x 65 mm faces."""
     sample = ClutchParams.preset("paper")
-    at = {n: solve_clutch(sample, load=1000.0, speed=n * np.pi / 30).friction_coefficient
-          for n in (0, 600, 1500, 3000)}  # fmt: skip
+    at = {
+        n: solve_clutch(sample, load=1000.0, speed=n * np.pi / 30).friction_coefficient
+        for n in (0, 600, 1500, 3000)
+    }
     assert at[0] == pytest.approx(0.11, abs=1e-5)
     assert [round(at[n], 4) for n in (600, 1500, 3000)] == [0.0848, 0.0498, 0.0374]
 

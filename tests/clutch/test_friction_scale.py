@@ -25,8 +25,9 @@ def test_the_torque_of_a_settled_pack_is_as_the_scale(rung, law):
 
 
 def test_shear_of_the_oil_is_not_scaled():
-    opened = [solve_clutch(ClutchParams(friction_scale=k), load=0.0, speed=50.0)
-              for k in (0.5, 2.0)]  # fmt: skip
+    opened = [
+        solve_clutch(ClutchParams(friction_scale=k), load=0.0, speed=50.0) for k in (0.5, 2.0)
+    ]
     assert opened[0].friction_torque == opened[1].friction_torque > 0.0
 
 
@@ -38,8 +39,9 @@ def test_no_table_speaks_for_another_scale():
 def test_a_fitted_law_is_that_of_the_points_and_has_the_scale_one():
     speed = np.linspace(1.0, 60.0, 8)
     start = ClutchParams.preset("paper", friction_law="constant", friction_scale=0.5)
-    found = calibrate(start, fit=["constant_friction"], speed=speed, load=1e3,
-                      friction=np.full(8, 0.07))  # fmt: skip
+    found = calibrate(
+        start, fit=["constant_friction"], speed=speed, load=1e3, friction=np.full(8, 0.07)
+    )
     assert found.params == replace(start, constant_friction=0.07, friction_scale=1.0)
     torque = solve_clutch(ClutchParams(friction_scale=0.8), **POINT).friction_torque
     data = {**{k: [v] for k, v in POINT.items()}, "friction_torque": [torque]}

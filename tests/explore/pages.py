@@ -54,13 +54,16 @@ def answers(model, tasks, *, params=None, rung=None):
     numbers = as_numbers(params or spec.params())
     given = {
         "scripts": [str(WEB / f"{stem}.js") for stem in ("kernel", view.worker)],
-        "about": about(model)["worker"], "module": str(module),
+        "about": about(model)["worker"],
+        "module": str(module),
         "tasks": [["set", numbers, rung or spec.default_fidelity], *tasks],
-    }  # fmt: skip
+    }
     done = subprocess.run(
-        ["node", str(HERE / "worker_run.js")], input=json.dumps(given), text=True,
+        ["node", str(HERE / "worker_run.js")],
+        input=json.dumps(given),
+        text=True,
         capture_output=True,
-    )  # fmt: skip
+    )
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout)
     assert found[0]["result"] == 0

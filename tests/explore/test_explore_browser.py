@@ -253,8 +253,12 @@ def test_on_paper_the_views_are_full_and_dark_on_white(opened, model):
 def test_the_washers_four_discs_have_colours_scales_and_units(opened):
     page = opened(address="#load=700&branch=contact").settled().page
     names = page.locator(".disc figcaption").all_text_contents()
-    assert names == ["film thickness", "film pressure", "asperity pressure",
-                     "temperature of the carrier"]  # fmt: skip
+    assert names == [
+        "film thickness",
+        "film pressure",
+        "asperity pressure",
+        "temperature of the carrier",
+    ]
     for disc, unit in zip(page.locator(".disc").all(), ("m", "Pa", "Pa", "°C"), strict=True):
         ends = disc.locator(".ends span").all_text_contents()
         assert ends[0] != ends[1] and ends[1].endswith(unit)

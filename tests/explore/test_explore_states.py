@@ -71,10 +71,19 @@ def test_figures_of_other_inputs_are_grey_and_named_while_solving_and_after(open
 
 @pytest.mark.parametrize(
     ("name", "text"),
-    [("load", "0.3 kN"), ("load", " 250N "), ("speed", "9100 rpm"), ("speed", "-3e3 1/min"),
-     ("oil_temperature", "24 °C"), ("oil_temperature", "24.1 degC"), ("tilt", "0.1 deg"),
-     ("tilt", "2 mrad"), ("roughness", "0.4 µm"), ("washer_thickness", "1.5 mm")],
-)  # fmt: skip
+    [
+        ("load", "0.3 kN"),
+        ("load", " 250N "),
+        ("speed", "9100 rpm"),
+        ("speed", "-3e3 1/min"),
+        ("oil_temperature", "24 °C"),
+        ("oil_temperature", "24.1 degC"),
+        ("tilt", "0.1 deg"),
+        ("tilt", "2 mrad"),
+        ("roughness", "0.4 µm"),
+        ("washer_thickness", "1.5 mm"),
+    ],
+)
 def test_a_field_takes_what_the_command_line_takes(opened, name, text):
     page = opened()
     page.page.click("text=All other parameters")

@@ -18,9 +18,18 @@ from thrustwasher.ladder.error_table import error_estimate
 
 SAME = 1e-10  # the C libraries differ in the last bit
 BESIDE_FOLDS = 1e-8
-RESULTS = ("friction_torque", "temperature", "film_thickness", "temperature_max", "film_ratio",
-           "friction_coefficient", "oil_flow", "oil_heat", "contact_load",
-           "fluid_load")  # fmt: skip
+RESULTS = (
+    "friction_torque",
+    "temperature",
+    "film_thickness",
+    "temperature_max",
+    "film_ratio",
+    "friction_coefficient",
+    "oil_flow",
+    "oil_heat",
+    "contact_load",
+    "fluid_load",
+)
 pytestmark = node
 
 
@@ -112,8 +121,16 @@ def test_fields_are_those_of_python(rung, conduction, oil_cooling):
 def test_the_gear_mesh_is_that_of_python():
     rng, tasks = np.random.default_rng(3), []
     for _ in range(100):
-        tasks.append(["solve", [float(10 ** rng.uniform(1, 4.5)), float(10 ** rng.uniform(1, 2.8)),
-                                float(rng.uniform(250.0, 400.0))]])  # fmt: skip
+        tasks.append(
+            [
+                "solve",
+                [
+                    float(10 ** rng.uniform(1, 4.5)),
+                    float(10 ** rng.uniform(1, 2.8)),
+                    float(rng.uniform(250.0, 400.0)),
+                ],
+            ]
+        )
     limited = GearMeshParams(permissible_film_ratio=0.3)
     found, _ = answers("gearmesh", tasks, params=limited)
     for (_, (power, speed, oil)), got in zip(tasks, found, strict=True):
@@ -153,9 +170,13 @@ def test_an_engagement_under_a_drawn_ramp_is_that_of_python(rung):
     (got,), _ = answers("clutch", [task], rung=rung)
     time = np.linspace(0.0, 0.6, about("clutch")["points"] + 1)
     wanted = engage_clutch(
-        ClutchParams(), time=time, load=np.interp(time, np.linspace(0.0, 0.6, 9), ramp),
-        speed=120.0 * (1.0 - time / 0.6), oil_temperature=340.0, fidelity=rung,
-    )  # fmt: skip
+        ClutchParams(),
+        time=time,
+        load=np.interp(time, np.linspace(0.0, 0.6, 9), ramp),
+        speed=120.0 * (1.0 - time / 0.6),
+        oil_temperature=340.0,
+        fidelity=rung,
+    )
     for name in ("friction_torque", "temperature", "film_ratio", "energy", "oil_heat"):
         there = getattr(wanted, name)
         np.testing.assert_allclose(

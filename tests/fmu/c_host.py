@@ -29,8 +29,18 @@ _folder = tempfile.TemporaryDirectory(prefix="host")
 def program():
     made = Path(_folder.name) / "host"
     headers = Path(fmpy.__file__).parent / "c-code"
-    command = ["gcc", "-O2", "-Wall", "-Wextra", "-Werror", f"-I{headers}", HERE / "host.c", "-o",
-               made, "-ldl"]  # fmt: skip
+    command = [
+        "gcc",
+        "-O2",
+        "-Wall",
+        "-Wextra",
+        "-Werror",
+        f"-I{headers}",
+        HERE / "host.c",
+        "-o",
+        made,
+        "-ldl",
+    ]
     subprocess.run(command, check=True, timeout=60)
     return made
 
@@ -59,8 +69,15 @@ def talk(fmu, *script, also=(), **environment):
     for slot, other in enumerate(also, 1):
         lines += [f"use {slot}", load(other)]
     text = "\n".join([*lines, "use 0", *script, ""])
-    done = subprocess.run([program()], input=text, env=bare(**environment), capture_output=True,
-                          text=True, timeout=300, cwd="/")  # fmt: skip
+    done = subprocess.run(
+        [program()],
+        input=text,
+        env=bare(**environment),
+        capture_output=True,
+        text=True,
+        timeout=300,
+        cwd="/",
+    )
     if "undefined symbol: Py" in done.stdout or "undefined symbol: _Py" in done.stdout:
         return Said([], [], done.returncode, done.stdout, unloaded=True)
     calls, messages = [], []
@@ -83,10 +100,12 @@ def load(fmu):
 def bare(**changes):
     """Return the environment: this Python, its library, these sources, and nothing else."""
     found = {
-        "PATH": f"{Path(sys.executable).parent}:/usr/bin:/bin", "HOME": os.path.expanduser("~"),
-        "PYTHONPATH": f"{HERE}:{HERE.parents[1]}", "PYTHONDONTWRITEBYTECODE": "1",
+        "PATH": f"{Path(sys.executable).parent}:/usr/bin:/bin",
+        "HOME": os.path.expanduser("~"),
+        "PYTHONPATH": f"{HERE}:{HERE.parents[1]}",
+        "PYTHONDONTWRITEBYTECODE": "1",
         "NUMBA_CACHE_DIR": os.environ.get("NUMBA_CACHE_DIR"),
         "NUMBA_DISABLE_JIT": os.environ.get("NUMBA_DISABLE_JIT"),
         "LD_PRELOAD": str(LIBPYTHON),
-    }  # fmt: skip
+    }
     return {name: value for name, value in (found | changes).items() if value is not None}

@@ -24,17 +24,33 @@ class Master:
         self.rng = random.Random(seed)
         self.known = read_model_description(path).modelVariables
         described = read_model_description(path)
-        self.fmu = FMU2Slave(guid=described.guid, unzipDirectory=extract(path, tempfile.mkdtemp()),
-                             modelIdentifier=described.coSimulation.modelIdentifier)  # fmt: skip
+        self.fmu = FMU2Slave(
+            guid=described.guid,
+            unzipDirectory=extract(path, tempfile.mkdtemp()),
+            modelIdentifier=described.coSimulation.modelIdentifier,
+        )
         self.fmu.instantiate(loggingOn=seed % 2 == 0)
         self.states, self.saved, self.time = [], [b"", b"x" * 300], 0.0
 
     def call(self):
         """Make one call; True if it ended OK."""
-        calls = [self.set_input] * 6 + [self.step] * 8 + [self.read] * 4 + [
-            self.set_anything, self.set_whole, self.begin, self.end, self.keep, self.go_back,
-            self.to_bytes, self.from_bytes, self.forget, self.read_strings,
-        ]  # fmt: skip
+        calls = (
+            [self.set_input] * 6
+            + [self.step] * 8
+            + [self.read] * 4
+            + [
+                self.set_anything,
+                self.set_whole,
+                self.begin,
+                self.end,
+                self.keep,
+                self.go_back,
+                self.to_bytes,
+                self.from_bytes,
+                self.forget,
+                self.read_strings,
+            ]
+        )
         try:
             self.rng.choice(calls)()
         except FMICallException:
@@ -42,8 +58,11 @@ class Master:
         return True
 
     def begin(self):
-        calls = [self.fmu.setupExperiment, self.fmu.enterInitializationMode,
-                 self.fmu.exitInitializationMode]  # fmt: skip
+        calls = [
+            self.fmu.setupExperiment,
+            self.fmu.enterInitializationMode,
+            self.fmu.exitInitializationMode,
+        ]
         if self.rng.random() < 0.2:
             self.fmu.setupExperiment(startTime=self.rng.choice(ODD))
             calls = self.rng.sample(calls, self.rng.randint(0, 3))

@@ -22,8 +22,11 @@ def bare(fmus, tmp_path):
     """A clutch that is given a logger and nothing else: no allocator, no environment."""
     path = str(fmus["WetClutch"])
     described = read_model_description(path)
-    fmu = FMU2Slave(guid=described.guid, unzipDirectory=extract(path, str(tmp_path)),
-                    modelIdentifier="WetClutch")  # fmt: skip
+    fmu = FMU2Slave(
+        guid=described.guid,
+        unzipDirectory=extract(path, str(tmp_path)),
+        modelIdentifier="WetClutch",
+    )
     callbacks = fmi2CallbackFunctions()
     callbacks.logger = fmi2CallbackLoggerTYPE(lambda *_: None)
     fmu.instantiate(callbacks=callbacks)

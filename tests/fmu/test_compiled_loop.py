@@ -111,9 +111,7 @@ def test_calls_and_their_time_are_counted(fmus):
     ],
 )
 def test_a_failure_is_told_as_by_the_python_loop(fmus, force, kind, text):
-    (slow, _), (quick, made) = (
-        run(with_toy(force), fmus, compiled) for compiled in (False, True)
-    )  # fmt: skip
+    (slow, _), (quick, made) = (run(with_toy(force), fmus, compiled) for compiled in (False, True))
     assert isinstance(slow, SolveError) and isinstance(slow.__cause__, kind)
     assert str(quick) == str(slow)
     assert type(quick) is type(slow) and type(quick.__cause__) is type(slow.__cause__)

@@ -13,19 +13,32 @@ H = 1e-3
 NAMES = [spec.name for spec in all_specs()]
 # Where a model works in a shift: (low, high) per input; random points are drawn from it.
 TYPICAL = {
-    "load": (1e3, 8e3), "speed": (-100.0, 100.0), "oil_temperature": (290.0, 360.0),
+    "load": (1e3, 8e3),
+    "speed": (-100.0, 100.0),
+    "oil_temperature": (290.0, 360.0),
     "drum_speed": (-400.0, 400.0),
-    "shift_command": (0.0, 1.0), "clutch_torque": (0.0, 300.0), "brake_torque": (0.0, 300.0),
-    "washer_torque": (0.0, 3.0), "mesh_torque": (0.0, 3.0), "clutch_pressure": (0.0, 2e5),
-    "brake_pressure": (0.0, 2e5), "engine_torque_input": (-50.0, 50.0),
-    "load_torque_input": (-50.0, 50.0), "ring_mesh_torque": (0.0, 3.0),
+    "shift_command": (0.0, 1.0),
+    "clutch_torque": (0.0, 300.0),
+    "brake_torque": (0.0, 300.0),
+    "washer_torque": (0.0, 3.0),
+    "mesh_torque": (0.0, 3.0),
+    "clutch_pressure": (0.0, 2e5),
+    "brake_pressure": (0.0, 2e5),
+    "engine_torque_input": (-50.0, 50.0),
+    "load_torque_input": (-50.0, 50.0),
+    "ring_mesh_torque": (0.0, 3.0),
     "ambient_temperature": (250.0, 310.0),
-    "cooler_flow": (0.0, 1e-4), "cooler_temperature": (300.0, 350.0),
+    "cooler_flow": (0.0, 1e-4),
+    "cooler_temperature": (300.0, 350.0),
     **{f"heat_{i}": (0.0, 3e3) for i in range(1, 7)},
-}  # fmt: skip
+}
 GEAR = {"load": (-200.0, 200.0), "speed": (-700.0, 700.0), "oil_temperature": (240.0, 440.0)}
-WASHER = {"load": (100.0, 1200.0), "speed": (-700.0, 700.0), "tilt": (1e-3, 3e-3),
-          "far_face_temperature": (290.0, 360.0)}  # fmt: skip
+WASHER = {
+    "load": (100.0, 1200.0),
+    "speed": (-700.0, 700.0),
+    "tilt": (1e-3, 3e-3),
+    "far_face_temperature": (290.0, 360.0),
+}
 
 
 def drawn(spec, rng):
@@ -146,15 +159,24 @@ def test_derivatives_after_steps_are_those_of_readings_and_leave_no_trace(name, 
 # Listed dependencies of a discrete output that no point drawn here shows.
 UNSEEN = {
     # a film between lining and steel that cannot be solved would show in it; none is known
-    ("load", "WetClutch", "solver_status"), ("speed", "WetClutch", "solver_status"),
+    ("load", "WetClutch", "solver_status"),
+    ("speed", "WetClutch", "solver_status"),
     # with a linear course the film takes a step to the present oil: a regime's edge within it
     ("oil_temperature", "WetClutch", "regime"),
     # only by the heat of a starved gap, on such a step
-    *(("drum_speed", "WetClutch", n) for n in (
-        "regime", "film_ratio", "film_thickness", "contact_torque", "contact_share", "viscosity",
-        "friction_coefficient",
-    )),
-}  # fmt: skip
+    *(
+        ("drum_speed", "WetClutch", n)
+        for n in (
+            "regime",
+            "film_ratio",
+            "film_thickness",
+            "contact_torque",
+            "contact_share",
+            "viscosity",
+            "friction_coefficient",
+        )
+    ),
+}
 # Parameters under which different inputs act at once.
 STANDINGS = {
     "ThrustWasher": [{"gear_far_face": "bulk"}, {"gear_far_face": "oil"}],
@@ -175,8 +197,13 @@ STANDINGS = {
     # endurance is the paper's, a safety against micropitting needs its limit
     "GearMesh": [{"permissible_film_ratio": 0.3}, {"film_heat": "atan", "steel": "AISI4340"}],
 }
-CASES = {"ThrustWasher": 40, "WetClutch": 300, "GearMesh": 200, "ShiftTransmission": 4000,
-         "OilSump": 5}  # fmt: skip
+CASES = {
+    "ThrustWasher": 40,
+    "WetClutch": 300,
+    "GearMesh": 200,
+    "ShiftTransmission": 4000,
+    "OilSump": 5,
+}
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -96,11 +96,15 @@ def test_no_exception_ever_leaves_a_callback(monkeypatch):
     assert slave.get_integer([9999]) == [0] and slave.get_boolean([-1]) == [False]
     assert slave.get_string([1, 2]) == ["", ""]
     for call in (
-        lambda: slave.set_real([1], [1.0]), lambda: slave.set_integer([1], [1]),
-        lambda: slave.set_boolean([1], [True]), lambda: slave.set_string([1], [""]),
-        slave.exit_initialization_mode, slave._get_fmu_state,
-        lambda: slave._set_fmu_state("no state"), lambda: slave.setup_experiment("x", None, None),
-    ):  # fmt: skip
+        lambda: slave.set_real([1], [1.0]),
+        lambda: slave.set_integer([1], [1]),
+        lambda: slave.set_boolean([1], [True]),
+        lambda: slave.set_string([1], [""]),
+        slave.exit_initialization_mode,
+        slave._get_fmu_state,
+        lambda: slave._set_fmu_state("no state"),
+        lambda: slave.setup_experiment("x", None, None),
+    ):
         assert call() in (False, None)
     assert slave.core.status.is_failure
     assert any("Ctrl-C" in m.msg for m in slave.log_queue)

@@ -49,9 +49,7 @@ STRESSES = [
 
 
 @pytest.mark.parametrize(("ratio", "teeth", *"abcdefghi"), STRESSES)
-def test_asperities_and_allowable_ratios_of_both_steels(
-    ratio, teeth, a, b, c, d, e, f, g, h, i
-):  # fmt: skip
+def test_asperities_and_allowable_ratios_of_both_steels(ratio, teeth, a, b, c, d, e, f, g, h, i):
     for steel, rise, share in (("AISI1020", a, c), ("AISI4340", b, d)):
         r = at(ratio, teeth, viscosity_at="inlet", steel=steel)
         assert r.asperity_temperature - 299.85 == pytest.approx(rise, abs=0.5 if rise > 1 else 0.05)
@@ -106,8 +104,9 @@ def test_sharp_switch_jumps_at_1_4_and_the_smooth_one_is_half_way_there():
 
 def test_overrides_of_the_surface_replace_its_values():
     rough = at(2, 20, mean_roughness=1.6e-6)
-    same = at(2, 20, surface="fine", sigma_rms=2.26e-6, effective_roughness=4.5e-5,
-              mean_roughness=1.6e-6)  # fmt: skip
+    same = at(
+        2, 20, surface="fine", sigma_rms=2.26e-6, effective_roughness=4.5e-5, mean_roughness=1.6e-6
+    )
     assert same == rough
     assert at(2, 20, "iso", mean_roughness=3.2e-6).friction_coefficient == pytest.approx(
         2**0.25 * at(2, 20, "iso", mean_roughness=1.6e-6).friction_coefficient, rel=1e-12

@@ -89,10 +89,19 @@ def rises(
     flanks, _, width = contact(p, power, speed)
     heat = p.partition_share * sheared_heat(mu, flanks.sliding, width, h)
     solid = p.density * p.heat_capacity
-    surface = surface_rise(heat, flanks.speed_pinion, width, p.conductivity, p.density,
-                           p.heat_capacity)  # fmt: skip
-    inside = film_rise(heat, flanks.speed_pinion, width, h, p.conductivity, solid,
-                       p.oil_conductivity, p.oil_density * p.oil_heat_capacity)  # fmt: skip
+    surface = surface_rise(
+        heat, flanks.speed_pinion, width, p.conductivity, p.density, p.heat_capacity
+    )
+    inside = film_rise(
+        heat,
+        flanks.speed_pinion,
+        width,
+        h,
+        p.conductivity,
+        solid,
+        p.oil_conductivity,
+        p.oil_density * p.oil_heat_capacity,
+    )
     return surface, inside
 
 
@@ -160,8 +169,9 @@ def test_friction_loss_and_temperatures_agree(options: Any, power: float, speed:
     friction = li_seireg(h / flanks.radius, SCATTER[p.surface][1], p.f0)
     surface, inside = rises(p, power, speed, mu, h)
     torque = p.load_share * power / speed
-    flash = pinion_flash(mesh_of(p), torque, speed, p.face_width, p.partition_share * friction,
-                         body_of(p))  # fmt: skip
+    flash = pinion_flash(
+        mesh_of(p), torque, speed, p.face_width, p.partition_share * friction, body_of(p)
+    )
     assert r.friction_coefficient == pytest.approx(friction, rel=1e-12)
     assert r.surface_temperature - OIL == pytest.approx(surface, rel=1e-10)
     assert r.film_temperature - r.surface_temperature == pytest.approx(inside, rel=1e-9)
@@ -193,8 +203,9 @@ def test_stresses_of_both_steels_follow_from_the_asperity_temperature(
     p = paper(**options)
     r = solve_gearmesh(p, power=power, speed=speed, oil_temperature=OIL)
     steel = p.steel.lower()
-    stress = thermal_stress(r.asperity_temperature - OIL, p.youngs_modulus, p.poisson_ratio,
-                            p.thermal_expansion)  # fmt: skip
+    stress = thermal_stress(
+        r.asperity_temperature - OIL, p.youngs_modulus, p.poisson_ratio, p.thermal_expansion
+    )
     factor = modification_factor(stress, r.contact_stress, LIMITS[steel])
     used = math.hypot(r.contact_stress / LIMITS[steel].mechanical, stress / LIMITS[steel].thermal)
     assert r.thermal_stress == pytest.approx(stress, rel=1e-12)
@@ -215,18 +226,32 @@ def test_the_literal_reading_is_eq_3_and_eq_12_as_printed(
     rise = atan_flash(mesh_of(p), power, speed, p.face_width, heat, body_of(p))
     assert r.asperity_temperature - OIL == pytest.approx(rise, rel=1e-12)
     for steel, limits in LIMITS.items():
-        long = grouped_factor(mesh_of(p), power, speed, p.face_width, heat, limits,
-                              p.youngs_modulus, p.poisson_ratio, p.thermal_expansion,
-                              body_of(p).effusivity)  # fmt: skip
+        long = grouped_factor(
+            mesh_of(p),
+            power,
+            speed,
+            p.face_width,
+            heat,
+            limits,
+            p.youngs_modulus,
+            p.poisson_ratio,
+            p.thermal_expansion,
+            body_of(p).effusivity,
+        )
         rounded = long / (3.0 * math.pi**0.25 * 0.591 / 2.36) ** 2
         assert getattr(r, f"modification_factor_{steel}") == pytest.approx(rounded, rel=1e-11)
 
 
 @pytest.mark.parametrize(("options", "power", "speed"), SOME)
 def test_other_laws_agree_too(options: Any, power: float, speed: float) -> None:
-    p = paper(**options, friction_law="iso", heat_partition="velocity",
-                       area_law="greenwood-williamson", switch="none",
-                       sigma_rms=3e-6)  # fmt: skip
+    p = paper(
+        **options,
+        friction_law="iso",
+        heat_partition="velocity",
+        area_law="greenwood-williamson",
+        switch="none",
+        sigma_rms=3e-6,
+    )
     r = solve_gearmesh(p, power=power, speed=speed, oil_temperature=OIL)
     flanks, load, _ = contact(p, power, speed)
     pole = flanks_at(1.0 / (1.0 + p.gear_ratio), mesh_of(p), speed)

@@ -17,9 +17,14 @@ from thrustwasher.gearmesh.solve import prepare
 
 HELIX, MODULE, OIL = math.radians(20.0), 1.5e-3, 358.15
 SUN = GearMeshParams(
-    gear_ratio=38 / 18, pinion_teeth=18, normal_module=MODULE, helix_angle=HELIX,
-    surface="fine", mean_roughness=0.3e-6, friction_law="constant",
-)  # fmt: skip
+    gear_ratio=38 / 18,
+    pinion_teeth=18,
+    normal_module=MODULE,
+    helix_angle=HELIX,
+    surface="fine",
+    mean_roughness=0.3e-6,
+    friction_law="constant",
+)
 FACE = math.pi * MODULE / math.sin(HELIX)  # of an overlap of 1
 PAIR = Pair(18, 38, MODULE, SUN.pressure_angle, HELIX)
 RING = replace(SUN, gear_ratio=74 / 18, internal=True, addendum_gear=0.8)
@@ -29,8 +34,9 @@ HIGH = replace(SUN, pinion_teeth=40, gear_ratio=2.0, addendum=1.3)  # contact ra
 def at(overlap, params=SUN, fidelity="field", **changes):
     """Solve under the same force per face width."""
     params = replace(params, face_width=overlap * FACE, **changes)
-    return solve_gearmesh(params, power=14.0 * overlap * 500.0, speed=500.0, oil_temperature=OIL,
-                          fidelity=fidelity)  # fmt: skip
+    return solve_gearmesh(
+        params, power=14.0 * overlap * 500.0, speed=500.0, oil_temperature=OIL, fidelity=fidelity
+    )
 
 
 def path(params, overlap, fidelity="field"):
@@ -66,8 +72,10 @@ def test_spur_and_wide_teeth_share_as_they_did():
 @pytest.mark.parametrize("law", ["iso", "mixed"])
 def test_nothing_jumps_where_the_overlap_passes_one(fidelity, law):
     """The mean flash is summed on other positions there: the bodies' rise moves by rounding."""
-    below, above = (at(1.0 + side * 1e-9, fidelity=fidelity, friction_law=law, sigma_rms=1e-7)
-                    for side in (-1.0, 1.0))  # fmt: skip
+    below, above = (
+        at(1.0 + side * 1e-9, fidelity=fidelity, friction_law=law, sigma_rms=1e-7)
+        for side in (-1.0, 1.0)
+    )
     rel = 1e-7 if law == "iso" else 1e-3  # of mixed friction the sum has an error of its own
     for name in ("contact_pressure_max", "flash_max", "pitting_stress"):
         assert getattr(below, name) == pytest.approx(getattr(above, name), rel=rel), name
@@ -79,8 +87,14 @@ def test_nothing_jumps_where_the_overlap_passes_one(fidelity, law):
 
 def test_nothing_jumps_where_a_helix_begins():
     spur, slight = (at(0.6, helix_angle=angle) for angle in (0.0, 1e-9))
-    for name in ("friction_power", "contact_pressure_max", "flash_max", "film_ratio_gf",
-                 "pitting_stress", "bulk_temperature"):  # fmt: skip
+    for name in (
+        "friction_power",
+        "contact_pressure_max",
+        "flash_max",
+        "film_ratio_gf",
+        "pitting_stress",
+        "bulk_temperature",
+    ):
         assert getattr(slight, name) == pytest.approx(getattr(spur, name), rel=1e-8), name
 
 
@@ -94,8 +108,9 @@ def test_at_half_an_overlap_all_follows_from_the_one_share(fidelity):
     def share(s):
         return helical_pair.share(PAIR, 0.5 * FACE, s)
 
-    moment = sum(quad(lambda s: abs(s) * share(s), *ends, epsrel=1e-13)[0]
-                 for ends in pairwise(cuts))  # fmt: skip
+    moment = sum(
+        quad(lambda s: abs(s) * share(s), *ends, epsrel=1e-13)[0] for ends in pairwise(cuts)
+    )
     front = 2.0 * math.pi * (1 / 18 + 1 / 38) / math.cos(PAIR.base_helix)
     power = 14.0 * 0.5 * 500.0
     assert half.friction_power == pytest.approx(0.05 * front * moment * power, rel=1e-12)
@@ -104,9 +119,11 @@ def test_at_half_an_overlap_all_follows_from_the_one_share(fidelity):
     # Contact starts where pressure, flash and film are extreme; two pairs bear it.
     more = share(-approach) * sum((approach, recess))
     assert half.film_ratio_gf == pytest.approx(
-        whole.film_ratio_gf * more**-0.13
-        * math.exp(0.7 * math.log(half.viscosity / whole.viscosity)), rel=1e-9,
-    )  # fmt: skip
+        whole.film_ratio_gf
+        * more**-0.13
+        * math.exp(0.7 * math.log(half.viscosity / whole.viscosity)),
+        rel=1e-9,
+    )
     edges = [share(s) ** 0.5 / math.sqrt(radius(s)) for s in np.linspace(-approach, recess, 20001)]
     wide = 1.0 / math.sqrt(sum((approach, recess)) * radius(-approach))
     ratio = half.contact_pressure_max / whole.contact_pressure_max

@@ -20,11 +20,21 @@ from thrustwasher.gearmesh.solve import prepare
 
 OIL, HELIX, FACE, SPEED, FORCE = 358.15, math.radians(20.0), 22e-3, 510.0, 1000.0
 SUN = GearMeshParams(
-    gear_ratio=38 / 18, pinion_teeth=18, normal_module=1.5e-3, helix_angle=HELIX, face_width=FACE,
-    mean_roughness=0.3e-6, youngs_modulus=206e9, conductivity=45.0, heat_capacity=440.0,
-    density=7800.0, viscosity_scale=8.28494e-3 * math.exp(-1074.1 / 214.5), viscosity_b=1074.1,
-    viscosity_c=129.5, pressure_viscosity=1.7e-8,
-)  # fmt: skip
+    gear_ratio=38 / 18,
+    pinion_teeth=18,
+    normal_module=1.5e-3,
+    helix_angle=HELIX,
+    face_width=FACE,
+    mean_roughness=0.3e-6,
+    youngs_modulus=206e9,
+    conductivity=45.0,
+    heat_capacity=440.0,
+    density=7800.0,
+    viscosity_scale=8.28494e-3 * math.exp(-1074.1 / 214.5),
+    viscosity_b=1074.1,
+    viscosity_c=129.5,
+    pressure_viscosity=1.7e-8,
+)
 RING = replace(SUN, gear_ratio=74 / 18, internal=True, addendum_gear=0.8)
 PAIRS = {
     "sun": (SUN, Pair(18, 38, 1.5e-3, SUN.pressure_angle, HELIX)),
@@ -38,8 +48,13 @@ EFFUSIVITY, THETA = math.sqrt(45.0 * 440.0 * 7800.0), 2.0 * (1.0 - 0.3**2) / 206
 
 def at(params, force=FORCE, speed=SPEED, fidelity="field", **changes):
     torque = force * PAIRS["spur" if params.helix_angle == 0.0 else "sun"][1].radius
-    return solve_gearmesh(replace(params, **changes), power=torque * speed, speed=speed,
-                          oil_temperature=OIL, fidelity=fidelity)  # fmt: skip
+    return solve_gearmesh(
+        replace(params, **changes),
+        power=torque * speed,
+        speed=speed,
+        oil_temperature=OIL,
+        fidelity=fidelity,
+    )
 
 
 def arrays(params, fidelity="field"):
@@ -150,8 +165,10 @@ def test_steady_bodies_are_047_of_the_mean_flash_above_the_oil(name):
     params, pair = PAIRS[name]
     r = at(params)
     start, pole, end = helical_pair.path_of_contact(pair)
-    mean = sum(quad(lambda rho: flash_at(params, pair, rho), *ends, epsrel=1e-10)[0]
-               for ends in ((start, pole), (pole, end))) / (end - start)  # fmt: skip
+    mean = sum(
+        quad(lambda rho: flash_at(params, pair, rho), *ends, epsrel=1e-10)[0]
+        for ends in ((start, pole), (pole, end))
+    ) / (end - start)
     assert r.bulk_temperature - OIL == pytest.approx(0.47 * r.mean_friction * mean, rel=1e-4)
     sprayed = at(params, lubrication_factor=1.2).bulk_temperature - OIL
     assert sprayed / (r.bulk_temperature - OIL) == pytest.approx(1.2, rel=1e-12)
@@ -195,8 +212,9 @@ class Run:
 
 @pytest.mark.parametrize("law", ["iso", "mixed"])
 @pytest.mark.parametrize("start", ["steady", "oil"])
-@pytest.mark.parametrize("params", [SUN, RING, GearMeshParams.preset("paper")],
-                         ids=["sun", "ring", "paper"])  # fmt: skip
+@pytest.mark.parametrize(
+    "params", [SUN, RING, GearMeshParams.preset("paper")], ids=["sun", "ring", "paper"]
+)
 def test_heat_made_is_heat_stored_and_handed_to_the_oil(law, start, params):
     if params.film_heat == "loss":
         params = replace(params, friction_law=law, thermal_start=start)
@@ -204,8 +222,12 @@ def test_heat_made_is_heat_stored_and_handed_to_the_oil(law, start, params):
     run.step(20.0, 300.0, OIL, 1e-3)
     first = run.out[L.F_BULK] - run.out[L.F_STORED] / run.par[L.D_BULK_CAPACITY]
     for _ in range(400):
-        run.step(rng.uniform(-30.0, 30.0), rng.uniform(-50.0, 600.0), OIL + rng.uniform(0.0, 9.0),
-                 10.0 ** rng.uniform(-4.0, 2.0))  # fmt: skip
+        run.step(
+            rng.uniform(-30.0, 30.0),
+            rng.uniform(-50.0, 600.0),
+            OIL + rng.uniform(0.0, 9.0),
+            10.0 ** rng.uniform(-4.0, 2.0),
+        )
     assert run.out[L.F_STORED] + run.handed == pytest.approx(run.made, rel=1e-9)
     if params.film_heat == "loss":
         rise = run.out[L.F_BULK] - first
@@ -283,15 +305,20 @@ def test_li_seireg_and_mixed_follow_the_bodies_temperature():
 def test_twice_as_many_positions_hardly_change_the_loss():
     for name, (params, _) in PAIRS.items():
         for law in ("mixed", "li-seireg"):
-            field, fine = (at(params, fidelity=f, friction_law=law, sigma_rms=0.1e-6).friction_power
-                           for f in ("field", "fine"))  # fmt: skip
+            field, fine = (
+                at(params, fidelity=f, friction_law=law, sigma_rms=0.1e-6).friction_power
+                for f in ("field", "fine")
+            )
             assert field == pytest.approx(fine, rel=5e-4), (name, law)
 
 
-@pytest.mark.parametrize(("changes", "message"), [
-    ({"internal": True, "gear_ratio": 1.0}, "addendum_gear = 1.0, allowed: less for a ring"),
-    ({"internal": True, "gear_ratio": 2.0}, "addendum_gear = 1.0, allowed: less for a ring"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"internal": True, "gear_ratio": 1.0}, "addendum_gear = 1.0, allowed: less for a ring"),
+        ({"internal": True, "gear_ratio": 2.0}, "addendum_gear = 1.0, allowed: less for a ring"),
+    ],
+)
 def test_what_cannot_be_is_refused_in_one_line(changes, message):
     with pytest.raises(ParameterError, match=message) as refused:
         replace(SUN, **changes)

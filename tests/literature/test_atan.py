@@ -106,15 +106,20 @@ def test_taken_at_its_word_fewer_teeth_allow_less_contact_stress(
     ratio: float, surface: str
 ) -> None:
     for steel in TABLE_1:
-        row = [getattr(mesh("literal", ratio, n, surface=surface), f"allowable_ratio_{steel}")
-               for n in TEETH]  # fmt: skip
+        row = [
+            getattr(mesh("literal", ratio, n, surface=surface), f"allowable_ratio_{steel}")
+            for n in TEETH
+        ]
         assert all(few < many for few, many in pairwise(row))
 
 
 def test_the_films_own_rise_does_not_depend_on_the_load() -> None:
-    rises = [r.film_temperature - r.surface_temperature
-             for r in (mesh("bounded", 2.0, 20, power, viscosity_at="inlet")
-                       for power in (3750.0, 15000.0))]  # fmt: skip
+    rises = [
+        r.film_temperature - r.surface_temperature
+        for r in (
+            mesh("bounded", 2.0, 20, power, viscosity_at="inlet") for power in (3750.0, 15000.0)
+        )
+    ]
     assert rises[1] == pytest.approx(rises[0], rel=5e-3)
 
 
@@ -189,14 +194,19 @@ def test_a_higher_ratio_leaves_more_of_the_allowable_stress() -> None:
 
 @pytest.mark.parametrize("viscosity_at", ["inlet", "surface"])
 def test_no_viscous_rise_of_the_flank_is_extremely_high(viscosity_at: str) -> None:
-    rises = [mesh("literal", m, n, viscosity_at=viscosity_at).surface_temperature - INLET
-             for m in RATIOS for n in TEETH]  # fmt: skip
+    rises = [
+        mesh("literal", m, n, viscosity_at=viscosity_at).surface_temperature - INLET
+        for m in RATIOS
+        for n in TEETH
+    ]
     assert max(rises) < 1.5
 
 
 def test_the_flanks_viscous_rise_does_depend_on_the_load() -> None:
-    rises = [mesh("bounded", 2.0, 20, power, viscosity_at="inlet").surface_temperature - INLET
-             for power in (3750.0, 7500.0, 15000.0)]  # fmt: skip
+    rises = [
+        mesh("bounded", 2.0, 20, power, viscosity_at="inlet").surface_temperature - INLET
+        for power in (3750.0, 7500.0, 15000.0)
+    ]
     powers = [math.log2(b / a) for a, b in pairwise(rises)]
     assert powers == pytest.approx([0.38, 0.38], abs=1e-3)  # w^(1/4 + 0.13)
 

@@ -236,9 +236,14 @@ def test_the_papers_distress_loads_do_not_fit_its_own_valley(speed: float) -> No
 
 def test_read_as_diameters_table_1_could_not_carry_the_loads_of_the_paper() -> None:
     half = WasherParams.preset(
-        "paper", inner_radius=0.00555, gear_inner_radius=0.0078, outer_radius=0.01135,
-        film_heat_fraction=0.0, friction_law="constant", dry_friction=0.0,
-    )  # fmt: skip
+        "paper",
+        inner_radius=0.00555,
+        gear_inner_radius=0.0078,
+        outer_radius=0.01135,
+        film_heat_fraction=0.0,
+        friction_law="constant",
+        dry_friction=0.0,
+    )
     for speed, printed in DISTRESS_LOADS.items():
         points = load_curve(half, speed=speed, tilt=TILT, grid=GRID, load_max=1000.0).points
         cold = min(points, key=lambda r: abs(r.film_ratio - 3.0))

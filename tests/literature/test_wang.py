@@ -109,9 +109,12 @@ def test_a_braking_passes_the_four_stages_in_the_order_of_the_paper():
     pack = ClutchParams.preset("paper")
     time = np.linspace(0.0, 1.25, 126)
     braked = engage_clutch(
-        pack, time=time, load=PRESSURE * AREA * np.minimum(time / 0.1, 1.0),
-        speed=3000.0 * RPM * np.maximum(1.0 - time / TIME, 0.0), oil_temperature=333.15,
-    )  # fmt: skip
+        pack,
+        time=time,
+        load=PRESSURE * AREA * np.minimum(time / 0.1, 1.0),
+        speed=3000.0 * RPM * np.maximum(1.0 - time / TIME, 0.0),
+        oil_temperature=333.15,
+    )
     stages = [name for name, _ in groupby(braked.regime)]
     assert stages == ["film", "mixed", "boundary", "adhesive"]
     share = np.mean(np.array(braked.regime) == "boundary")

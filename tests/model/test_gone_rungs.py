@@ -44,8 +44,11 @@ def line(name, rung):
 
 
 def test_no_other_rung_is_gone():
-    found = [(key, name, list(find_spec(key).fidelities).index(name) + 1, rung)
-             for key in SOLVED for name, rung in find_spec(key).successors.items()]  # fmt: skip
+    found = [
+        (key, name, list(find_spec(key).fidelities).index(name) + 1, rung)
+        for key in SOLVED
+        for name, rung in find_spec(key).successors.items()
+    ]
     assert found == GONE
 
 

@@ -20,9 +20,23 @@ from thrustwasher.washer import parameters as washer_params
 from thrustwasher.washer.kernels import step as washer_step
 
 HOSTILE = [
-    0.0, -0.0, 1.0, -1.0, 1e-320, 1e-30, 1e6, -1e6, 1e30, 1e150, -1e150, 1e300, -1e300,
-    np.inf, -np.inf, np.nan,
-]  # fmt: skip
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    1e-320,
+    1e-30,
+    1e6,
+    -1e6,
+    1e30,
+    1e150,
+    -1e150,
+    1e300,
+    -1e300,
+    np.inf,
+    -np.inf,
+    np.nan,
+]
 WASHERS = [
     (washer_step, washer_params.SPEC, changes, "field")
     for changes in ({}, {"thermal_mode": "transient"})

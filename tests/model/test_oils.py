@@ -156,9 +156,12 @@ def test_python_and_calibration_warn_of_the_oil_as_the_command_line_does(cold):
 
 @pytest.mark.parametrize(
     "words",
-    ["build cold.toml --no-maps --platforms local --json", "explore cold.toml",
-     "map build cold.toml --points 2 --tol 0.1 --json"],
-)  # fmt: skip
+    [
+        "build cold.toml --no-maps --platforms local --json",
+        "explore cold.toml",
+        "map build cold.toml --points 2 --tol 0.1 --json",
+    ],
+)
 def test_what_is_made_for_a_box_warns_of_the_oil_in_it(cold, words, capsys):
     assert main(words.split()) == 0
     out, err = capsys.readouterr()

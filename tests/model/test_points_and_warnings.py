@@ -118,9 +118,7 @@ def test_a_calibration_takes_the_box_for_what_has_no_column(tmp_path):
     path.write_text(MESH + '[parameters]\nfriction_law = "constant"\n')
     truth = GearMeshParams(friction_law="constant", constant_friction=0.06)
     torque = [5.0, 10.0]
-    loss = [
-        solve_gearmesh(truth, power=100.0 * t, speed=100.0).friction_torque for t in torque
-    ]  # fmt: skip
+    loss = [solve_gearmesh(truth, power=100.0 * t, speed=100.0).friction_torque for t in torque]
     data = {"load": torque, "friction_torque": loss}
     found = calibrate(load_part(path), data, fit=["constant_friction"])
     assert found.params.constant_friction == pytest.approx(0.06, rel=1e-6)
@@ -159,14 +157,16 @@ DOUBTFUL = {
         "film_thickness = -",
     ),
     "lost film": (
-        lambda: solve_washer(WasherParams(), load=1.3e3, speed=545.0, tilt=2e-3), "film_ratio = ",
+        lambda: solve_washer(WasherParams(), load=1.3e3, speed=545.0, tilt=2e-3),
+        "film_ratio = ",
     ),
     "unverified washer": (
         lambda: solve_washer(WasherParams(), load=300.0, speed=1900.0, tilt=2e-3),
         "speed = 1900 rad/s is outside -1500 rad/s .. 1500 rad/s",
     ),
     "slipping gap": (
-        lambda: solve_washer(WasherParams(), load=1.0, speed=953.0, tilt=2e-3), "stick_margin = ",
+        lambda: solve_washer(WasherParams(), load=1.0, speed=953.0, tilt=2e-3),
+        "stick_margin = ",
     ),
     "pitting mesh": (
         lambda: solve_gearmesh(GearMeshParams.preset("planet"), power=15e3, speed=180.0),
@@ -185,9 +185,10 @@ DOUBTFUL = {
         "temperature = ",
     ),
     "hot end of a curve": (
-        lambda: load_curve(WasherParams(), speed=545.0, tilt=2e-3), "temperature_max = ",
+        lambda: load_curve(WasherParams(), speed=545.0, tilt=2e-3),
+        "temperature_max = ",
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", DOUBTFUL)
@@ -199,19 +200,43 @@ def test_a_doubtful_result_says_so(name):
 
 
 ROWS = [
-    ("washer", {"load": [700.0, 1500.0]}, {"speed": 545.0, "oil_temperature": 353.15},
-     "2 of 2 points, at worst temperature_max = "),
-    ("washer", {"load": [20.0, 100.0]}, {"speed": 1400.0},
-     "1 of 2 points, at worst stick_margin = "),
-    ("washer", {"load": [100.0, 3e3]}, {"speed": 1400.0},
-     "1 of 2 points, at worst film_thickness = -"),
-    ("clutch", {"load": [10.0, 1e5]}, {"speed": 0.1, "contact_modulus": 3e5},
-     "1 of 2 points, at worst film_ratio = -"),
-    ("gearmesh", {"load": [100.0, 5e3, 9e3]}, {"speed": 180.0},
-     "2 of 3 points, at worst scuffing_safety = "),
-    ("gearmesh", {"load": [100.0, 200.0]}, {"speed": 180.0, "permissible_film_ratio": 5.0},
-     "2 of 2 points, at worst micropitting_safety = "),
-]  # fmt: skip
+    (
+        "washer",
+        {"load": [700.0, 1500.0]},
+        {"speed": 545.0, "oil_temperature": 353.15},
+        "2 of 2 points, at worst temperature_max = ",
+    ),
+    (
+        "washer",
+        {"load": [20.0, 100.0]},
+        {"speed": 1400.0},
+        "1 of 2 points, at worst stick_margin = ",
+    ),
+    (
+        "washer",
+        {"load": [100.0, 3e3]},
+        {"speed": 1400.0},
+        "1 of 2 points, at worst film_thickness = -",
+    ),
+    (
+        "clutch",
+        {"load": [10.0, 1e5]},
+        {"speed": 0.1, "contact_modulus": 3e5},
+        "1 of 2 points, at worst film_ratio = -",
+    ),
+    (
+        "gearmesh",
+        {"load": [100.0, 5e3, 9e3]},
+        {"speed": 180.0},
+        "2 of 3 points, at worst scuffing_safety = ",
+    ),
+    (
+        "gearmesh",
+        {"load": [100.0, 200.0]},
+        {"speed": 180.0, "permissible_film_ratio": 5.0},
+        "2 of 2 points, at worst micropitting_safety = ",
+    ),
+]
 
 
 @pytest.mark.parametrize(("model", "over", "at", "words"), ROWS)
@@ -256,8 +281,14 @@ def test_verified_ranges_are_those_of_the_kernel():
 def test_a_part_says_what_it_keeps_of_another_size(tmp_path):
     def said(model, text, preset=""):
         start = find_part(model) if not preset else preset_parts(find_part(model).spec)[preset]
-        return kept_warnings(type(start)(spec=start.spec, name="X", fidelity=start.fidelity,
-                                         parameters={**start.parameters, **text}))  # fmt: skip
+        return kept_warnings(
+            type(start)(
+                spec=start.spec,
+                name="X",
+                fidelity=start.fidelity,
+                parameters={**start.parameters, **text},
+            )
+        )
 
     larger = said("washer", {"outer_radius": 0.03})
     assert any("gear_inner_radius = 15.6 mm is that of the default" in line for line in larger)

@@ -191,8 +191,12 @@ def mesh(rung, power=7500.0, speed=180.0, **changes):
 )
 def test_with_one_coefficient_the_resolved_loss_is_the_closed_form(ratio, teeth, addendum):
     """Two pairs, three pairs, the pitch point where two share: Ohlendorf's factor to rounding."""
-    like = {"gear_ratio": ratio, "pinion_teeth": teeth, "addendum": addendum,
-            "friction_law": "constant"}  # fmt: skip
+    like = {
+        "gear_ratio": ratio,
+        "pinion_teeth": teeth,
+        "addendum": addendum,
+        "friction_law": "constant",
+    }
     fine, field = mesh("fine", **like), mesh("field", **like)
     assert fine.friction_torque == pytest.approx(field.friction_torque, rel=1e-12)
 
@@ -231,9 +235,13 @@ def engaged(rung, rings=None, **changes):
     params = ClutchParams(**changes)
     if rings is None:
         return engage_clutch(
-            params, time=COURSE, load=6e3 * np.minimum(COURSE / 0.1, 1.0),
-            speed=120.0 * (1.0 - COURSE / 0.4), oil_temperature=350.0, fidelity=rung,
-        )  # fmt: skip
+            params,
+            time=COURSE,
+            load=6e3 * np.minimum(COURSE / 0.1, 1.0),
+            speed=120.0 * (1.0 - COURSE / 0.4),
+            oil_temperature=350.0,
+            fidelity=rung,
+        )
     part = Part("clutch", rung, input_course="linear", **changes)
     derive_rings(part.par, rings)
     for t in COURSE:
@@ -290,6 +298,8 @@ def test_outer_rings_are_hotter_and_their_mean_is_shown():
 
 
 def test_clutch_rungs_hold_the_same_static_torque():
-    held = [solve_clutch(ClutchParams(), load=5e3, speed=0.0, fidelity=rung).torque_capacity
-            for rung in LADDER["clutch"][1:]]  # fmt: skip
+    held = [
+        solve_clutch(ClutchParams(), load=5e3, speed=0.0, fidelity=rung).torque_capacity
+        for rung in LADDER["clutch"][1:]
+    ]
     assert held == pytest.approx([held[0]] * len(held), rel=1e-9)

@@ -83,8 +83,9 @@ def test_a_mesh_has_the_derivatives_of_its_steps(load):
 
 def test_bodies_that_store_heat_warm_up_towards_their_steady_state():
     params = WasherParams(thermal_mode="transient", thermal_start="oil")
-    course = follow_washer(params, time=[0.0, 0.5, 2.0], load=300.0, speed=545.0, tilt=2e-3,
-                           grid=GRID)  # fmt: skip
+    course = follow_washer(
+        params, time=[0.0, 0.5, 2.0], load=300.0, speed=545.0, tilt=2e-3, grid=GRID
+    )
     steady = solve_washer(WasherParams(), load=300.0, speed=545.0, tilt=2e-3, grid=GRID)
     first, middle, last = course.temperature
     assert first < middle < last < steady.temperature + 1e-3
@@ -104,8 +105,9 @@ def test_a_pack_that_slips_for_ever_takes_power(rung, point):
 def test_a_pack_heats_up_while_it_closes(rung, course):
     options = ClutchParams.__dataclass_fields__["input_course"].metadata["options"]
     course = course if course in options else next(iter(options))
-    pack = DirectInstance(find_spec("clutch"),
-                          parameters={"fidelity": rung, "input_course": course})  # fmt: skip
+    pack = DirectInstance(
+        find_spec("clutch"), parameters={"fidelity": rung, "input_course": course}
+    )
     pack.initialize(0.0, {"load": 0.0, "speed": 100.0, "oil_temperature": 300.0})
     energies = []
     for i, (load, speed) in enumerate([(2000.0, 90.0), (6000.0, 40.0), (6000.0, 0.0), (0.0, -5.0)]):

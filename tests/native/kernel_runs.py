@@ -69,8 +69,12 @@ class Native(Python):
 
     def call(self, entry: str, *given):
         function = getattr(self.library, f"probe_{entry.replace('broken_', '')}")
-        return function(*[ctypes.c_double(v) if isinstance(v, float) else
-                          ctypes.c_void_p(v.ctypes.data) for v in given])  # fmt: skip
+        return function(
+            *[
+                ctypes.c_double(v) if isinstance(v, float) else ctypes.c_void_p(v.ctypes.data)
+                for v in given
+            ]
+        )
 
 
 class Run:

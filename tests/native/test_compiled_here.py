@@ -52,9 +52,12 @@ def test_compiled_here_the_kernels_give_the_shipped_numbers(tmp_path):
     shown = []
     for where in ("shipped", "here"):
         done = subprocess.run(
-            [sys.executable, "-c", SOLVES, where], capture_output=True, text=True,
-            env=surroundings, timeout=1200,
-        )  # fmt: skip
+            [sys.executable, "-c", SOLVES, where],
+            capture_output=True,
+            text=True,
+            env=surroundings,
+            timeout=1200,
+        )
         assert done.returncode == 0, done.stderr
         assert ("compiled washer in" in done.stderr) == (where == "here")
         shown.append([float.fromhex(word) for word in done.stdout.split()])

@@ -14,13 +14,39 @@ from thrustwasher.model.registry import compiled_packages
 
 FILES = kernel_files()
 ARRAY_METHODS = {
-    "append", "astype", "copy", "dot", "fill", "max", "mean", "min", "ravel", "reshape", "sum", "T",
-}  # fmt: skip
+    "append",
+    "astype",
+    "copy",
+    "dot",
+    "fill",
+    "max",
+    "mean",
+    "min",
+    "ravel",
+    "reshape",
+    "sum",
+    "T",
+}
 FORBIDDEN = (
-    ast.Raise, ast.Try, ast.With, ast.List, ast.Dict, ast.Set, ast.ListComp, ast.DictComp,
-    ast.SetComp, ast.GeneratorExp, ast.JoinedStr, ast.Lambda, ast.Yield, ast.Global, ast.Import,
-    ast.ImportFrom, ast.Assert, ast.MatMult,
-)  # fmt: skip
+    ast.Raise,
+    ast.Try,
+    ast.With,
+    ast.List,
+    ast.Dict,
+    ast.Set,
+    ast.ListComp,
+    ast.DictComp,
+    ast.SetComp,
+    ast.GeneratorExp,
+    ast.JoinedStr,
+    ast.Lambda,
+    ast.Yield,
+    ast.Global,
+    ast.Import,
+    ast.ImportFrom,
+    ast.Assert,
+    ast.MatMult,
+)
 
 
 def kernels_of(path):
@@ -104,9 +130,14 @@ def k(a: NDArray[np.float64]) -> None:
     function = next(n for n in ast.walk(ast.parse(bad)) if isinstance(n, ast.FunctionDef))
     kinds = {kind for _, kind in refused(function)}
     assert kinds == {
-        "np.zeros", "assignment to a slice", "method reshape", "loop without an end", "print",
-        "List", "Raise",
-    }  # fmt: skip
+        "np.zeros",
+        "assignment to a slice",
+        "method reshape",
+        "loop without an end",
+        "print",
+        "List",
+        "Raise",
+    }
 
 
 PLAIN = """
@@ -133,9 +164,14 @@ def test_kernels_run_as_plain_python():
     for disable in ("1", "0"):
         environment = {**os.environ, "NUMBA_DISABLE_JIT": disable}
         run = subprocess.run(
-            [sys.executable, "-c", PLAIN], capture_output=True, text=True, env=environment,
-            timeout=300, cwd=ROOT, check=True,
-        )  # fmt: skip
+            [sys.executable, "-c", PLAIN],
+            capture_output=True,
+            text=True,
+            env=environment,
+            timeout=300,
+            cwd=ROOT,
+            check=True,
+        )
         answers.append(json.loads(run.stdout))
     for plain, compiled in zip(*answers, strict=True):
         assert plain == (compiled if isinstance(plain, str) else pytest.approx(compiled, rel=1e-8))

@@ -147,8 +147,9 @@ def test_the_first_build_of_a_platform_does_not_pass_in_silence(monkeypatch, tmp
     monkeypatch.setattr(link, "SHORT", 0.0)
     said = []
     for _ in range(2):
-        link.shared_library({"a.c": "int a;"}, platform=PLATFORMS["linux64"], name="a",
-                            note=said.append)  # fmt: skip
+        link.shared_library(
+            {"a.c": "int a;"}, platform=PLATFORMS["linux64"], name="a", note=said.append
+        )
     said = [line for line in said if "another first build" not in line]
     assert len(said) == 1 and "linux64" in said[0] and "minutes" in said[0]
 
@@ -183,8 +184,10 @@ def test_code_is_kept_under_all_that_a_kernel_imports(model):
     found, called = digest.sources(kernel), [kernel, *called_modules(kernel)]
     run = subprocess.run(
         [sys.executable, "-c", f"import sys, {', '.join(called)}\nprint(*sys.modules)"],
-        capture_output=True, text=True, check=True,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     known = {".".join(path.relative_to(ROOT).with_suffix("").parts) for path in kernel_files()}
     assert set(run.stdout.split()) & known == set(found)
 

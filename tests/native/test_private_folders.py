@@ -98,9 +98,11 @@ def test_a_lock_ends_with_its_process(tmp_path):
         "held.__enter__()\nprint('held', flush=True)\ntime.sleep(600)"
     )
     process = subprocess.Popen(
-        [sys.executable, "-c", code], stdout=subprocess.PIPE, text=True,
+        [sys.executable, "-c", code],
+        stdout=subprocess.PIPE,
+        text=True,
         env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
-    )  # fmt: skip
+    )
     assert process.stdout.readline() == "held\n"
     waited = []
 

@@ -31,9 +31,12 @@ linux = pytest.mark.skipif(
 def child(code, cache, **environment):
     surroundings = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(cache)}
     return subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, timeout=300,
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        timeout=300,
         env={**surroundings, **environment},
-    )  # fmt: skip
+    )
 
 
 @pytest.mark.parametrize("kernel", KERNELS)
@@ -89,9 +92,17 @@ def test_a_damaged_file_is_not_used(spoiled):
 
 
 @pytest.mark.parametrize(
-    "text", ["", "{", "[]", "[" * 100_000, '{"kernels": []}', '{"kernels": {"' + GEAR + '": {}}}',
-             '{"kernels": {"' + GEAR + '": {"sources": [3], "digest": 1, "objects": 2}}}'],
-)  # fmt: skip
+    "text",
+    [
+        "",
+        "{",
+        "[]",
+        "[" * 100_000,
+        '{"kernels": []}',
+        '{"kernels": {"' + GEAR + '": {}}}',
+        '{"kernels": {"' + GEAR + '": {"sources": [3], "digest": 1, "objects": 2}}}',
+    ],
+)
 def test_a_damaged_list_is_as_if_nothing_was_shipped(spoiled, text):
     (spoiled / shipped.INDEX).write_text(text)
     shipped.read_again()
@@ -181,10 +192,15 @@ def test_stale_code_is_compiled_once_with_a_word(tmp_path):
 def test_two_processes_compile_once(tmp_path):
     surroundings = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(tmp_path)}
     both = [
-        subprocess.Popen([sys.executable, "-c", STALE], stderr=subprocess.PIPE, text=True,
-                         stdout=subprocess.PIPE, env=surroundings)
+        subprocess.Popen(
+            [sys.executable, "-c", STALE],
+            stderr=subprocess.PIPE,
+            text=True,
+            stdout=subprocess.PIPE,
+            env=surroundings,
+        )
         for _ in range(2)
-    ]  # fmt: skip
+    ]
     said = [process.communicate(timeout=300) for process in both]
     assert [out for out, _ in said] == ["0\n", "0\n"]
     assert sum("compiled command in" in err for _, err in said) == 1

@@ -56,10 +56,15 @@ def test_a_course_in_webassembly_is_the_one_in_python(model):
     inputs, dt = course(model, STEPS)
     entries = web_functions(spec.kernel, ("derive", "step"))
     given = {
-        "script": str(SCRIPT), "module": str(module(model)), "inputs": inputs.tolist(), "dt": dt,
-        "functions": entries, "parameters": parameters(model),
-        "sizes": [k.NPAR, k.NINP, k.NSTATE, k.NWORK, k.NOUT], "whole_outputs": k.NIOUT,
-    }  # fmt: skip
+        "script": str(SCRIPT),
+        "module": str(module(model)),
+        "inputs": inputs.tolist(),
+        "dt": dt,
+        "functions": entries,
+        "parameters": parameters(model),
+        "sizes": [k.NPAR, k.NINP, k.NSTATE, k.NWORK, k.NOUT],
+        "whole_outputs": k.NIOUT,
+    }
     done = subprocess.run(
         ["node", str(HERE / "web_run.js")], input=json.dumps(given), capture_output=True, text=True
     )

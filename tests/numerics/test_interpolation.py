@@ -17,7 +17,7 @@ from thrustwasher.numerics.chebyshev import (
     polynomial_slope,
     share_out,
     share_out_change,
-)  # fmt: skip
+)
 
 AXES = ((0.0, 3.0, 2), (-1.0, 1.0, 1), (2.0, 8.0, 3))
 WIDTH = 5
@@ -104,8 +104,7 @@ def test_the_error_falls_with_the_fourth_power_of_the_patch():
         axes = ((0.0, 2.0, patches), (0.0, 0.0, 0), (0.0, 0.0, 0))
         data = filled(lambda x, _y, _z: [x**4] * WIDTH, axes)
         xs = np.linspace(0.0, 2.0, 401)
-        errors.append(max(abs(read(data, (x, 0.0, 0.0), axes)[0] - x**4)
-                          for x in xs))  # fmt: skip
+        errors.append(max(abs(read(data, (x, 0.0, 0.0), axes)[0] - x**4) for x in xs))
     orders = np.log2(np.array(errors[1:-1]) / errors[2:])
     assert orders == pytest.approx([4.0, 4.0], abs=0.02)
 

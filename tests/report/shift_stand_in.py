@@ -7,8 +7,17 @@ import numpy as np
 from thrustwasher.model.registry import find_spec
 from thrustwasher.report.shift.shift_record import Cost, Event, KeyFigure, Part, Phase, Record
 
-UNITS = {"time": "s", "speed": "rad/s", "energy": "J", "area": "J/m2", "power": "W", "thrust": "N",
-         "torque": "N.m", "temperature": "K", "max": "K"}  # fmt: skip
+UNITS = {
+    "time": "s",
+    "speed": "rad/s",
+    "energy": "J",
+    "area": "J/m2",
+    "power": "W",
+    "thrust": "N",
+    "torque": "N.m",
+    "temperature": "K",
+    "max": "K",
+}
 
 
 def key_figures(values: dict[str, float | None]) -> list[KeyFigure]:
@@ -121,28 +130,52 @@ def record(washer: bool = True, mesh: bool = False) -> Record:
     )
     heat = float(s["transmission.clutch_heat"][-1])
     figures: dict[str, float | None] = {
-        "lock_time": 1.75, "lock_speed": 99.0, "release_time": 0.25, "slip_energy": heat,
-        "slip_energy_per_area": heat / 0.0786, "peak_power": 49e3, "peak_clutch_torque": 389.0,
-        "peak_sun_thrust": 2280.0, "peak_clutch_temperature": 447.15,
-        "lock_after_ramp_start": 1.65, "lock_after_half_ramp": 1.5, "friction_mean": 0.06,
-        "friction_start": 0.04, "friction_middle": 0.05,
-        "friction_lock": 0.11, "peak_brake_temperature": 297.2,
-    }  # fmt: skip
+        "lock_time": 1.75,
+        "lock_speed": 99.0,
+        "release_time": 0.25,
+        "slip_energy": heat,
+        "slip_energy_per_area": heat / 0.0786,
+        "peak_power": 49e3,
+        "peak_clutch_torque": 389.0,
+        "peak_sun_thrust": 2280.0,
+        "peak_clutch_temperature": 447.15,
+        "lock_after_ramp_start": 1.65,
+        "lock_after_half_ramp": 1.5,
+        "friction_mean": 0.06,
+        "friction_start": 0.04,
+        "friction_middle": 0.05,
+        "friction_lock": 0.11,
+        "peak_brake_temperature": 297.2,
+    }
     if washer:
-        figures |= {"peak_washer_temperature_max": 322.15, "least_washer_film_ratio": 0.31,
-                    "washer_distress_time": 0.04}  # fmt: skip
+        figures |= {
+            "peak_washer_temperature_max": 322.15,
+            "least_washer_film_ratio": 0.31,
+            "washer_distress_time": 0.04,
+        }
     if mesh:
-        figures |= {"peak_flash_temperature": 387.15, "peak_mesh_temperature": 327.15,
-                    "peak_gear_temperature": 297.15,
-                    "stress_margin_aisi1020": -0.1, "stress_margin_aisi4340": 0.2}  # fmt: skip
+        figures |= {
+            "peak_flash_temperature": 387.15,
+            "peak_mesh_temperature": 327.15,
+            "peak_gear_temperature": 297.15,
+            "stress_margin_aisi1020": -0.1,
+            "stress_margin_aisi4340": 0.2,
+        }
     energy = {
-        "engine_work": float(s["transmission.engine_work"][-1]), "kinetic": float(kinetic[-1]),
-        "load_work": float(s["transmission.load_work"][-1]), "clutch": heat, "brake": 0.0,
-        "washers": float(s["transmission.washer_heat"][-1]), "residual": 1e-5,
+        "engine_work": float(s["transmission.engine_work"][-1]),
+        "kinetic": float(kinetic[-1]),
+        "load_work": float(s["transmission.load_work"][-1]),
+        "clutch": heat,
+        "brake": 0.0,
+        "washers": float(s["transmission.washer_heat"][-1]),
+        "residual": 1e-5,
         "meshes": float(s["transmission.mesh_heat"][-1]),
-        "brake_coupling_difference": 0.0, "brake_coupling_difference_share": 0.0,
-        "residual_share": 1.3e-10, "coupling_difference": 9.4, "coupling_difference_share": 2e-4,
-    }  # fmt: skip
+        "brake_coupling_difference": 0.0,
+        "brake_coupling_difference_share": 0.0,
+        "residual_share": 1.3e-10,
+        "coupling_difference": 9.4,
+        "coupling_difference_share": 2e-4,
+    }
     return Record(
         name="stand-in",
         title="A made-up shift",
@@ -153,14 +186,21 @@ def record(washer: bool = True, mesh: bool = False) -> Record:
         master="gauss-seidel",
         time=t,
         signals=s,
-        phases=(Phase("first gear", 0.0, 0.1), Phase("torque phase", 0.1, 0.25),
-                Phase("inertia phase", 0.25, 1.75), Phase("locked", 1.75, 2.5)),
-        events=(Event(0.1, "shift ramp starts"), Event(0.25, "brake lets go of the ring"),
-                Event(1.75, "clutch locks")),
+        phases=(
+            Phase("first gear", 0.0, 0.1),
+            Phase("torque phase", 0.1, 0.25),
+            Phase("inertia phase", 0.25, 1.75),
+            Phase("locked", 1.75, 2.5),
+        ),
+        events=(
+            Event(0.1, "shift ramp starts"),
+            Event(0.25, "brake lets go of the ring"),
+            Event(1.75, "clutch locks"),
+        ),
         energy=energy,
         key_figures=key_figures(figures),
         parts=parts,
         costs=[Cost(part.name, "field", 0.01, 0.001, 2500, 0.05) for part in parts],
         wall_time=0.4,
         messages=("a remark of the run",),
-    )  # fmt: skip
+    )

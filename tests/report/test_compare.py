@@ -20,8 +20,16 @@ MARK = '<script type="application/json" id="data">{}</script>'
 def report(folder, record=RECORD, **more):
     """Write a report's folder with what a comparison reads of it."""
     folder.mkdir()
-    page = Page(title="", subtitle="", summary=[], warnings=[], cards=[], footer="", sections=[
-        Section("a", "b")], data=page_data([run_data(record, {}) | more]))  # fmt: skip
+    page = Page(
+        title="",
+        subtitle="",
+        summary=[],
+        warnings=[],
+        cards=[],
+        footer="",
+        sections=[Section("a", "b")],
+        data=page_data([run_data(record, {}) | more]),
+    )
     (folder / "report.html").write_text(render(page), "utf-8")
     (folder / "overview.png").write_bytes(b"\x89PNG")
     return folder

@@ -31,16 +31,31 @@ def shown(judder):
     made = record(washer=False)
     t = made.time
     swing = 120.0 + 20.0 * np.sin(60.0 * t)
-    signals = {**made.signals, "transmission.shaft_torque": swing,
-               "transmission.shaft_twist": swing / 1200.0}  # fmt: skip
+    signals = {
+        **made.signals,
+        "transmission.shaft_torque": swing,
+        "transmission.shaft_twist": swing / 1200.0,
+    }
     return replace(made, judder=judder, signals=signals)
 
 
 @pytest.mark.parametrize(
     ("judder", "kind", "words"),
     [
-        (GROWS, "physical", ["Judder: from 0.11 s", "9.9 Hz", "3.42 per second", "8 lock-ups",
-                             "physical, not numerical", "falls by 1.34", "below 2.61", "has 0.5"]),
+        (
+            GROWS,
+            "physical",
+            [
+                "Judder: from 0.11 s",
+                "9.9 Hz",
+                "3.42 per second",
+                "8 lock-ups",
+                "physical, not numerical",
+                "falls by 1.34",
+                "below 2.61",
+                "has 0.5",
+            ],
+        ),
         (DECAYS, "decaying", ["decays by 2.25", "has 4 "]),
         (BY_STEP, "numerical", ["Numerical, no judder", "decay by 0.15", "+1.8", "step of 1.3 ms"]),
         (HIDDEN, "numerical", ["Judder hidden by the step", "grow by 1", "-1.6"]),
@@ -48,7 +63,7 @@ def shown(judder):
         (STRANGE, "unexplained", ["does not explain", "half the step"]),
         (replace(DECAYS, slope=0.5), "decaying", ["rises by 0.5", "damps"]),
     ],
-)  # fmt: skip
+)
 def test_every_kind_of_swing_has_its_words(judder, kind, words):
     text = words_on(shown(judder))
     assert judder.kind == kind

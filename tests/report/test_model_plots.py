@@ -110,8 +110,13 @@ def test_the_plot_draws_temperatures_and_both_steels():
     _, sweeps = over_teeth(params, point, "field")
     figure = gearmesh_figure(solve_gearmesh(params, **point), point, params)
     labels = [text for axes in figure.axes for text in axes.get_legend_handles_labels()[1]]
-    for words in ("surface $T_s$", "asperities, rough ground", "asperities, fine ground",
-                  "AISI 1020, rough ground", "AISI 4340, fine ground"):  # fmt: skip
+    for words in (
+        "surface $T_s$",
+        "asperities, rough ground",
+        "asperities, fine ground",
+        "AISI 1020, rough ground",
+        "AISI 4340, fine ground",
+    ):
         assert words in labels
     rough = next(line for line in figure.axes[0].lines if "rough" in str(line.get_label()))
     expected = [r.asperity_temperature - 273.15 for r in sweeps["rough"]]

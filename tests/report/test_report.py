@@ -75,11 +75,27 @@ def test_page_carries_every_chapter_and_the_numbers(record):
     page = shift_report.shift_page(record)
     text = render(page)
     titles = [section.title for section in page.sections]
-    assert titles == ["Beside what is usual", "The shift over time", "Friction of the clutch",
-                      "The thrust washer", "Energy", "Key figures", "Time spent",
-                      "What was simulated", "How far to trust it"]  # fmt: skip
-    for words in ("1.75 s", "99 rad/s", "Thermo-viscous distress", "steady state", "half the size",
-                  "a remark of the run", "Jackson", "roughness_carrier"):  # fmt: skip
+    assert titles == [
+        "Beside what is usual",
+        "The shift over time",
+        "Friction of the clutch",
+        "The thrust washer",
+        "Energy",
+        "Key figures",
+        "Time spent",
+        "What was simulated",
+        "How far to trust it",
+    ]
+    for words in (
+        "1.75 s",
+        "99 rad/s",
+        "Thermo-viscous distress",
+        "steady state",
+        "half the size",
+        "a remark of the run",
+        "Jackson",
+        "roughness_carrier",
+    ):
         assert words in text
 
 
@@ -126,8 +142,10 @@ def test_a_scene_with_a_mesh_shows_teeth_and_their_stress(record):
 
 
 def test_what_a_source_says_stands_beside_the_run(record):
-    said = [Published("friction_mean", "mean friction", "1", False, 0.053, 0.06),
-            Published("lock_speed", "speed", "rad/s", False, 100.0, None)]  # fmt: skip
+    said = [
+        Published("friction_mean", "mean friction", "1", False, 0.053, 0.06),
+        Published("lock_speed", "speed", "rad/s", False, 100.0, None),
+    ]
     told = replace(record, published=said, source="somebody's table 2")
     section = next(s for s in shift_report.shift_page(told).sections if s.anchor == "friction")
     assert section.texts[0] == "Published: somebody's table 2."
@@ -142,10 +160,17 @@ def test_a_shift_that_has_not_begun_is_said(record):
 
 def test_a_brake_alone_is_told_as_a_braking_test(record):
     energy = {**record.energy, "engine_work": 0.0}
-    figures = [KeyFigure("stopped_inertia", "inertia", "kg.m2", 30.0),
-               KeyFigure("greatest_slip", "slip", "rad/s", 314.159)]  # fmt: skip
-    lone = replace(record, engaging="brake", alone=True, energy=energy,
-                   key_figures=[*record.key_figures, *figures])  # fmt: skip
+    figures = [
+        KeyFigure("stopped_inertia", "inertia", "kg.m2", 30.0),
+        KeyFigure("greatest_slip", "slip", "rad/s", 314.159),
+    ]
+    lone = replace(
+        record,
+        engaging="brake",
+        alone=True,
+        energy=energy,
+        key_figures=[*record.key_figures, *figures],
+    )
     words = summary.sentences(lone)[0]
     assert "brought 30 kg·m² from 314.2 rad/s (3000 rpm) to rest in 1.5 s, counted from" in words
     assert "the engine's work" not in render(shift_report.shift_page(lone))
@@ -153,9 +178,11 @@ def test_a_brake_alone_is_told_as_a_braking_test(record):
 
 def test_a_tie_up_is_said_with_its_heat_and_its_cause(record):
     assert not [words for words in summary.warnings(record) if "Tie-up" in words]
-    found = [KeyFigure("tie_up_duration", "", "s", 0.12, 0.28),
-             KeyFigure("tie_up_torque", "", "N.m", 262.0, 0.3),
-             KeyFigure("tie_up_heat", "", "J", 735.0)]  # fmt: skip
+    found = [
+        KeyFigure("tie_up_duration", "", "s", 0.12, 0.28),
+        KeyFigure("tie_up_torque", "", "N.m", 262.0, 0.3),
+        KeyFigure("tie_up_heat", "", "J", 735.0),
+    ]
     tied = replace(record, key_figures=[*record.key_figures, *found])
     (words,) = [words for words in summary.warnings(tied) if "Tie-up" in words]
     assert "from 0.28 s on" in words and "for 120 ms" in words
@@ -171,9 +198,15 @@ def test_a_tie_up_is_said_with_its_heat_and_its_cause(record):
 def test_the_share_of_oil_shear_is_told_with_what_it_rests_on(record):
     assert "Shear of the oil" not in " ".join(trust_texts(record))
     share = KeyFigure("clutch_viscous_share", "", "1", 0.65)
-    told = " ".join(trust_texts(replace(record, parts=[
-        replace_fidelity(part) for part in record.parts
-    ], key_figures=[*record.key_figures, share])))  # fmt: skip
+    told = " ".join(
+        trust_texts(
+            replace(
+                record,
+                parts=[replace_fidelity(part) for part in record.parts],
+                key_figures=[*record.key_figures, share],
+            )
+        )
+    )
     assert "65% of the heat in the clutch" in told and "no measurement" in told
 
 
@@ -214,8 +247,10 @@ def test_a_shift_that_does_not_lock_is_said(record):
 
 def test_warnings_of_several_shifts_are_said_once_and_none_is_lost(record):
     def told(load, speed):
-        return (f"washer: load of {load} leaves the 20 N of its part file",
-                f"washer: speed of {speed} leaves the 50 rad/s of its part file")  # fmt: skip
+        return (
+            f"washer: load of {load} leaves the 20 N of its part file",
+            f"washer: speed of {speed} leaves the 50 rad/s of its part file",
+        )
 
     shifts = [replace(record, found=told(*x)) for x in (("30 N", "1 rad/s"), ("4 kN", "2 rad/s"))]
     said = [text for text in summary.warnings_of_all(shifts) if "part file" in text]
@@ -251,9 +286,10 @@ def axes_of(figure):
 
 def test_every_axis_carries_its_unit(record):
     figures = [
-        overview_plot.overview_figure(record), curve_figure(washer_stand_in.curve(), POINT),
+        overview_plot.overview_figure(record),
+        curve_figure(washer_stand_in.curve(), POINT),
         field_figure(washer_stand_in.Washer(), POINT),
-    ]  # fmt: skip
+    ]
     for figure in figures:
         for axis in axes_of(figure):
             assert re.search(r"\[.+\]", axis.get_ylabel()), axis.get_title()

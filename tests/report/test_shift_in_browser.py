@@ -19,8 +19,13 @@ from thrustwasher.report.shift.worst_moments import Moment, rung_with_fields
 
 pytestmark = pytest.mark.browser
 RECORD = shift_stand_in.record(mesh=True)
-POINT = {"load": 300.0, "speed": 953.0, "tilt": 2e-3, "oil_temperature": 297.15,
-         "far_face_temperature": 0.0}  # fmt: skip
+POINT = {
+    "load": 300.0,
+    "speed": 953.0,
+    "tilt": 2e-3,
+    "oil_temperature": 297.15,
+    "far_face_temperature": 0.0,
+}
 SHOWN = "document.querySelectorAll('.panel:not(.more)')"
 SCALES = "() => Plots.state.panels.filter((p) => p.visible && p.plot).map((p) => p.plot.scales.x)"
 
@@ -343,8 +348,9 @@ def test_beyond_the_end_of_a_run_its_final_energies_stay(browser, tmp_path):
         page.evaluate("Plots.moveTo(Plots.nearest(2.4))")
         settle(page)
         assert page.locator("#flow h3").all_text_contents() == [
-            f"A: {RECORD.title}", "B: short, which ended at 1.3 s"
-        ]  # fmt: skip
+            f"A: {RECORD.title}",
+            "B: short, which ended at 1.3 s",
+        ]
         told = page.locator("#flow svg").last.get_attribute("aria-label")
         assert f"heat of the clutch {heat / 1e3:.2f} kJ" in told and "No energy" not in told
 
@@ -377,10 +383,16 @@ def cycle(tmp_path_factory):
     oil = np.linspace(300.0, 310.0, len(time))
     sequence = SimpleNamespace(shifts=[(0.0, "up"), (10.0, "down")])
     result = SimpleNamespace(
-        shifts=[RECORD, later], time=time, signals=signals, oil_temperature=oil, messages=[],
-        warnings=(), step_errors={},
-        wall_time=1.0, scene=SimpleNamespace(sequence=sequence, title="Two shifts"),
-    )  # fmt: skip
+        shifts=[RECORD, later],
+        time=time,
+        signals=signals,
+        oil_temperature=oil,
+        messages=[],
+        warnings=(),
+        step_errors={},
+        wall_time=1.0,
+        scene=SimpleNamespace(sequence=sequence, title="Two shifts"),
+    )
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(sequence_report, "record_of", lambda record: record)
         page = sequence_report.sequence_page(result)

@@ -23,27 +23,41 @@ def full(pitting=1.8, jerk=24.7):
     # Nine tenths are stored; the oil gets the rest, as means of the steps.
     energy = np.concatenate(([0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(t))))
     given = np.concatenate(([0.0], 0.1 * np.diff(energy) / np.diff(t)))
-    teeth = {"pitting_safety": pitting, "scuffing_safety": 7.8, "micropitting_safety": 0.4,
-             "film_ratio_gf": 0.4, "contact_pressure_max": 976e6}  # fmt: skip
+    teeth = {
+        "pitting_safety": pitting,
+        "scuffing_safety": 7.8,
+        "micropitting_safety": 0.4,
+        "film_ratio_gf": 0.4,
+        "contact_pressure_max": 976e6,
+    }
     signals = {
         **made.signals,
         "transmission.output_acceleration": np.where(t < 1.75, 12.0, 11.0),
         "transmission.clutch_piston_pressure": 1e6 * np.clip(t, 0.0, 0.7),
         "transmission.brake_piston_pressure": 0.0 * one,
-        **{f"transmission.{pack}_{side}_speed": 100.0 * one
-           for pack in ("clutch", "brake") for side in ("hub", "drum")},
-        "clutch.load": 3000.0 * one, "clutch.energy": energy, "clutch.oil_heat": given,
-        "clutch.stored_heat": 0.9 * energy, "sump.temperature": 358.15 * one,
+        **{
+            f"transmission.{pack}_{side}_speed": 100.0 * one
+            for pack in ("clutch", "brake")
+            for side in ("hub", "drum")
+        },
+        "clutch.load": 3000.0 * one,
+        "clutch.energy": energy,
+        "clutch.oil_heat": given,
+        "clutch.stored_heat": 0.9 * energy,
+        "sump.temperature": 358.15 * one,
         "mesh.speed": 400.0 * (t < 1.75),
         **{f"mesh.{name}": value * one for name, value in teeth.items()},
-    }  # fmt: skip
-    figures = [KeyFigure("peak_jerk", "jerk", "m/s3", jerk),
-               KeyFigure("peak_clutch_heat_flux", "flux", "W/m2", 0.83e6),
-               KeyFigure("torque_hole", "hole", "m/s2", 0.1),
-               KeyFigure("greatest_slip", "slip", "rad/s", 370.0)]  # fmt: skip
+    }
+    figures = [
+        KeyFigure("peak_jerk", "jerk", "m/s3", jerk),
+        KeyFigure("peak_clutch_heat_flux", "flux", "W/m2", 0.83e6),
+        KeyFigure("torque_hole", "hole", "m/s2", 0.1),
+        KeyFigure("greatest_slip", "slip", "rad/s", 370.0),
+    ]
     parts = [p for p in made.parts if p.name != "mesh"] + [Part("mesh", find_spec("gearmesh"), {})]
-    return replace(made, signals=signals, reach=0.1, parts=parts,
-                   key_figures=[*made.key_figures, *figures])  # fmt: skip
+    return replace(
+        made, signals=signals, reach=0.1, parts=parts, key_figures=[*made.key_figures, *figures]
+    )
 
 
 def test_every_range_is_in_order_and_says_what_it_rests_on():
@@ -55,11 +69,15 @@ def test_every_range_is_in_order_and_says_what_it_rests_on():
 def test_at_least_ten_figures_stand_beside_a_range():
     rows = {row[0]: row[1:] for row in usual_table(full()).rows}
     assert len(rows) >= 10
-    plain = {words: [c.replace("\N{NO-BREAK SPACE}", " ") for c in row]
-             for words, row in rows.items()}  # fmt: skip
+    plain = {
+        words: [c.replace("\N{NO-BREAK SPACE}", " ") for c in row] for words, row in rows.items()
+    }
     assert plain["jerk of the vehicle, over 10 ms"][:3] == ["24.7 m/s³", "10 .. 15 m/s³", "▲ above"]
     assert plain["greatest heat per area and time"][:3] == [
-        "0.83 W/mm²", "1 .. 2.5 W/mm²", "▼ below"]  # fmt: skip
+        "0.83 W/mm²",
+        "1 .. 2.5 W/mm²",
+        "▼ below",
+    ]
     assert plain["least safety against pitting"][:3] == ["1.8", "1 or more", ""]
     # 3 kN on four fifths of a face of 64/85 mm.
     assert plain["greatest pressure on the land while it slips"][0] == "0.381 MPa"

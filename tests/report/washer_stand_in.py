@@ -90,10 +90,18 @@ def curve() -> Curve:
         load = float(max(load, 20.0)) if x < 1.9 else float(700.0 * np.exp(-(x - 1.0)))
         branch = "film" if x > 0.97 else ("unstable" if x > 0.2 else "contact")
         points.append(
-            Washer(load=load, film_ratio=ratio, film_thickness=ratio * SIGMA, branch=branch,
-                   friction_torque=0.1 + 2.0 / (1 + ratio), temperature=300 + 80 / (1 + ratio),
-                   friction_coefficient=0.02 + 0.1 / (1 + ratio**2))
-        )  # fmt: skip
-    folds = (Fold("film_lost", 775.2, 2.65, 310.2, 0.2787),
-             Fold("film_regained", 441.3, 1.22, 345.0, 1.072))  # fmt: skip
+            Washer(
+                load=load,
+                film_ratio=ratio,
+                film_thickness=ratio * SIGMA,
+                branch=branch,
+                friction_torque=0.1 + 2.0 / (1 + ratio),
+                temperature=300 + 80 / (1 + ratio),
+                friction_coefficient=0.02 + 0.1 / (1 + ratio**2),
+            )
+        )
+    folds = (
+        Fold("film_lost", 775.2, 2.65, 310.2, 0.2787),
+        Fold("film_regained", 441.3, 1.22, 345.0, 1.072),
+    )
     return Curve(tuple(points), folds)

@@ -52,19 +52,30 @@ def phases_of(unloaded):
     full = (TIME > 0.1075).astype(float)
     zero = np.zeros_like(TIME)
     s = {
-        "transmission.clutch_locked": locked, "transmission.lock_time": 0.8 * locked,
+        "transmission.clutch_locked": locked,
+        "transmission.lock_time": 0.8 * locked,
         "transmission.brake_locked": (TIME < 0.41).astype(float),
         "transmission.release_time": np.where(TIME < 0.41, -1.0, 0.4095),
-        "transmission.clutch_filled": full, "transmission.clutch_filled_time": 0.1075 * full,
-        "transmission.brake_filled": zero + 1.0, "transmission.brake_filled_time": zero,
-        "transmission.clutch_kiss_time": 0.1075 * full, "transmission.brake_kiss_time": zero,
+        "transmission.clutch_filled": full,
+        "transmission.clutch_filled_time": 0.1075 * full,
+        "transmission.brake_filled": zero + 1.0,
+        "transmission.brake_filled_time": zero,
+        "transmission.clutch_kiss_time": 0.1075 * full,
+        "transmission.brake_kiss_time": zero,
         "transmission.brake_reaction": -100.0 * (unloaded - TIME),
         "transmission.washer_speed": zero,
-    }  # fmt: skip
-    events = find_events(SCENE, TIME, s | {
-        f"{part}.{o.name}": zero for part, p in SCENE.parts.items() for o in p.spec.outputs
-        if part != "transmission"
-    })  # fmt: skip
+    }
+    events = find_events(
+        SCENE,
+        TIME,
+        s
+        | {
+            f"{part}.{o.name}": zero
+            for part, p in SCENE.parts.items()
+            for o in p.spec.outputs
+            if part != "transmission"
+        },
+    )
     return find_phases(SCENE, s, events), [e.kind for e in events]
 
 
@@ -77,8 +88,12 @@ def test_a_pack_that_lets_go_before_the_kiss_point_leaves_no_torque_phase():
 def test_phases_of_courses_end_at_kiss_point_unloaded_brake_and_lock_up():
     phases, kinds = phases_of(0.3925)
     assert [name for name, *_ in phases] == [
-        "first gear", "fill", "torque phase", "inertia phase", "locked"
-    ]  # fmt: skip
+        "first gear",
+        "fill",
+        "torque phase",
+        "inertia phase",
+        "locked",
+    ]
     ends = [end for *_, end in phases]
     assert ends == pytest.approx([0.1, 0.2, 0.3925, 0.8, 1.3], abs=1e-9)
     order = [kinds.index(k) for k in ("clutch_filled", "brake_unloaded", "clutch_locked")]

@@ -23,8 +23,11 @@ def downshift():
 
 def test_the_phases_begin_in_second_gear(downshift):
     assert [p.name for p in downshift.phases] == [
-        "second gear", "torque phase", "inertia phase", "locked",
-    ]  # fmt: skip
+        "second gear",
+        "torque phase",
+        "inertia phase",
+        "locked",
+    ]
     assert downshift.scene.engaging == "brake" and not downshift.scene.alone
 
 

@@ -10,12 +10,18 @@ from thrustwasher.model.spec import ModelSpec, Signal
 from thrustwasher.shift import Part, load_scene, run_shift
 
 SPEC = ModelSpec(
-    key="mesh", name="StandIn", help="loss in proportion to torque", params=ClutchParams,
-    fidelities={"closed": "constant share"}, default_fidelity="closed",
-    inputs=tuple(Signal(name=n, unit="1", help="", start=0.0)
-                 for n in ("load", "speed", "oil_temperature")),
-    outputs=(Signal(name="friction_torque", unit="N.m", help=""),), kernel="none",
-)  # fmt: skip
+    key="mesh",
+    name="StandIn",
+    help="loss in proportion to torque",
+    params=ClutchParams,
+    fidelities={"closed": "constant share"},
+    default_fidelity="closed",
+    inputs=tuple(
+        Signal(name=n, unit="1", help="", start=0.0) for n in ("load", "speed", "oil_temperature")
+    ),
+    outputs=(Signal(name="friction_torque", unit="N.m", help=""),),
+    kernel="none",
+)
 LOSS = 0.01
 
 

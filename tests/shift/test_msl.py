@@ -43,11 +43,20 @@ def test_lock_time_converges_with_the_order_of_the_capacities(master, extrapolat
     """Held capacities are late by part of a step; extrapolated ones leave a second-order error."""
     steps = [4e-3, 2e-3, 1e-3]
     times = [
-        shift("msl", stop_time=2.2, master=master, step=h,
-              parts={"transmission": {"capacity_extrapolation": extrapolated,
-                                      "torque_age": 1 if master == "jacobi" else 0}})
-        .figures["lock_time"] for h in steps
-    ]  # fmt: skip
+        shift(
+            "msl",
+            stop_time=2.2,
+            master=master,
+            step=h,
+            parts={
+                "transmission": {
+                    "capacity_extrapolation": extrapolated,
+                    "torque_age": 1 if master == "jacobi" else 0,
+                }
+            },
+        ).figures["lock_time"]
+        for h in steps
+    ]
     errors = np.abs(np.array(times) - 2.11079036)
     found = np.log2(errors[:-1] / errors[1:])
     assert found == pytest.approx([order, order], abs=0.1)

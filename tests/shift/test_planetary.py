@@ -22,8 +22,10 @@ def test_shifts_without_drag_have_the_expected_magnitudes(name):
     assert r.figures["lock_after_ramp_start"] == pytest.approx(after, abs=6e-4)
     assert r.figures["lock_speed"] == pytest.approx(speed, abs=6e-3)
     i = int(np.searchsorted(r.time, r.figures["lock_time"]))
-    at_lock = [r.signals[f"transmission.{n}"][i] / 1e3 for n in
-               ("engine_work", "load_work", "kinetic_change", "clutch_heat")]  # fmt: skip
+    at_lock = [
+        r.signals[f"transmission.{n}"][i] / 1e3
+        for n in ("engine_work", "load_work", "kinetic_change", "clutch_heat")
+    ]
     # Read at the end of the step of the lock-up: up to 1 ms x 15 kW of engine work later.
     assert at_lock == pytest.approx([engine, load, kinetic, heat], abs=0.07)
     assert r.figures["slip_energy_per_area"] / 1e6 == pytest.approx(per_area, abs=6e-3)
@@ -70,8 +72,9 @@ def test_settled_packs_without_shear_hand_over_cleanly():
 
 
 def test_coupling_difference_shrinks_with_the_square_of_the_step():
-    coarse, fine = (shift("planetary-sun", step=h).energy["coupling_difference_share"]
-                    for h in (4e-3, 5e-4))  # fmt: skip
+    coarse, fine = (
+        shift("planetary-sun", step=h).energy["coupling_difference_share"] for h in (4e-3, 5e-4)
+    )
     assert np.log(coarse / fine) / np.log(8.0) == pytest.approx(2.0, abs=0.15)
 
 

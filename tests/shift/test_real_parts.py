@@ -42,8 +42,12 @@ def test_halving_the_step_changes_little():
     coarse, fine = real().figures, real(5e-4).figures
     for name in ("slip_energy", "lock_time", "mesh_loss", "slip_energy_per_area"):
         assert coarse[name] == pytest.approx(fine[name], rel=5e-3), name
-    for name in ("clutch_temperature", "washer_temperature", "flash_temperature",
-                 "mesh_temperature"):  # fmt: skip
+    for name in (
+        "clutch_temperature",
+        "washer_temperature",
+        "flash_temperature",
+        "mesh_temperature",
+    ):
         rise = [f[f"peak_{name}"] - 297.15 for f in (coarse, fine)]
         assert rise[0] == pytest.approx(rise[1], rel=5e-3), name
 
@@ -51,9 +55,16 @@ def test_halving_the_step_changes_little():
 def test_every_figure_of_washer_mesh_and_packs_is_found():
     r = real()
     found = {f.name: f.value for f in r.key_figures}
-    for name in ("clutch_viscous_share", "peak_clutch_heat_flux", "brake_heat_per_area",
-                 "peak_flash_rise", "least_mesh_film_ratio", "stress_margin_aisi1020",
-                 "stress_margin_aisi4340", "least_washer_film_ratio"):  # fmt: skip
+    for name in (
+        "clutch_viscous_share",
+        "peak_clutch_heat_flux",
+        "brake_heat_per_area",
+        "peak_flash_rise",
+        "least_mesh_film_ratio",
+        "stress_margin_aisi1020",
+        "stress_margin_aisi4340",
+        "least_washer_film_ratio",
+    ):
         assert found[name] is not None, name
     assert found["stress_margin_aisi1020"] < found["stress_margin_aisi4340"]
     assert found["mesh_loss"] == r.energy["meshes"]

@@ -25,8 +25,12 @@ def run():
 
 def test_the_phases_are_those_of_the_courses(run):
     assert [p.name for p in run.phases] == [
-        "first gear", "fill", "torque phase", "inertia phase", "locked"
-    ]  # fmt: skip
+        "first gear",
+        "fill",
+        "torque phase",
+        "inertia phase",
+        "locked",
+    ]
     figures = run.figures
     assert figures["filled_time"] == pytest.approx(0.1075, abs=1e-9)
     assert run.phases[1].end == 0.2
@@ -107,9 +111,13 @@ def test_the_ring_mesh_carries_the_suns_load_and_loses_less(run):
 
 
 @pytest.mark.parametrize(
-    ("name", "last"), [("planetary-downshift", "brake"), ("planetary-cold", "clutch"),
-                       ("planetary-hot-oil", "clutch")],
-)  # fmt: skip
+    ("name", "last"),
+    [
+        ("planetary-downshift", "brake"),
+        ("planetary-cold", "clutch"),
+        ("planetary-hot-oil", "clutch"),
+    ],
+)
 def test_its_variants_finish(name, last):
     r = shift(name)
     assert r.scene.engaging == last and r.figures["lock_time"] is not None

@@ -132,8 +132,10 @@ def test_the_page_holds_all_signals_and_a_row_for_each_shift(run):
 
 def test_ramps_of_a_command_go_up_and_down(tmp_path):
     path = tmp_path / "ramps.toml"
-    path.write_text('base = "msl"\nstop_time = 40.0\n[sequence]\n'
-                    'shifts = [[0.0, "up"], [20.0, "down"]]\nwindow = 6.0\n')  # fmt: skip
+    path.write_text(
+        'base = "msl"\nstop_time = 40.0\n[sequence]\n'
+        'shifts = [[0.0, "up"], [20.0, "down"]]\nwindow = 6.0\n'
+    )
     whole = load_scene(path)
     up, down = (shift_scene(whole, i) for i in range(2))
     assert (up.command(0.0), up.command(20.0)) == (up.shift_from, up.shift_to) == (0.0, 1.0)

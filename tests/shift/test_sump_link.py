@@ -30,11 +30,14 @@ def test_work_is_motion_load_heat_in_the_parts_and_heat_in_the_sump(tmp_path):
     made, stored = (
         sum(n * f(part) for part, n in count.items())
         for f in (
-            lambda p: s[f"{p}.energy"][-1] if f"{p}.energy" in s
-            else np.sum(s[f"{p}.friction_power"][1:] * h),
+            lambda p: (
+                s[f"{p}.energy"][-1]
+                if f"{p}.energy" in s
+                else np.sum(s[f"{p}.friction_power"][1:] * h)
+            ),
             lambda p: s[f"{p}.stored_heat"][-1],
         )
-    )  # fmt: skip
+    )
     coupling = sum(book[name] for name in ("clutch", "brake", "washers", "meshes")) - made
     sump = sum(s[f"sump.{name}"][-1] for name in ("stored_heat", "ambient_heat", "cooler_heat"))
     work = book["engine_work"]

@@ -45,8 +45,9 @@ def test_a_hole_is_settled_after_the_later_packs_slip():
     felt = np.interp(TIME, [0.1, 0.4, LOCK + 0.1, END + 0.1], [1.5, 0.8, 0.9, 1.4])
     read = {"output_acceleration": felt / 0.1, "output_speed": TIME, "engine_speed": TIME}
     signals = {f"transmission.{name}": values for name, values in read.items()}
-    early, late = (comfort_figures(load_scene("planetary"), TIME, signals, LOCK, end)
-                   for end in (None, END))  # fmt: skip
+    early, late = (
+        comfort_figures(load_scene("planetary"), TIME, signals, LOCK, end) for end in (None, END)
+    )
     assert early["torque_hole"][0] == pytest.approx(0.1)
     assert late["torque_hole"][0] == pytest.approx(0.6)
 
@@ -72,10 +73,14 @@ def test_shift_heat_is_that_of_both_packs_to_the_end_of_the_later_slip():
 def test_a_locked_pack_carries_its_reaction_and_a_slipping_one_its_friction():
     """Where it slips, the reaction may overshoot for a step; the pack does not."""
     locked = np.array([1.0, 1.0, 0.0, 0.0])
-    found = carried_torque("brake", {
-        "transmission.brake_locked": locked, "brake.friction_torque": np.array([0.0, 0, -8, -2]),
-        "transmission.brake_reaction": np.array([-122.0, -90.0, -30.0, -2.1]),
-    })  # fmt: skip
+    found = carried_torque(
+        "brake",
+        {
+            "transmission.brake_locked": locked,
+            "brake.friction_torque": np.array([0.0, 0, -8, -2]),
+            "transmission.brake_reaction": np.array([-122.0, -90.0, -30.0, -2.1]),
+        },
+    )
     assert found.tolist() == [122.0, 90.0, 8.0, 2.0]
 
 

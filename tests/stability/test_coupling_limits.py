@@ -64,9 +64,15 @@ def at_work(fmus, slope, deviation=10.0, rest=DRIVE, brake=0.0, ring=None, **gea
     speeds = {f"table_speed_{k}": high * RADIUS + k - 1.0 for k in range(1, 6)}
     values = {f"table_friction_{k}": end for k in range(1, 6)}
     clutch = {
-        "fidelity": "stribeck", "friction_law": "table", "faces": 10, "effective_radius": RADIUS,
-        "table_friction_0": start, **speeds, **values, "speed_smoothing": 1e-3,
-    }  # fmt: skip
+        "fidelity": "stribeck",
+        "friction_law": "table",
+        "faces": 10,
+        "effective_radius": RADIUS,
+        "table_friction_0": start,
+        **speeds,
+        **values,
+        "speed_smoothing": 1e-3,
+    }
     return gearbox_and_clutch(fmus, _gearbox(SLIP + deviation, ring, gearbox), clutch, brake)
 
 
@@ -74,9 +80,13 @@ def with_coulomb(fmus, torque, slip, smoothing, **gearbox):
     """Return a system with a constant coefficient, smoothed over ``smoothing`` [rad/s]."""
     friction = torque / (FORCE * RADIUS * 10.0)
     clutch = {
-        "fidelity": "closed", "constant_friction": friction, "faces": 10,
-        "effective_radius": RADIUS, "speed_smoothing": smoothing, "friction_law": "constant",
-    }  # fmt: skip
+        "fidelity": "closed",
+        "constant_friction": friction,
+        "faces": 10,
+        "effective_radius": RADIUS,
+        "speed_smoothing": smoothing,
+        "friction_law": "constant",
+    }
     return gearbox_and_clutch(fmus, _gearbox(slip, None, gearbox), clutch)
 
 
@@ -84,10 +94,15 @@ def _gearbox(slip, ring, more):
     """Return parameters with the given slip at the start; the carrier turns at 100 rad/s or so."""
     ring = 100.0 if ring is None else ring
     return {
-        "load_torque": 0.0, "washers": 0, "clutch_force": FORCE, "drum_inertia": RING,
-        "engine_torque": ENGINE, "initial_drum_speed": ring,
-        "initial_engine_speed": ring + slip, **more,
-    }  # fmt: skip
+        "load_torque": 0.0,
+        "washers": 0,
+        "clutch_force": FORCE,
+        "drum_inertia": RING,
+        "engine_torque": ENGINE,
+        "initial_drum_speed": ring,
+        "initial_engine_speed": ring + slip,
+        **more,
+    }
 
 
 def deviation(system, master, h, n=120):
@@ -108,9 +123,13 @@ TORQUE = {"coupling": "torque"}
 
 @pytest.mark.parametrize(
     "master, judge, kappa",
-    [("gauss-seidel", dies_out, 2.0), ("gauss-seidel", keeps_its_side, 1.0),
-     ("jacobi", dies_out, 1.0), ("jacobi", keeps_its_side, 0.25)],
-)  # fmt: skip
+    [
+        ("gauss-seidel", dies_out, 2.0),
+        ("gauss-seidel", keeps_its_side, 1.0),
+        ("jacobi", dies_out, 1.0),
+        ("jacobi", keeps_its_side, 0.25),
+    ],
+)
 def test_a_held_friction_torque_limits_the_step(master, judge, kappa, fmus):
     system = at_work(fmus, SLOPE, **TORQUE)
     found = limit(system, master, kappa * OPEN / SLOPE, judge)
@@ -197,8 +216,9 @@ def test_smoothed_coulomb_friction_sets_the_step_by_its_width(judge, kappa, fmus
     system = with_coulomb(fmus, CAPACITY, 1e-3 * width, width, engine_torque=0.0, **TORQUE)
     found = last_step(
         lambda h: judge(march(system, "gauss-seidel", h, 120)["transmission.clutch_speed"]),
-        0.5 * expected, 2.0 * expected,
-    )  # fmt: skip
+        0.5 * expected,
+        2.0 * expected,
+    )
     assert found / expected == pytest.approx(1.0, abs=WITHIN)
 
 

@@ -25,7 +25,10 @@ def test_a_file_names_its_hazard_the_formula_and_the_cure(path):
 def test_a_hazard_is_met_in_the_default_run(path):
     """Marks are on single tests here, never on a file."""
     text = path.read_text("utf-8")
-    tests = [node for node in ast.parse(text).body
-             if isinstance(node, ast.FunctionDef) and node.name.startswith("test_")]  # fmt: skip
+    tests = [
+        node
+        for node in ast.parse(text).body
+        if isinstance(node, ast.FunctionDef) and node.name.startswith("test_")
+    ]
     assert "\npytestmark" not in text
     assert any(LEFT_OUT.isdisjoint(map(ast.unparse, t.decorator_list)) for t in tests)

@@ -34,8 +34,9 @@ def run(step, parts, loads=(PRESSED, 0.0, PRESSED, 0.0), **params):
 @pytest.mark.parametrize("fidelity", ["field", "fine"])
 @pytest.mark.parametrize("step", [1e-3, 0.1, 1.0])
 def test_one_step_fills_as_a_hundred_do(step, fidelity):
-    for one, many in zip(run(step, 1, fidelity=fidelity), run(step, 100, fidelity=fidelity),
-                         strict=True):  # fmt: skip
+    for one, many in zip(
+        run(step, 1, fidelity=fidelity), run(step, 100, fidelity=fidelity), strict=True
+    ):
         for name in SHOWN:
             assert one[name] == pytest.approx(many[name], rel=2e-5), name
 
@@ -67,8 +68,9 @@ def test_heat_never_comes_back_and_nothing_is_below_the_oil():
 def test_looking_ahead_over_ten_seconds_it_says_that_it_is_too_hot():
     """With inputs that run straight the heat of a step is booked in advance, at its first power."""
     first = run(10.0, 1, loads=(PRESSED,), input_course="linear")[0]
-    pack = DirectInstance(SPEC, parameters={"initial_film": 2.5e-4, "input_course": "linear",
-                                            "starts_pressed": True})  # fmt: skip
+    pack = DirectInstance(
+        SPEC, parameters={"initial_film": 2.5e-4, "input_course": "linear", "starts_pressed": True}
+    )
     pack.initialize(0.0, {"load": PRESSED, "speed": SLIP, "oil_temperature": OIL})
     pack.set_inputs([PRESSED, SLIP, OIL])
     pack.step(0.0, 10.0)

@@ -37,8 +37,10 @@ def load(way, height, direction=1.0, n=23):
 
 
 def verdicts(group):
-    return {m: dict(zip(group.hazards, (cell.verdict for cell in row), strict=True))
-            for m, row in zip(group.methods, group.cells, strict=True)}  # fmt: skip
+    return {
+        m: dict(zip(group.hazards, (cell.verdict for cell in row), strict=True))
+        for m, row in zip(group.methods, group.cells, strict=True)
+    }
 
 
 # Structure: nothing that solves imports a rival, and the defaults are the ways that do not lie.
@@ -55,9 +57,10 @@ def imported(path):
 
 def test_nothing_in_the_package_imports_a_rival():
     guilty = [
-        str(path.relative_to(PACKAGE)) for path in PACKAGE.rglob("*.py")
+        str(path.relative_to(PACKAGE))
+        for path in PACKAGE.rglob("*.py")
         if any("failures" in name for name in imported(path))
-    ]  # fmt: skip
+    ]
     assert guilty == []
 
 
@@ -157,11 +160,17 @@ def test_gauss_seidel_bears_steps_twice_as_long_as_jacobi():
 
 def test_explicit_steps_and_handed_torques_lie_at_lock_up_and_located_events_do_not():
     found = verdicts(coupling(quick=True))
-    for liar in ("explicit fixed step (Runge-Kutta 4)", "Gauss-Seidel, friction torque",
-                 "Jacobi, friction torque"):  # fmt: skip
+    for liar in (
+        "explicit fixed step (Runge-Kutta 4)",
+        "Gauss-Seidel, friction torque",
+        "Jacobi, friction torque",
+    ):
         assert set(found[liar].values()) == {LIES}
-    for honest in ("stick and slip, events located", "LSODA, smoothed friction",
-                   "BDF, smoothed friction"):  # fmt: skip
+    for honest in (
+        "stick and slip, events located",
+        "LSODA, smoothed friction",
+        "BDF, smoothed friction",
+    ):
         assert set(found[honest].values()) == {OK}
     assert found["step doubling with rollback, friction torque"]["huge step, 50 ms"] != LIES
 
@@ -243,8 +252,11 @@ def test_an_error_estimate_that_covers_the_error_is_one_too():
 def test_the_default_solver_is_no_liar_where_others_are():
     """Compiles the rival's loops for a minute."""
     found = verdicts(balance())
-    for default in ("field, the default, cold", "field, the default, warm",
-                    "steps in film thickness"):  # fmt: skip
+    for default in (
+        "field, the default, cold",
+        "field, the default, warm",
+        "steps in film thickness",
+    ):
         assert set(found[default].values()) == {OK}
     assert found["Newton, limited, cold; temperatures substituted"]["near a fold"] == LIES
     assert found["Newton, limited, cold; temperatures relaxed"]["near a fold"] == OK

@@ -73,10 +73,15 @@ def test_an_instance_of_another_scene_is_named_with_what_differs():
 
 @pytest.mark.parametrize(
     ("part", "change"),
-    [("clutch", {"fidelity": "stribeck"}), ("brake", {"friction_law": "constant"}),
-     ("transmission", {"coupling": "torque"}), ("clutch", {"starts_pressed": False}),
-     ("transmission", {"torque_age": 1.0}), ("clutch", {"roughness": 8.4100001e-6})],
-)  # fmt: skip
+    [
+        ("clutch", {"fidelity": "stribeck"}),
+        ("brake", {"friction_law": "constant"}),
+        ("transmission", {"coupling": "torque"}),
+        ("clutch", {"starts_pressed": False}),
+        ("transmission", {"torque_age": 1.0}),
+        ("clutch", {"roughness": 8.4100001e-6}),
+    ],
+)
 def test_any_other_parameter_is_found(part, change):
     made = instances(SCENE)
     made[part] = DirectInstance(

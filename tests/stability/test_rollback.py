@@ -22,8 +22,12 @@ COLD = 297.15
 
 
 def washer(rnd):
-    return [rnd.choice((1.0, 300.0, 800.0, 1100.0, 3000.0)), rnd.uniform(-900.0, 900.0),
-            rnd.choice((0.0, 1e-3, 2e-3)), rnd.uniform(260.0, 400.0)]  # fmt: skip
+    return [
+        rnd.choice((1.0, 300.0, 800.0, 1100.0, 3000.0)),
+        rnd.uniform(-900.0, 900.0),
+        rnd.choice((0.0, 1e-3, 2e-3)),
+        rnd.uniform(260.0, 400.0),
+    ]
 
 
 def pack(rnd):
@@ -35,8 +39,13 @@ def mesh(rnd):
 
 
 def gearbox(rnd):
-    return [rnd.uniform(0.0, 400.0), rnd.uniform(0.0, 400.0), rnd.uniform(0.0, 0.5),
-            rnd.uniform(0.0, 0.5), rnd.random()]  # fmt: skip
+    return [
+        rnd.uniform(0.0, 400.0),
+        rnd.uniform(0.0, 400.0),
+        rnd.uniform(0.0, 0.5),
+        rnd.uniform(0.0, 0.5),
+        rnd.random(),
+    ]
 
 
 MODELS = {
@@ -48,9 +57,12 @@ MODELS = {
     "pack, rings": (clutch_params.SPEC, pack, {"fidelity": "fine"}),
     "mesh": (gearmesh_params.SPEC, mesh, {}),
     "gearbox": (transmission_params.SPEC, gearbox, {}),
-    "gearbox, elastic": (transmission_params.SPEC, gearbox,
-                         {"shaft_stiffness": 2e4, "shaft_damping": 5.0, "vehicle_inertia": 6.0}),
-}  # fmt: skip
+    "gearbox, elastic": (
+        transmission_params.SPEC,
+        gearbox,
+        {"shaft_stiffness": 2e4, "shaft_damping": 5.0, "vehicle_inertia": 6.0},
+    ),
+}
 
 
 def begun(name, seed):

@@ -19,54 +19,112 @@ QUANTITY = {"name": "friction_torque", "kind": "relative", "unit": "1", "floor":
 
 
 def sample(label, cost, error, **other):
-    errors = {"worst": error, "rms": None if error is None else 0.4 * error,
-              "case": None if error is None else "a < b"}  # fmt: skip
+    errors = {
+        "worst": error,
+        "rms": None if error is None else 0.4 * error,
+        "case": None if error is None else "a < b",
+    }
     return {
-        "family": "rungs", "label": label, "knob": "rung", "value": label, "cases": "0",
-        "errors": {"friction_torque": errors}, "ref_uncertainty": {"friction_torque": 1e-5},
-        "call_median": cost, "call_iqr": 0.05 * cost if cost else None, "call_min": cost,
-        "repeats": 9, "first_call_s": cost, "setup_s": 1e-3, "count": 3.0, "count_of": "turns",
-        "n_cases": 2, "n_failed": 0, "failures": {}, "is_rival": False,
-        "slowest_call_s": cost, "slowest_case": "b" if cost else None,
-        "build_s": 0.0, **other,
-    }  # fmt: skip
+        "family": "rungs",
+        "label": label,
+        "knob": "rung",
+        "value": label,
+        "cases": "0",
+        "errors": {"friction_torque": errors},
+        "ref_uncertainty": {"friction_torque": 1e-5},
+        "call_median": cost,
+        "call_iqr": 0.05 * cost if cost else None,
+        "call_min": cost,
+        "repeats": 9,
+        "first_call_s": cost,
+        "setup_s": 1e-3,
+        "count": 3.0,
+        "count_of": "turns",
+        "n_cases": 2,
+        "n_failed": 0,
+        "failures": {},
+        "is_rival": False,
+        "slowest_call_s": cost,
+        "slowest_case": "b" if cost else None,
+        "build_s": 0.0,
+        **other,
+    }
 
 
 def run_of(way, step, error, **other):
-    return sample(f"{way}, {step:g} ms", 1.0 / step, error, family=way, value=f"{step:g} ms",
-                  n_cases=1, **other)  # fmt: skip
+    return sample(
+        f"{way}, {step:g} ms",
+        1.0 / step,
+        error,
+        family=way,
+        value=f"{step:g} ms",
+        n_cases=1,
+        **other,
+    )
 
 
 STUDY = {
-    "scene": "a shift", "quantities": [QUANTITY], "truth": {},
+    "scene": "a shift",
+    "quantities": [QUANTITY],
+    "truth": {},
     "samples": [
         *(run_of("second order", h, 1e-2 * h * h) for h in (2.0, 1.0, 0.5)),
-        *(run_of("chattering", h, 0.1, n_failed=1, failures={"shift": f"turns {h:g}0 times"})
-          for h in (2.0, 1.0)),
+        *(
+            run_of("chattering", h, 0.1, n_failed=1, failures={"shift": f"turns {h:g}0 times"})
+            for h in (2.0, 1.0)
+        ),
         run_of("not at all", 1.0, None, n_failed=1, failures={"shift": "does not lock"}),
     ],
-}  # fmt: skip
+}
 GROUP = {
-    "name": "films", "judged": "load off", "methods": ["good", "bad"], "hazards": ["a", "b"],
+    "name": "films",
+    "judged": "load off",
+    "methods": ["good", "bad"],
+    "hazards": ["a", "b"],
     "cells": [
-        [{"verdict": "ok", "figure": "", "words": ""},
-         {"verdict": "says", "figure": "", "words": "SINGULAR: no way"}],
-        [{"verdict": "LIES", "figure": "-20 %", "words": "load off"},
-         {"verdict": "slow", "figure": "9 sweeps", "words": ""}],
+        [
+            {"verdict": "ok", "figure": "", "words": ""},
+            {"verdict": "says", "figure": "", "words": "SINGULAR: no way"},
+        ],
+        [
+            {"verdict": "LIES", "figure": "-20 %", "words": "load off"},
+            {"verdict": "slow", "figure": "9 sweeps", "words": ""},
+        ],
     ],
-}  # fmt: skip
+}
 STABILITY = {
     "stability": [GROUP],
-    "limits": [{"loop": "held", "formula": "H < 2 J/c", "predicted": 2.0, "measured": 2.002,
-                "deviation": 1e-3}],
-    "machine": {"cpu": "a cpu", "cores": 2, "os": "an os", "python": "3", "numpy": "2",
-                "numba": "1", "load": 0.1},
-    "package": {"version": "0", "commit": "abc", "dirty": False}, "date": "today",
-}  # fmt: skip
+    "limits": [
+        {
+            "loop": "held",
+            "formula": "H < 2 J/c",
+            "predicted": 2.0,
+            "measured": 2.002,
+            "deviation": 1e-3,
+        }
+    ],
+    "machine": {
+        "cpu": "a cpu",
+        "cores": 2,
+        "os": "an os",
+        "python": "3",
+        "numpy": "2",
+        "numba": "1",
+        "load": 0.1,
+    },
+    "package": {"version": "0", "commit": "abc", "dirty": False},
+    "date": "today",
+}
 
 
-CORRECTION = {"part": "clutch: counted once", "figure": "friction", "unit": "1", "before": 0.1,
-              "after": 0.05, "recorded": True}  # fmt: skip
+CORRECTION = {
+    "part": "clutch: counted once",
+    "figure": "friction",
+    "unit": "1",
+    "before": 0.1,
+    "after": 0.05,
+    "recorded": True,
+}
 
 
 @pytest.fixture(scope="module")
@@ -74,26 +132,61 @@ def record(tmp_path_factory):
     samples = [
         sample("closed", 1e-6, 0.5),
         sample("field", 2e-4, 2e-3),
-        sample("map", 2e-6, 1e-4, setup_s=0.2, build_s=1.0, n_failed=1,
-               failures={"b": "OUTSIDE_VERIFIED"}),
+        sample(
+            "map",
+            2e-6,
+            1e-4,
+            setup_s=0.2,
+            build_s=1.0,
+            n_failed=1,
+            failures={"b": "OUTSIDE_VERIFIED"},
+        ),
         sample("exact", 1e-3, 0.0),
-        sample("old", None, None, family="2006", n_failed=2, is_rival=True,
-               failures={"a < b": "SINGULAR", "b": "SINGULAR"}),
-    ]  # fmt: skip
+        sample(
+            "old",
+            None,
+            None,
+            family="2006",
+            n_failed=2,
+            is_rival=True,
+            failures={"a < b": "SINGULAR", "b": "SINGULAR"},
+        ),
+    ]
     survey = {
-        "cases": [{"name": "a < b", "point": [300.0, 545.0, 2e-3, 297.15], "before": []},
-                  {"name": "b", "point": [200.0, 545.0, 2e-3, 297.15], "before": []}],
-        "cases_digest": "0", "cost_of": "a call [s]", "quantities": [QUANTITY], "truths": [],
+        "cases": [
+            {"name": "a < b", "point": [300.0, 545.0, 2e-3, 297.15], "before": []},
+            {"name": "b", "point": [200.0, 545.0, 2e-3, 297.15], "before": []},
+        ],
+        "cases_digest": "0",
+        "cost_of": "a call [s]",
+        "quantities": [QUANTITY],
+        "truths": [],
         "samples": samples,
-    }  # fmt: skip
+    }
     found = {
-        "schema": 1, "command": "thrustwasher chart", "date": "2026-11-21T18:00:00Z",
-        "machine": {"cpu": "a cpu", "cores": 2, "os": "an os", "python": "3", "numpy": "2",
-                    "numba": "1", "compiled": True, "threads": {}, "load": 0.1},
+        "schema": 1,
+        "command": "thrustwasher chart",
+        "date": "2026-11-21T18:00:00Z",
+        "machine": {
+            "cpu": "a cpu",
+            "cores": 2,
+            "os": "an os",
+            "python": "3",
+            "numpy": "2",
+            "numba": "1",
+            "compiled": True,
+            "threads": {},
+            "load": 0.1,
+        },
         "package": {"version": "0", "kernels": "0", "commit": "abc", "dirty": True},
-        "calibration_s": 0.01, "quick": False, "models": {"washer": survey}, "run_s": 1.0,
-        "macro_steps": STUDY, "corrections": [CORRECTION], "stability": [GROUP],
-    }  # fmt: skip
+        "calibration_s": 0.01,
+        "quick": False,
+        "models": {"washer": survey},
+        "run_s": 1.0,
+        "macro_steps": STUDY,
+        "corrections": [CORRECTION],
+        "stability": [GROUP],
+    }
     path = tmp_path_factory.mktemp("chart") / "in.json"
     path.write_text(json.dumps(found), "utf-8")
     return path
@@ -203,5 +296,10 @@ def test_a_quick_run_measures_everything_and_draws_it(tmp_path):
         assert washer["field"]["errors"][name]["worst"] < share * rival["errors"][name]["worst"]
     assert washer["field"]["n_failed"] == 0
     names = {p.name for p in tmp_path.iterdir()}
-    assert {"chart.html", "chart.md", "chart-washer.svg", "chart-shift.svg",
-            "chart-clutch.svg"} <= names  # fmt: skip
+    assert {
+        "chart.html",
+        "chart.md",
+        "chart-washer.svg",
+        "chart-shift.svg",
+        "chart-clutch.svg",
+    } <= names

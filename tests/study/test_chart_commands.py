@@ -22,8 +22,13 @@ def marks():
             for case in cases:
                 yield model, {"cases": cases}, sample, case["name"]
     for way in WAYS:
-        sample = {"family": way.name, "label": f"{way.name}, 2 ms", "knob": "macro step",
-                  "value": "2 ms", "is_rival": False}  # fmt: skip
+        sample = {
+            "family": way.name,
+            "label": f"{way.name}, 2 ms",
+            "knob": "macro step",
+            "value": "2 ms",
+            "is_rival": False,
+        }
         yield "shift", {"scene": "a shift"}, sample, "shift"
 
 
@@ -60,16 +65,31 @@ def test_each_command_of_a_chart_is_understood():
 @pytest.mark.parametrize(
     ("words", "name", "value"),
     [
-        ("gearmesh --power 21600 --speed 180 --oil-temperature 299.85 --fidelity fine",
-         "speed", 180.0),
-        ("washer --load 700 --speed 545 --tilt 0.002 --oil-temperature 297.15 --branch contact "
-         "--fidelity map", "branch", "contact"),
-        ("washer --load 700 --speed 545 --tilt 0.002 --oil-temperature 297.15 --branch contact "
-         "--grid 7x20", "branch", "contact"),
-        ('engage --load 12000 --speed 350 --oil-temperature 297.15 --ramp 0.1 --duration 0.6 '
-         '--fidelity field --step "20 ms"', "duration", 0.6),
+        (
+            "gearmesh --power 21600 --speed 180 --oil-temperature 299.85 --fidelity fine",
+            "speed",
+            180.0,
+        ),
+        (
+            "washer --load 700 --speed 545 --tilt 0.002 --oil-temperature 297.15 --branch contact "
+            "--fidelity map",
+            "branch",
+            "contact",
+        ),
+        (
+            "washer --load 700 --speed 545 --tilt 0.002 --oil-temperature 297.15 --branch contact "
+            "--grid 7x20",
+            "branch",
+            "contact",
+        ),
+        (
+            "engage --load 12000 --speed 350 --oil-temperature 297.15 --ramp 0.1 --duration 0.6 "
+            '--fidelity field --step "20 ms"',
+            "duration",
+            0.6,
+        ),
     ],
-)  # fmt: skip
+)
 def test_a_command_solves_its_case(words, name, value, capsys):
     assert f"command: thrustwasher {words}" in {lines[0] for _, lines in LINES}
     assert cli.main([*shlex.split(words), "--json"]) == 0

@@ -13,8 +13,12 @@ from thrustwasher.washer.parameters import WasherParams
 
 SPEC = spec_of("washer")
 OWN = WasherParams(roughness=5.1e-7)
-BOX = {"load": (200.0, 400.0), "speed": (520.0, 540.0), "tilt": (0.002, 0.002),
-       "oil_temperature": (297.15, 297.15)}  # fmt: skip
+BOX = {
+    "load": (200.0, 400.0),
+    "speed": (520.0, 540.0),
+    "tilt": (0.002, 0.002),
+    "oil_temperature": (297.15, 297.15),
+}
 
 
 @pytest.fixture(scope="module")
@@ -40,9 +44,8 @@ def test_choose_takes_the_map_with_its_measured_error(made):
 
 @pytest.mark.parametrize(
     ("box", "points", "said"),
-    [({"load": (1.0, 2e4)}, 60, "load"), ({"tilt": (0.002, 0.001)}, 60, "tilt"),
-     ({}, 3, "points")],
-)  # fmt: skip
+    [({"load": (1.0, 2e4)}, 60, "load"), ({"tilt": (0.002, 0.001)}, 60, "tilt"), ({}, 3, "points")],
+)
 def test_a_box_outside_the_models_range_is_refused(box, points, said):
     with pytest.raises(ParameterError, match=said):
         own_case(SPEC, OWN, box, points)

@@ -14,10 +14,13 @@ disagreements = runpy.run_path(str(CHARTS))["disagreements"]
 
 def sample(label, cost, error, *, spread=0.0, floor=1e-6, failed=0):
     return {
-        "label": label, "call_median": cost, "call_iqr": spread,
+        "label": label,
+        "call_median": cost,
+        "call_iqr": spread,
         "errors": {"torque": {"worst": error, "rms": None if error is None else 0.5 * error}},
-        "ref_uncertainty": {"torque": floor}, "n_failed": failed,
-    }  # fmt: skip
+        "ref_uncertainty": {"torque": floor},
+        "n_failed": failed,
+    }
 
 
 def labels(samples):
@@ -79,8 +82,9 @@ def test_two_runs_agree_on_every_member_outside_the_spread(measured):
 def test_a_real_change_of_cost_is_a_disagreement(measured):
     one, two = measured(0), measured(1)
     first = labels(one)[0]
-    changed = [s | {"call_median": 1e3 * s["call_median"]} if s["label"] == first else s
-               for s in two]  # fmt: skip
+    changed = [
+        s | {"call_median": 1e3 * s["call_median"]} if s["label"] == first else s for s in two
+    ]
     cheaper = sample("new", 1e-9, 1e-9)
     assert disagreements([*one, cheaper], two, "torque")
     assert disagreements(one, changed, "torque") in ([first], [])

@@ -64,9 +64,16 @@ def test_another_integrator_confirms_an_engagement():
 
 
 @pytest.mark.parametrize("preset", ["paper", None])
-@pytest.mark.parametrize("changes", [{}, {"friction_law": "iso"}, {"load_share": 0.4},
-                                     {"friction_law": "li-seireg"},
-                                     {"gear_ratio": 5.0, "pinion_teeth": 30}])  # fmt: skip
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"friction_law": "iso"},
+        {"load_share": 0.4},
+        {"friction_law": "li-seireg"},
+        {"gear_ratio": 5.0, "pinion_teeth": 30},
+    ],
+)
 def test_the_gears_quadrature_confirms_the_rung_fine(changes, preset):
     params = GearMeshParams.preset(preset or "paper", **changes)
     if preset is None:
@@ -80,11 +87,14 @@ def test_the_gears_quadrature_confirms_the_rung_fine(changes, preset):
     assert fine.film_thickness == pytest.approx(found.values["film_thickness"], rel=1e-3)
 
 
-@pytest.mark.parametrize("solve", [
-    lambda f: solve_washer(WasherParams(), **POINT, fidelity=f),
-    lambda f: solve_clutch(ClutchParams(), load=1.0, speed=1.0, fidelity=f),
-    lambda f: solve_gearmesh(GearMeshParams(), power=1.0, speed=1.0, fidelity=f),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "solve",
+    [
+        lambda f: solve_washer(WasherParams(), **POINT, fidelity=f),
+        lambda f: solve_clutch(ClutchParams(), load=1.0, speed=1.0, fidelity=f),
+        lambda f: solve_gearmesh(GearMeshParams(), power=1.0, speed=1.0, fidelity=f),
+    ],
+)
 def test_a_reference_asked_for_as_a_rung_says_where_it_is(solve):
     with pytest.raises(ParameterError, match=r"call thrustwasher\.study\.reference_\w+\.ref"):
         solve("reference")

@@ -64,9 +64,14 @@ def test_points_are_uniform_in_the_scaled_box():
 
 @pytest.mark.parametrize(
     ("model", "part"),
-    [("washer", "washer"), ("clutch", "clutch"), ("clutch", "brake"), ("gearmesh", "mesh"),
-     ("gearmesh", "ring_mesh")],
-)  # fmt: skip
+    [
+        ("washer", "washer"),
+        ("clutch", "clutch"),
+        ("clutch", "brake"),
+        ("gearmesh", "mesh"),
+        ("gearmesh", "ring_mesh"),
+    ],
+)
 def test_the_parts_of_the_default_scene_have_tables_of_their_own(model, part):
     """One speaks for clutch and brake: how a pack starts is no matter of the pack."""
     own = params_digest(load_scene("planetary").parts[part].params)
@@ -145,7 +150,7 @@ def test_classes_of_film_ratio_hold_thirty_points_and_their_worst_error():
     course = (known([1.0, 2.0], DEFAULT["washer"].point(0)), said([1.0, 2.0]))
     assert [d.axes for d in chart_of(None, [course], DEFAULT["washer"].box).divisions] == [
         ("load", "speed")
-    ]  # fmt: skip
+    ]
 
 
 def test_the_uncertainty_of_the_reference_counts_as_error():

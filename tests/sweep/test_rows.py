@@ -25,8 +25,9 @@ UP = "200:1200:200"
 def test_a_line_is_a_chain_of_warm_washers():
     table = run_sweep("washer", {"load": UP}, at={"speed": 545.0}, workers=1)
     result = None
-    for load, torque, status in zip(table["load"], table["friction_torque"], table["status"],
-                                    strict=True):  # fmt: skip
+    for load, torque, status in zip(
+        table["load"], table["friction_torque"], table["status"], strict=True
+    ):
         result = solve_washer(WasherParams(), load=load, speed=545.0, tilt=2e-3, start=result)
         assert torque == pytest.approx(result.friction_torque, rel=1e-9)
         assert status == ("DISTRESS" if result.distress else "OK")
@@ -189,8 +190,14 @@ def test_memory_does_not_grow_with_the_outputs_of_a_sweep_to_a_file(tmp_path, mo
     for n in (40, 40, 400):  # the first one loads what is needed
         over = {"power": "1 kW:30 kW:n100", "speed": f"100:300:n{n}"}
         tracemalloc.start()
-        run_sweep("gearmesh", over, fidelity="closed", out=tmp_path / f"{len(peaks)}.{suffix}",
-                  workers=1, keep=False)  # fmt: skip
+        run_sweep(
+            "gearmesh",
+            over,
+            fidelity="closed",
+            out=tmp_path / f"{len(peaks)}.{suffix}",
+            workers=1,
+            keep=False,
+        )
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
     assert peaks[2] - peaks[1] < 100 * (40_000 - 4_000)

@@ -61,8 +61,14 @@ def test_engagement_conserves_momentum_and_energy_without_outer_torques():
 def test_speed_against_a_quadratic_load_solves_its_equation():
     args = (20.0, 20.0, 10.471975512, 1.0, 10.0, 2.5)
     a = 20.0 / 2.5 / (2.5 * 10.471975512) ** 2
-    run = solve_ivp(lambda t, w: (20.0 - a * w * w) / 2.6, (0.0, 1.5), [0.0], rtol=1e-12,
-                    atol=1e-13, method="DOP853")  # fmt: skip
+    run = solve_ivp(
+        lambda t, w: (20.0 - a * w * w) / 2.6,
+        (0.0, 1.5),
+        [0.0],
+        rtol=1e-12,
+        atol=1e-13,
+        method="DOP853",
+    )
     assert speed_against_quadratic_load(1.5, *args) == pytest.approx(run.y[0, -1], rel=1e-11)
     assert np.diff([speed_against_quadratic_load(t, *args) for t in (1.0, 2.0, 50.0)]).min() > 0.0
 
@@ -80,8 +86,9 @@ def test_a_helical_planet_in_balance_is_tilted_by_a_couple_and_not_pushed_along_
     assert force[2] == 0.0
     assert force[1] == pytest.approx(f.pin_load, rel=1e-13)
     assert moment == pytest.approx([0.0, f.couple, 0.0], abs=1e-13 * f.couple)
-    assert f.couple == pytest.approx(2.0 * torque * planet / (planets * sun) * math.tan(HELIX),
-                                     rel=1e-13)  # fmt: skip
+    assert f.couple == pytest.approx(
+        2.0 * torque * planet / (planets * sun) * math.tan(HELIX), rel=1e-13
+    )
     assert f.sun_thrust == pytest.approx(torque / sun * math.tan(HELIX), rel=1e-13)
     assert f.planet_torque * planets == pytest.approx(torque * planet / sun, rel=1e-13)
 

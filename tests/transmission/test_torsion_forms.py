@@ -6,7 +6,7 @@ from closed_forms.lock_up import reduced_inertia
 from closed_forms.torsional_stability import (
     characteristic,
     damping_limit,
-)  # fmt: skip
+)
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -22,9 +22,14 @@ inertias = st.floats(0.05, 50.0)
 
 
 @given(
-    inertias, st.one_of(st.just(0.0), st.floats(0.001, 1.0)), inertias, inertias,
-    st.sampled_from(["clutch", "brake"]), st.floats(-20.0, -0.01), st.floats(100.0, 1e5),
-)  # fmt: skip
+    inertias,
+    st.one_of(st.just(0.0), st.floats(0.001, 1.0)),
+    inertias,
+    inertias,
+    st.sampled_from(["clutch", "brake"]),
+    st.floats(-20.0, -0.01),
+    st.floats(100.0, 1e5),
+)
 def test_the_mode_neither_grows_nor_decays_at_the_limit(
     sun, ring, carrier, vehicle, pack, slope, stiffness
 ):

@@ -44,8 +44,11 @@ SOLVED = {
 WANTED = {"field": (5e-3, 0.05, 0.1, 0.01), "fine": (2.5e-3, 0.05, 0.1, 4e-3)}
 OWN_ERROR = 1e-3  # of the numbers themselves
 # share of the heat that leaves with the oil, its flow l/min, its rise K
-CARRIED = {"full film": (0.45, 0.382, 10.0), "transition": (0.13, 0.054, 1.3),
-           "boundary": (0.11, 0.046, 40.0)}  # fmt: skip
+CARRIED = {
+    "full film": (0.45, 0.382, 10.0),
+    "transition": (0.13, 0.054, 1.3),
+    "boundary": (0.11, 0.046, 40.0),
+}
 # film lost and regained at 545 rad/s [N], without and with pressure flow
 LOADS = {
     "rings": (FRAMED, (865.5, 504.8), (853.7, 504.0)),

@@ -35,10 +35,12 @@ def add_inputs(parser: argparse.ArgumentParser, inputs: "Iterable[Signal]") -> N
     for signal in inputs:
         span = f"{signal.low:g} .. {signal.high:g} {signal.unit}"
         group.add_argument(
-            option_name(signal.name), dest=signal.name, metavar="QUANTITY",
+            option_name(signal.name),
+            dest=signal.name,
+            metavar="QUANTITY",
             help=f"{signal.help} [{signal.unit}]; {span}, default {signal.usual:g}, moved into the "
             "part's [box]",
-        )  # fmt: skip
+        )
 
 
 def read_inputs(arguments: argparse.Namespace, inputs: "Iterable[Signal]") -> dict[str, Any]:
@@ -55,8 +57,10 @@ def doubts(arguments: argparse.Namespace, inputs: "Iterable[Signal]") -> list[st
         bare = text is not None and s.unit == "rad/s" and re.fullmatch(r"\s*[+-]?[\d.]+\s*", text)
         if bare and abs(float(text)) >= LIKELY_RPM:
             rpm = parse_quantity(f"{text} rpm", s.unit, s.name)
-            found.append(f"{s.name} = {text} without a unit is in rad/s; did you mean {rpm:.6g} "
-                         f"rad/s ({float(text):g} rpm)? Write the unit")  # fmt: skip
+            found.append(
+                f"{s.name} = {text} without a unit is in rad/s; did you mean {rpm:.6g} "
+                f"rad/s ({float(text):g} rpm)? Write the unit"
+            )
     return found
 
 
@@ -75,14 +79,21 @@ def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:
     first = next(iter(names))
     example = "roughness=4e-7" if "roughness" in names else f"{first}={names[first]}"
     group.add_argument(
-        "--set", dest="settings", metavar="NAME=VALUE", action="append", default=[],
+        "--set",
+        dest="settings",
+        metavar="NAME=VALUE",
+        action="append",
+        default=[],
         help=f"change a parameter, e.g. --set {example}; may be repeated",
-    )  # fmt: skip
+    )
     add_oil(group)
     group.add_argument(
-        "--parameters", action=_ListParameters, nargs=0, const=spec,
+        "--parameters",
+        action=_ListParameters,
+        nargs=0,
+        const=spec,
         help=f"list the parameters of {spec.name} with default, unit and range, and stop",
-    )  # fmt: skip
+    )
 
 
 def add_start(group: Any, presets: Mapping[str, PartFile]) -> None:

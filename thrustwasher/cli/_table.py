@@ -76,8 +76,10 @@ def _lines(path: str) -> list[tuple[int, str]]:
 
 def _cells(line: str, separator: str) -> list[str]:
     """Return the cells of a line without empty ones at its end, as spreadsheets leave them."""
-    cells = [cell.strip() for cell in next(csv.reader([line], delimiter=separator,
-                                                      skipinitialspace=True))]  # fmt: skip
+    cells = [
+        cell.strip()
+        for cell in next(csv.reader([line], delimiter=separator, skipinitialspace=True))
+    ]
     while cells and not cells[-1]:
         cells.pop()
     return cells
@@ -95,11 +97,13 @@ def _find(
         if match is None or name not in units:
             hint = suggestion(
                 name, set(units) - {*found}, "did you mean {}? ", likeness=0.6 if strict else 0.75
-            )  # fmt: skip
+            )
             if cell and not cell.startswith("_"):
                 if strict or hint:
-                    raise ParameterError(f"{path}: column {cell!r} is not known; {hint}begin its "
-                                         "name with _ to pass it over")  # fmt: skip
+                    raise ParameterError(
+                        f"{path}: column {cell!r} is not known; {hint}begin its "
+                        "name with _ to pass it over"
+                    )
                 passed.append(cell)
             continue
         if name in found:

@@ -98,11 +98,16 @@ def run(arguments: argparse.Namespace) -> int:
             if problem := build_missing(part, tolerance, _output.time_left):
                 _output.note(problem)
     paths = build(
-        arguments.models or None, target=arguments.target, fmi=arguments.fmi, out=folder,
-        platforms=chosen_platforms(arguments.platforms, arguments.target), note=_output.note,
-        maps=not arguments.no_maps, terminals=arguments.terminals,
+        arguments.models or None,
+        target=arguments.target,
+        fmi=arguments.fmi,
+        out=folder,
+        platforms=chosen_platforms(arguments.platforms, arguments.target),
+        note=_output.note,
+        maps=not arguments.no_maps,
+        terminals=arguments.terminals,
         oil=arguments.oil,
-    )  # fmt: skip
+    )
     specs = [spec for spec in _specs(arguments.models, parts) if oil and oil.parameters_for(spec)]
     if oil:
         _output.note(oil.words(*specs))

@@ -17,8 +17,12 @@ from . import _options, _output, _table
 
 HELP = "fit parameters of a model to measured outputs, or the clutch's friction law to friction"
 LAW_UNITS = {
-    "speed": "rad/s", "load": "N", "friction": "1", "friction_error": "1", "oil_temperature": "K",
-}  # fmt: skip
+    "speed": "rad/s",
+    "load": "N",
+    "friction": "1",
+    "friction_error": "1",
+    "oil_temperature": "K",
+}
 LAW_OPTIONAL = ("friction_error", "oil_temperature")
 FIGURE = "thrustwasher.report.model_plots.fit_plot:calibration_figure"
 MISFIT = 25.0  # reduced chi-square from which a fit is none: five errors on average
@@ -75,9 +79,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--fidelity", metavar="RUNG", help="rung of the model, default the part's")
     _options.add_oil(parser)
     _output.add_targets(
-        parser, plot="draw points, fit and residuals", instead="sentences",
+        parser,
+        plot="draw points, fit and residuals",
+        instead="sentences",
         out="part file to write with the fitted values (.toml); never over one",
-    )  # fmt: skip
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -159,8 +165,9 @@ def _doubts(found: Any) -> list[str]:
     lines = [
         f"{e.name} = {format_quantity(e.value, e.unit)} is at its {e.at_bound} bound: "
         "the points ask for more; check their units and signs, or give --bounds"
-        for e in found.estimates if e.at_bound
-    ]  # fmt: skip
+        for e in found.estimates
+        if e.at_bound
+    ]
     reduced = found.reduced_chi_square or 0.0
     if reduced > MISFIT:
         lines.append(
@@ -189,9 +196,12 @@ def _of_model(arguments: argparse.Namespace, part: PartFile, data: str) -> dict[
         place = find_place(name, known, part.spec)
         bounds[name] = tuple(place.check(end) for end in ends)
     return {
-        "data": columns, "bounds": bounds, "fidelity": arguments.fidelity or part.fidelity,
-        "errors": given["error"], "at": given["set"],
-    }  # fmt: skip
+        "data": columns,
+        "bounds": bounds,
+        "fidelity": arguments.fidelity or part.fidelity,
+        "errors": given["error"],
+        "at": given["set"],
+    }
 
 
 def _write(target: Path, part: PartFile, found: Any, data: str) -> None:

@@ -15,12 +15,24 @@ from . import _options, _output
 HELP = "trace the washer's load curve with the folds where the film is lost and regained"
 INPUTS = [signal for signal in SPEC.inputs if signal.name != "load"]
 COLUMNS = {
-    "load": "N", "film_ratio": "1", "film_thickness": "m", "friction_torque": "N.m",
-    "friction_coefficient": "1", "temperature": "K", "temperature_max": "K", "fluid_load": "N",
-    "contact_load": "N", "friction_power": "W", "oil_flow": "m3/s", "throughflow_heat": "W",
-    "oil_heat": "W", "oil_outlet_temperature": "K", "film_temperature": "K", "stick_margin": "1",
+    "load": "N",
+    "film_ratio": "1",
+    "film_thickness": "m",
+    "friction_torque": "N.m",
+    "friction_coefficient": "1",
+    "temperature": "K",
+    "temperature_max": "K",
+    "fluid_load": "N",
+    "contact_load": "N",
+    "friction_power": "W",
+    "oil_flow": "m3/s",
+    "throughflow_heat": "W",
+    "oil_heat": "W",
+    "oil_outlet_temperature": "K",
+    "film_temperature": "K",
+    "stick_margin": "1",
     "branch": "",
-}  # fmt: skip
+}
 COMMAND = find_model("washer").command
 GRID = [option for option in COMMAND.options if option.name == "grid"] if COMMAND else []
 TABLE = ("load", "film_ratio", "friction_torque", "friction_coefficient", "temperature", "branch")
@@ -32,9 +44,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_inputs(parser, INPUTS)
     parser.add_argument(
-        "--load", metavar="LOW:HIGH", help="ends of the curve [N], 1 .. 10000; default 20:3000, "
-        "wider if the part's [box] is",
-    )  # fmt: skip
+        "--load",
+        metavar="LOW:HIGH",
+        help="ends of the curve [N], 1 .. 10000; default 20:3000, wider if the part's [box] is",
+    )
     _options.add_parameters(parser, SPEC)
     _options.add_options(parser, GRID)
     _output.add_targets(parser, out="write the points as CSV", plot="draw the curve with its folds")
@@ -62,13 +75,18 @@ def run(arguments: argparse.Namespace) -> int:
     targets.write(COLUMNS, series)
     targets.draw("thrustwasher.report.model_plots.washer_plots:curve_figure", curve, point)
     if arguments.json:
-        _output.print_json({
-            "points": [_output.scalars(p) for p in curve.points],
-            "folds": [_output.scalars(f) for f in curve.folds], "warnings": warnings,
-            "taken": {"box": there.box, "default": there.default}, **point,
-            "parameters": _output.parameters_of(params), "wall_time": wall_time,
-            **_options.oil_record(part),
-        })  # fmt: skip
+        _output.print_json(
+            {
+                "points": [_output.scalars(p) for p in curve.points],
+                "folds": [_output.scalars(f) for f in curve.folds],
+                "warnings": warnings,
+                "taken": {"box": there.box, "default": there.default},
+                **point,
+                "parameters": _output.parameters_of(params),
+                "wall_time": wall_time,
+                **_options.oil_record(part),
+            }
+        )
         return 0
     if there.taken:
         print(there.taken)

@@ -13,13 +13,35 @@ from . import _options, _output
 
 HELP = "engage a wet pack: torque, film and interface temperature over time"
 COLUMNS = {
-    "time": "s", "load": "N", "speed": "rad/s", "friction_torque": "N.m", "contact_torque": "N.m",
-    "viscous_torque": "N.m", "torque_capacity": "N.m", "temperature": "K", "film_thickness": "m",
-    "film_ratio": "1", "friction_coefficient": "1", "contact_share": "1", "friction_power": "W",
-    "heat_flux": "W/m2", "energy": "J", "oil_heat": "W", "stored_heat": "J", "regime": "",
-}  # fmt: skip
-TABLE = ("time", "load", "speed", "friction_torque", "viscous_torque", "temperature", "film_ratio",
-         "regime")  # fmt: skip
+    "time": "s",
+    "load": "N",
+    "speed": "rad/s",
+    "friction_torque": "N.m",
+    "contact_torque": "N.m",
+    "viscous_torque": "N.m",
+    "torque_capacity": "N.m",
+    "temperature": "K",
+    "film_thickness": "m",
+    "film_ratio": "1",
+    "friction_coefficient": "1",
+    "contact_share": "1",
+    "friction_power": "W",
+    "heat_flux": "W/m2",
+    "energy": "J",
+    "oil_heat": "W",
+    "stored_heat": "J",
+    "regime": "",
+}
+TABLE = (
+    "time",
+    "load",
+    "speed",
+    "friction_torque",
+    "viscous_torque",
+    "temperature",
+    "film_ratio",
+    "regime",
+)
 WIDTH = 18
 TIMES = ("duration", "ramp", "step")
 LONGEST = 3600.0  # s
@@ -65,9 +87,11 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         inputs = {**times, **{n: point[n] for n in ("oil_temperature", "drum_speed")}}
         given = {
-            "parameters": _output.parameters_of(params), "warnings": warnings,
-            "taken": {"box": there.box, "default": there.default}, **_options.oil_record(part),
-        }  # fmt: skip
+            "parameters": _output.parameters_of(params),
+            "warnings": warnings,
+            "taken": {"box": there.box, "default": there.default},
+            **_options.oil_record(part),
+        }
         _output.print_json({**result.as_dict(), **inputs, **given, "wall_time": wall_time})
         return 0
     if there.taken:
@@ -116,10 +140,14 @@ def _engage(params: Any, point: dict[str, float], times: dict[str, float], rung:
         t = t if near.any() else np.sort(np.append(t, times["ramp"]))
     rise = np.minimum(t / times["ramp"], 1.0) if times["ramp"] > 0.0 else np.ones_like(t)
     return engage_clutch(
-        params, time=t, load=point["load"] * rise, fidelity=rung,
+        params,
+        time=t,
+        load=point["load"] * rise,
+        fidelity=rung,
         speed=point["speed"] * (1.0 - t / times["duration"]),
-        oil_temperature=point["oil_temperature"], drum_speed=point["drum_speed"],
-    )  # fmt: skip
+        oil_temperature=point["oil_temperature"],
+        drum_speed=point["drum_speed"],
+    )
 
 
 def _print_summary(result: Any) -> None:

@@ -14,9 +14,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     models = ", ".join(m.key for m in all_models() if m.explore)
     parser.add_argument(
-        "subject", nargs="?", default=USUAL, metavar="PART.toml|MODEL",
+        "subject",
+        nargs="?",
+        default=USUAL,
+        metavar="PART.toml|MODEL",
         help=f"part file, or model with its defaults: {models}; default {USUAL}",
-    )  # fmt: skip
+    )
     parser.add_argument("--preset", help="preset of the model, `thrustwasher part list` names them")
     _options.add_oil(parser)
     parser.add_argument(

@@ -37,15 +37,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="held-out points of the check, default 60",
     )
     parser.add_argument("--json", action="store_true", help="one JSON object instead of words")
-    parser.add_argument("--tol", "--tolerance", dest="tolerance", metavar="X",
-                        help="relative error of the torque allowed, default 0.005")  # fmt: skip
+    parser.add_argument(
+        "--tol",
+        "--tolerance",
+        dest="tolerance",
+        metavar="X",
+        help="relative error of the torque allowed, default 0.005",
+    )
     parser.add_argument("--workers", type=int, metavar="N", help="processes; default: all cores")
     group = parser.add_argument_group("box of a map to build: LOW:HIGH, or one value to fix")
     for signal in INPUTS:
         group.add_argument(
-            _options.option_name(signal.name), dest=signal.name, metavar="LOW:HIGH",
+            _options.option_name(signal.name),
+            dest=signal.name,
+            metavar="LOW:HIGH",
             help=f"{signal.help} [{signal.unit}]",
-        )  # fmt: skip
+        )
     _options.add_parameters(parser, SPEC)
 
 
@@ -74,8 +81,11 @@ def _build(arguments: argparse.Namespace) -> int:
     out = _output.check_file(arguments.out or usual, "--out", (".twm",))
     part = _options.read_part(arguments, SPEC)
     params, box = part.params, dict(part.box)
-    box |= {s.name: _span(getattr(arguments, s.name), s.name, s.unit)
-            for s in INPUTS if getattr(arguments, s.name)}  # fmt: skip
+    box |= {
+        s.name: _span(getattr(arguments, s.name), s.name, s.unit)
+        for s in INPUTS
+        if getattr(arguments, s.name)
+    }
 
     from ..ladder.own_tables import serves
     from ..native.files import write
@@ -86,9 +96,16 @@ def _build(arguments: argparse.Namespace) -> int:
     tolerance = TOLERANCE
     if arguments.tolerance is not None:
         tolerance = parse_quantity(arguments.tolerance, "1", "tolerance")
-    card = make_map(params, Path(out), box=box, tolerance=tolerance, fidelity=arguments.fidelity,
-                    workers=arguments.workers, points=arguments.points,
-                    progress=_output.time_left)  # fmt: skip
+    card = make_map(
+        params,
+        Path(out),
+        box=box,
+        tolerance=tolerance,
+        fidelity=arguments.fidelity,
+        workers=arguments.workers,
+        points=arguments.points,
+        progress=_output.time_left,
+    )
     if left := [s for s in INPUTS if s.name not in box]:
         spans = (f"{s.name} = {range_text(s, DEFAULT_BOX[s.name])}" for s in left)
         _output.note(f"taken by default: {', '.join(spans)}")
@@ -142,9 +159,13 @@ def _check(arguments: argparse.Namespace) -> int:
         raise ParameterError(f"map = {arguments.file!r}: its card names no parameters") from None
     with runner(arguments.workers or 1) as run:
         verdict = check_map(
-            params, arguments.file, points=arguments.points, grid=mesh_of(file.card), run=run,
+            params,
+            arguments.file,
+            points=arguments.points,
+            grid=mesh_of(file.card),
+            run=run,
             progress=_output.time_left("held-out points"),
-        )  # fmt: skip
+        )
     card = {**file.card, "held_out": asdict(verdict)}
     _show(card, arguments.file, arguments.json)
     return 0
@@ -164,10 +185,14 @@ def _show(card: dict[str, Any], path: str, as_json: bool) -> None:
     print(f"{path}: {box}")
     finer = ""
     if card.get("finer_lines"):
-        finer = (f", {card['finer_lines']} on a finer one (the torque was up to "
-                 f"{card['mesh_made_good']:.1%} off without them)")  # fmt: skip
-    print(f"  tolerance {card['tolerance']:g}: {card['lines']} curves on the {card['built_from']} "
-          f"mesh{finer}, {card['build_s']:g} s with {card['workers']} processes")  # fmt: skip
+        finer = (
+            f", {card['finer_lines']} on a finer one (the torque was up to "
+            f"{card['mesh_made_good']:.1%} off without them)"
+        )
+    print(
+        f"  tolerance {card['tolerance']:g}: {card['lines']} curves on the {card['built_from']} "
+        f"mesh{finer}, {card['build_s']:g} s with {card['workers']} processes"
+    )
     held = card["held_out"]
     if held:
         nodes = "{} x {} nodes".format(*mesh_of(card))

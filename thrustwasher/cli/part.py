@@ -100,19 +100,28 @@ def _told(arguments: argparse.Namespace, path: Path, part: PartFile, words: str)
     warnings = [*kept_warnings(part), *idle, *part.oil_warnings]
     _output.warn(warnings)
     if arguments.json:
-        _output.print_json({
-            "file": str(path), "model": part.spec.key, "name": part.name, "box": part.box,
-            "fidelity": part.fidelity, "parameters": _output.parameters_of(part.params),
-            "warnings": warnings, "oil": part.oil and part.oil.as_dict(part.spec),
-        })  # fmt: skip
+        _output.print_json(
+            {
+                "file": str(path),
+                "model": part.spec.key,
+                "name": part.name,
+                "box": part.box,
+                "fidelity": part.fidelity,
+                "parameters": _output.parameters_of(part.params),
+                "warnings": warnings,
+                "oil": part.oil and part.oil.as_dict(part.spec),
+            }
+        )
         return
     if not warnings:
         words = words.replace(": allowed", ": sound")
     plain, own = part.spec.params(), part.params
     changed = [n for n in part.parameters if getattr(plain, n) != getattr(own, n)]
     given = f"{len(changed)} parameters not at their defaults" if changed else "all at the defaults"
-    print(f"{words}: {part.name}, {part.spec.name}, {given}{': ' * bool(changed)}"
-          + ", ".join(changed))  # fmt: skip
+    print(
+        f"{words}: {part.name}, {part.spec.name}, {given}{': ' * bool(changed)}"
+        + ", ".join(changed)
+    )
     if part.oil:
         print(part.oil_words)
 

@@ -15,8 +15,19 @@ from . import _compare, _options, _output
 from .build import chosen_platforms
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
-OF_A_RUN = ("scene", "compare", "no_report", "step", "master", "master_tolerance", "fidelity",
-            "no_guard", "ssp", "platforms", "oil")  # fmt: skip
+OF_A_RUN = (
+    "scene",
+    "compare",
+    "no_report",
+    "step",
+    "master",
+    "master_tolerance",
+    "fidelity",
+    "no_guard",
+    "ssp",
+    "platforms",
+    "oil",
+)
 REPORT, TABLE, FOLDER = "report.html", "shift.csv", "shift-report"
 
 
@@ -176,8 +187,9 @@ def _shifts(arguments: argparse.Namespace, scene: Any) -> Any:
     with _fmu_instances(scene, arguments.fmu) as make:
         _get_ready(arguments)
         instances = {name: make(name, part) for name, part in scene.parts.items()}
-        return run_sequence(scene, instances, guard=not arguments.no_guard,
-                            progress=_progress(scene))  # fmt: skip
+        return run_sequence(
+            scene, instances, guard=not arguments.no_guard, progress=_progress(scene)
+        )
 
 
 def _check_sequence(arguments: argparse.Namespace, scene: Any) -> None:
@@ -190,8 +202,10 @@ def _check_sequence(arguments: argparse.Namespace, scene: Any) -> None:
 def _check_rungs(scene: Any, where: str) -> None:
     """Refuse a fidelity that is still to be chosen."""
     if open_ := [name for name, part in scene.parts.items() if part.tolerance]:
-        raise ParameterError(f"fidelity of {', '.join(open_)} = auto, allowed {where}: a rung by "
-                             "name (--fidelity PART=RUNG)")  # fmt: skip
+        raise ParameterError(
+            f"fidelity of {', '.join(open_)} = auto, allowed {where}: a rung by "
+            "name (--fidelity PART=RUNG)"
+        )
 
 
 def _progress(scene: Any) -> Callable[[int, int], None] | None:
@@ -226,8 +240,9 @@ def _say_sequence(result: Any) -> None:
     from ..report.shift import summary
 
     oil = result.oil_temperature - 273.15
-    print(f"{result.scene.title}: {len(result.shifts)} shifts, oil {oil[0]:.1f} .. {oil[-1]:.1f} "
-          "degC")  # fmt: skip
+    print(
+        f"{result.scene.title}: {len(result.shifts)} shifts, oil {oil[0]:.1f} .. {oil[-1]:.1f} degC"
+    )
     for shift, (_, way) in zip(result.shifts, result.scene.sequence.shifts, strict=True):
         lock, heat = (shift.figures[name] for name in ("lock_after_ramp_start", "slip_energy"))
         locked = "does not lock" if lock is None else f"locks {lock:.3f} s after the shift began"

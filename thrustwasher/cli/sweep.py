@@ -86,10 +86,17 @@ def run(arguments: argparse.Namespace) -> int:
 
     began = time.perf_counter()
     table = run_sweep(
-        part, over, at=at, points=points, fidelity=arguments.fidelity, out=out,
-        workers=_workers(arguments.workers), cluster=arguments.cluster,
-        progress=_progress(spec), keep=False,
-    )  # fmt: skip
+        part,
+        over,
+        at=at,
+        points=points,
+        fidelity=arguments.fidelity,
+        out=out,
+        workers=_workers(arguments.workers),
+        cluster=arguments.cluster,
+        progress=_progress(spec),
+        keep=False,
+    )
     for said in filter(None, [table.choice, table.taken]):
         _output.note(said)
     _options.tell_oil(part)

@@ -35,9 +35,11 @@ class PackCourse:
     def advance(self, course: Course, duration: float) -> int:
         """Go along a stretch; return the number of substeps."""
         power = self.out[k.O_POWER] / self.par[k.P_FACES]
-        self.status = int(clutch_advance.advance(
-            self.par, course, duration, power, self.work[k.W_PROPOSED], self.work
-        ))  # fmt: skip
+        self.status = int(
+            clutch_advance.advance(
+                self.par, course, duration, power, self.work[k.W_PROPOSED], self.work
+            )
+        )
         return int(self.work[k.W_SUBSTEPS])
 
     def show(self, load: float, slip: float, drum: float, duration: float = 0.0) -> Array:
@@ -161,7 +163,11 @@ def engage_clutch(
     hottest = float(columns["temperature"].max())
     status = Status.HOT if hottest > k.HOT_LIMIT else Status.OK
     return Engagement(
-        time=points, load=forces, speed=slips, **columns, substeps=substeps,
+        time=points,
+        load=forces,
+        speed=slips,
+        **columns,
+        substeps=substeps,
         fidelity=rung_named(SPEC, fidelity),
         regime=[
             stages[pack_friction.regime_of(par, u, slip) - 1]
@@ -172,4 +178,4 @@ def engage_clutch(
             *doubts_of_pack(params, fidelity),
             *pack_warnings(status, float(columns["film_ratio"].min()), hottest, hottest),
         ),
-    )  # fmt: skip
+    )

@@ -56,16 +56,20 @@ def _table_speed(value: float, place: int) -> Any:
 
 def _rising(place: int) -> Rule:
     last = f"{{table_speed_{place - 1}}}" if place > 1 else "0.0"
-    return Rule(f"table_speed_{place} = {{table_speed_{place}}} m/s, allowed: above {last} m/s "
-                "(the points of the table rise)")  # fmt: skip
+    return Rule(
+        f"table_speed_{place} = {{table_speed_{place}}} m/s, allowed: above {last} m/s "
+        "(the points of the table rise)"
+    )
 
 
 RULES = (
     Rule("inner_radius = {inner_radius} m, allowed: below outer_radius ({outer_radius} m)"),
     *(_rising(place) for place in range(1, N_TABLE + 1)),
-    Rule("groove_width = {groove_width} m, allowed: below pi (inner_radius + outer_radius)"
-         "/groove_count, the distance of {groove_count} grooves at the mean radius"),
-)  # fmt: skip
+    Rule(
+        "groove_width = {groove_width} m, allowed: below pi (inner_radius + outer_radius)"
+        "/groove_count, the distance of {groove_count} grooves at the mean radius"
+    ),
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -212,10 +216,13 @@ class ClutchParams:
         read_by=WITH_FILM,
     )
     oil_flow: float = quantity(
-        1e-3 / 60.0, "m3/s", 0.0, 1.0,
+        1e-3 / 60.0,
+        "m3/s",
+        0.0,
+        1.0,
         "oil fed to the pack; limits its drag and cooling (0: as much as it takes)",
         belongs_to=("inner_radius", "outer_radius", "faces"),
-    )  # fmt: skip
+    )
     oil_density: float = quantity(850.0, "kg/m3", 500.0, 1500.0, "density of the oil")
     oil_heat_capacity: float = quantity(
         2050.0, "J/(kg.K)", 500.0, 5000.0, "heat capacity of the oil"
@@ -242,9 +249,12 @@ class ClutchParams:
         0.1, "rad/s", 1e-6, 100.0, "slip over which friction_torque passes through zero"
     )
     input_course: str = choice(
-        "held", INPUT_COURSES, "InputCourse", "what load and slip do between two steps",
+        "held",
+        INPUT_COURSES,
+        "InputCourse",
+        "what load and slip do between two steps",
         of_a_run=True,
-    )  # fmt: skip
+    )
 
     def __post_init__(self) -> None:
         check_ranges(self)

@@ -169,10 +169,15 @@ def _part(par: Any, load: float, slip: float, drum: float, oil: float, ratio: fl
     temperature, status, rounds = steady.steady_temperature(par, load, slip, drum, oil, ratio)
     contact, viscous, _ = steady.steady_torques(par, load, slip, drum, ratio, temperature)
     return SteadyPack(
-        float(contact), float(viscous), float(temperature), float(temperature),
+        float(contact),
+        float(viscous),
+        float(temperature),
+        float(temperature),
         float(pack_friction.coefficient_slopes(par, slip, temperature)[0]),
-        float(pack_friction.shear_slopes(par, slip, temperature)[0]), int(status), int(rounds),
-    )  # fmt: skip
+        float(pack_friction.shear_slopes(par, slip, temperature)[0]),
+        int(status),
+        int(rounds),
+    )
 
 
 def solve_clutch(
@@ -305,17 +310,29 @@ def pack_warnings(
 
 
 def walk_steady(
-    spec: ModelSpec, params: ClutchParams, fidelity: str, inputs: Array, numbers: Array,
+    spec: ModelSpec,
+    params: ClutchParams,
+    fidelity: str,
+    inputs: Array,
+    numbers: Array,
     flags: NDArray[np.int32],
-) -> None:  # fmt: skip
+) -> None:
     """Fill the rows of a sweep's line with the steady state of a pack that slips."""
     regimes = {name: i for i, name in enumerate(REGIMES, 1)}
     left_out = find_model(spec.key).sweep.not_shown
     names = [name for name in spec.real_outputs if name not in left_out]
     result = None
     for (load, speed, oil, drum), row, flag in zip(inputs.tolist(), numbers, flags, strict=True):
-        result = solve_clutch(params, load=load, speed=speed, oil_temperature=oil, drum_speed=drum,
-                              fidelity=fidelity, start=result, throw=False)  # fmt: skip
+        result = solve_clutch(
+            params,
+            load=load,
+            speed=speed,
+            oil_temperature=oil,
+            drum_speed=drum,
+            fidelity=fidelity,
+            start=result,
+            throw=False,
+        )
         row[:] = [getattr(result, name) for name in names]
         flag[0], flag[-1] = regimes[result.regime], result.status
         if result.status.is_failure:

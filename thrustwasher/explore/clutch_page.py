@@ -17,8 +17,14 @@ from .view import Picture, View, numbers_of
 POINTS, HANDLES = 248, 9  # a point at every handle
 LARGEST, RISING = 5000.0, 0.25  # N; share of the time in which the load rises to it at the start
 RAMP = [LARGEST * min(i / (HANDLES - 1) / RISING, 1.0) for i in range(HANDLES)]
-DURATION = Signal(name="duration", unit="s", help="time from the start to zero slip",
-                  low=1e-3, high=3600.0, start=0.5)  # fmt: skip
+DURATION = Signal(
+    name="duration",
+    unit="s",
+    help="time from the start to zero slip",
+    low=1e-3,
+    high=3600.0,
+    start=0.5,
+)
 USUAL = {SPEED.name: 100.0, OIL.name: 353.15}
 
 
@@ -26,22 +32,29 @@ def _course(params: Any, point: Mapping[str, float], rung: str) -> Engagement:
     end, rest = point["duration"], {n: point[n] for n in (OIL.name, DRUM.name)}
     time = np.linspace(0.0, end, POINTS + 1)
     return engage_clutch(
-        params, time=time, load=np.interp(time, np.linspace(0.0, end, HANDLES), RAMP),
-        speed=point["speed"] * (1.0 - time / end), fidelity=rung, **rest,
-    )  # fmt: skip
+        params,
+        time=time,
+        load=np.interp(time, np.linspace(0.0, end, HANDLES), RAMP),
+        speed=point["speed"] * (1.0 - time / end),
+        fidelity=rung,
+        **rest,
+    )
 
 
 def _result(params: Any, point: Mapping[str, float], rung: str) -> Any:
     c = _course(params, point, rung)
     thin = np.flatnonzero(c.film_ratio < 1.0)
     return SimpleNamespace(
-        course=c, friction_torque_max=float(np.abs(c.friction_torque).max()),
+        course=c,
+        friction_torque_max=float(np.abs(c.friction_torque).max()),
         power_max=float(np.abs(c.friction_power).max()),
-        temperature_max=float(c.temperature.max()), film_ratio_min=float(c.film_ratio.min()),
-        heat_flux_max=float(c.heat_flux.max()), energy=float(c.energy[-1]),
+        temperature_max=float(c.temperature.max()),
+        film_ratio_min=float(c.film_ratio.min()),
+        heat_flux_max=float(c.heat_flux.max()),
+        energy=float(c.energy[-1]),
         stored_heat=float(c.stored_heat[-1]),
         boundary_from=float(c.time[thin[0]]) if thin.size else float("nan"),
-    )  # fmt: skip
+    )
 
 
 def _pictures(_params: Any, result: Any, _point: Mapping[str, float]) -> list[Picture]:
@@ -52,13 +65,27 @@ def _pictures(_params: Any, result: Any, _point: Mapping[str, float]) -> list[Pi
 VIEW = View(
     worker="clutch_worker",
     page="clutch_view",
-    calls=("broken_rule", "derive", "load_memory", "settle_film", "advance", "fill_outputs",
-           "mean_surface", "stored_heat"),
+    calls=(
+        "broken_rule",
+        "derive",
+        "load_memory",
+        "settle_film",
+        "advance",
+        "fill_outputs",
+        "mean_surface",
+        "stored_heat",
+    ),
     layout=numbers_of(layout, HOT=Status.HOT),
     rungs={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.rungs},
     main=("faces", "roughness", "initial_film", "permeability", "steel_thickness"),
-    figures=("friction_torque_max", "temperature_max", "energy", "power_max", "film_ratio_min",
-             "boundary_from"),
+    figures=(
+        "friction_torque_max",
+        "temperature_max",
+        "energy",
+        "power_max",
+        "film_ratio_min",
+        "boundary_from",
+    ),
     solve="engage_clutch",
     params="ClutchParams",
     pictures=_pictures,
@@ -77,6 +104,11 @@ VIEW = View(
     },
     card_point=lambda point: {**point, "load": LARGEST},
     more={"ramp": RAMP, "largest_load": LOAD.high, "points": POINTS},
-    spans={"speed": (0.0, 600.0), "drum_speed": (-600.0, 600.0), "duration": (0.05, 5.0),
-           "oil_temperature": (253.15, 423.15), "permeability": (1e-15, 1e-10)},
-)  # fmt: skip
+    spans={
+        "speed": (0.0, 600.0),
+        "drum_speed": (-600.0, 600.0),
+        "duration": (0.05, 5.0),
+        "oil_temperature": (253.15, 423.15),
+        "permeability": (1e-15, 1e-10),
+    },
+)

@@ -28,13 +28,20 @@ def outputs_of(model: Model, view: View) -> dict[str, dict[str, Any]]:
     """Return what is known of each of the API's results: unit, meaning, an enumeration's names."""
     found: dict[str, dict[str, Any]] = {}
     if view.outputs:
-        return {name: {"kind": "real", "relative": False, "unit": unit, "help": words}
-                for name, (unit, words) in view.outputs.items()}  # fmt: skip
+        return {
+            name: {"kind": "real", "relative": False, "unit": unit, "help": words}
+            for name, (unit, words) in view.outputs.items()
+        }
     assert model.command is not None
     result = get_type_hints(resolve(model.command.solve))["return"]
     for s in (s for s in model.spec.outputs if hasattr(result, s.name)):
-        found[s.name] = {"unit": s.unit, "help": s.help, "kind": s.kind, "relative": s.relative,
-                         "scale": s.nominal}  # fmt: skip
+        found[s.name] = {
+            "unit": s.unit,
+            "help": s.help,
+            "kind": s.kind,
+            "relative": s.relative,
+            "scale": s.nominal,
+        }
         if s.type == "Regime":
             found[s.name]["options"] = list(REGIMES)
     for name, (unit, words) in model.command.extra.items():
@@ -52,47 +59,73 @@ def describe(
     rung = rung if rung in view.rungs else spec.default_fidelity
     params = part.params
     return {
-        "key": spec.key, "name": part.name if part.name != spec.name else f"My{spec.name}",
+        "key": spec.key,
+        "name": part.name if part.name != spec.name else f"My{spec.name}",
         "main": view.main,
         "inputs": [_input(s, view, point[s.name]) for s in inputs_of(model, view)],
         "parameters": [_parameter(f, view) for f in fields(spec.params)],
         "defaults": {f.name: f.default for f in fields(spec.params)},
         "given": {f.name: getattr(params, f.name) for f in fields(spec.params)},
         "oils": {name: oil(name).parameters_for(spec) for name in named_oils()},
-        "outputs": outputs_of(model, view), "units": readable_units(), "scales": UNITS,
-        "rungs": spec.rungs, "rung": rung, "usual_rung": spec.default_fidelity,
+        "outputs": outputs_of(model, view),
+        "units": readable_units(),
+        "scales": UNITS,
+        "rungs": spec.rungs,
+        "rung": rung,
+        "usual_rung": spec.default_fidelity,
         "rules": [rule.text for rule in spec.rules],
-        "cards": [_card(rung, chart) for name, rung in fresh_rungs(spec.key, params).items()
-                  if name in view.rungs for chart in rung.charts],
+        "cards": [
+            _card(rung, chart)
+            for name, rung in fresh_rungs(spec.key, params).items()
+            if name in view.rungs
+            for chart in rung.charts
+        ],
         "safety": SAFETY,
-        **view.more, "python": {"params": view.params, "solve": view.solve},
+        **view.more,
+        "python": {"params": view.params, "solve": view.solve},
         "worker": view.worker_data(spec),
-    }  # fmt: skip
+    }
 
 
 def _input(s: Signal, view: View, value: float) -> dict[str, Any]:
     low, high = view.least.get(s.name, s.low), s.high
     first, last = view.spans.get(s.name, (low, high))
-    return {"name": s.name, "unit": s.unit, "help": s.help, "kind": "real", "min": low, "max": high,
-            "from": first, "to": last, "relative": s.relative, "value": value}  # fmt: skip
+    return {
+        "name": s.name,
+        "unit": s.unit,
+        "help": s.help,
+        "kind": "real",
+        "min": low,
+        "max": high,
+        "from": first,
+        "to": last,
+        "relative": s.relative,
+        "value": value,
+    }
 
 
 def _parameter(f: Any, view: View) -> dict[str, Any]:
     m = f.metadata
     first, last = view.spans.get(f.name, (m["min"], m["max"]))
     keys = ("unit", "help", "kind", "min", "max", "options")
-    return {"name": f.name, "relative": m.get("relative", False), "from": first, "to": last,
-            **{key: m[key] for key in keys if key in m}}  # fmt: skip
+    return {
+        "name": f.name,
+        "relative": m.get("relative", False),
+        "from": first,
+        "to": last,
+        **{key: m[key] for key in keys if key in m},
+    }
 
 
 def _card(rung: RungErrors, chart: Chart) -> dict[str, Any]:
     """Return what was measured on a chart: the ends of each region and its error of the torque."""
     error = list(QUANTITIES).index(QUANTITY) - len(QUANTITIES)
     return {
-        "fidelity": rung.fidelity, "chart": chart.name,
+        "fidelity": rung.fidelity,
+        "chart": chart.name,
         "envelope": {name: asdict(axis) for name, axis in rung.box.items()},
         "divisions": [
             {"axes": d.axes, "rows": [[*row[: 2 * len(d.axes)], row[error]] for row in d.rows]}
             for d in chart.divisions
         ],
-    }  # fmt: skip
+    }

@@ -21,16 +21,29 @@ VIEW = View(
     calls=("broken_rule", "derive", "solve_point"),
     layout=numbers_of(layout),
     rungs={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.rungs},
-    main=("pinion_teeth", "gear_ratio", "normal_module", "face_width", "helix_angle",
-          "friction_law"),
-    figures=("friction_torque", "friction_power", "film_ratio", "bulk_temperature", "flash_max",
-             "scuffing_safety", "pitting_safety"),
+    main=(
+        "pinion_teeth",
+        "gear_ratio",
+        "normal_module",
+        "face_width",
+        "helix_angle",
+        "friction_law",
+    ),
+    figures=(
+        "friction_torque",
+        "friction_power",
+        "film_ratio",
+        "bulk_temperature",
+        "flash_max",
+        "scuffing_safety",
+        "pitting_safety",
+    ),
     solve="solve_gearmesh",
     params="GearMeshParams",
     terms="film_ratio_gf is the least film along the path of contact over the mean roughness Ra. A "
-          "safety against micropitting needs a permissible_film_ratio, endurance under thermal "
-          "stress film_heat = atan and one of the two steels of its paper.",
+    "safety against micropitting needs a permissible_film_ratio, endurance under thermal "
+    "stress film_heat = atan and one of the two steels of its paper.",
     pictures=_pictures,
     card_point=lambda point: {**point, "load": abs(point["power"] / point["speed"])},
     spans={"power": (100.0, 1e5), "speed": (1.0, 1000.0), "oil_temperature": (253.15, 423.15)},
-)  # fmt: skip
+)

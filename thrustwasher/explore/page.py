@@ -72,9 +72,13 @@ def page(part: PartFile) -> str:
 def _error(view: View, part: PartFile, point: Mapping[str, float], rung: str, result: Any) -> str:
     """Say the verified error of the torque at the start."""
     known = error_estimate(
-        part.spec.key, rung, part.params, view.card_point(point),
-        branch=getattr(result, "branch", None), film_ratio=getattr(result, "film_ratio", None),
-    )  # fmt: skip
+        part.spec.key,
+        rung,
+        part.params,
+        view.card_point(point),
+        branch=getattr(result, "branch", None),
+        film_ratio=getattr(result, "film_ratio", None),
+    )
     return "not verified" if known is None else f"at most {max(100.0 * known, 1e-3):.2g} %"
 
 

@@ -49,10 +49,13 @@ class View:
     def worker_data(self, spec: ModelSpec) -> dict[str, Any]:
         """Return what the worker's scripts read, as JSON types."""
         return {
-            "functions": web_functions(spec.kernel, self.calls), "layout": self.layout,
-            "rungs": self.rungs, "real_outputs": spec.real_outputs,
-            "statuses": {int(s): s.advice for s in Status}, "first_failure": FIRST_FAILURE,
-        }  # fmt: skip
+            "functions": web_functions(spec.kernel, self.calls),
+            "layout": self.layout,
+            "rungs": self.rungs,
+            "real_outputs": spec.real_outputs,
+            "statuses": {int(s): s.advice for s in Status},
+            "first_failure": FIRST_FAILURE,
+        }
 
     def worker_script(self) -> str:
         """Return the worker: the kernels' functions, the model, what answers the page."""

@@ -149,8 +149,10 @@ class Instance:
         asked = tuple(unknowns), tuple(knowns)
         direction = self._directions.get(asked)
         if direction is None:
-            found = ([self._named(n, c) for n in names]
-                     for names, c in zip(asked, ("output", "input"), strict=True))  # fmt: skip
+            found = (
+                [self._named(n, c) for n in names]
+                for names, c in zip(asked, ("output", "input"), strict=True)
+            )
             direction = self._directions[asked] = Direction(self._protocol, *found)
         if len(seed) != len(knowns):
             raise ParameterError(f"seed = {len(seed)} values, allowed: {len(knowns)}")

@@ -22,8 +22,8 @@ FRICTION_LAWS = {
 FILM_HEAT = {
     "loss": "all of the loss heats the flanks, along the whole path of contact",
     "atan": "shear of the oil at ambient pressure warms the flank (Atan Eq 6, 7), friction the "
-            "asperities (Eq 3), both where contact starts",
-}  # fmt: skip
+    "asperities (Eq 3), both where contact starts",
+}
 THERMAL_MODES = {
     "quasi_steady": "bodies at their steady temperature at every instant",
     "transient": "bodies store heat",
@@ -131,29 +131,44 @@ def _slide_roll(p: Any) -> str:
 
 
 RULES = (
-    Rule("pinion_teeth = {pinion_teeth}, allowed: more for gear_ratio = {gear_ratio}, "
-         "pressure_angle = {pressure_angle} rad, addendum = {addendum} (with so few the gear's "
-         "tips cut below the pinion's involute: interference)", _interference),
-    Rule(f"addendum = {{addendum}}, allowed: {_ALWAYS} (contact ratio 1 and more)",
-         _contact_ratio),
-    Rule("effective_roughness = {effective_roughness}, allowed: 7.459e-06 .. 6.297e-05 for "
-         "friction_law = 'li-seireg' (0: that of the surface)"),
-    Rule("f0 = {f0}, allowed: 0.0864 - 1372 effective_roughness .. 1 "
-         "(below, a thick film would have negative friction)", _base_friction),
-    Rule("friction_law = 'li-seireg', allowed: for slide/roll ratios above 0.27 only, not reached "
-         "at the start of contact (pinion_teeth = {pinion_teeth}); use friction_law = 'iso'",
-         _slide_roll),
-    Rule("addendum = {addendum}, allowed: less (the pinion's tips cut below the gear's involute: "
-         "interference)"),
-    Rule("film_heat = 'atan', allowed: without helix_angle ({helix_angle} rad), internal "
-         "({internal}), addendum_gear ({addendum_gear}) and friction_law = 'mixed': the paper has "
-         "a spur pair; use film_heat = 'loss'"),
+    Rule(
+        "pinion_teeth = {pinion_teeth}, allowed: more for gear_ratio = {gear_ratio}, "
+        "pressure_angle = {pressure_angle} rad, addendum = {addendum} (with so few the gear's "
+        "tips cut below the pinion's involute: interference)",
+        _interference,
+    ),
+    Rule(f"addendum = {{addendum}}, allowed: {_ALWAYS} (contact ratio 1 and more)", _contact_ratio),
+    Rule(
+        "effective_roughness = {effective_roughness}, allowed: 7.459e-06 .. 6.297e-05 for "
+        "friction_law = 'li-seireg' (0: that of the surface)"
+    ),
+    Rule(
+        "f0 = {f0}, allowed: 0.0864 - 1372 effective_roughness .. 1 "
+        "(below, a thick film would have negative friction)",
+        _base_friction,
+    ),
+    Rule(
+        "friction_law = 'li-seireg', allowed: for slide/roll ratios above 0.27 only, not reached "
+        "at the start of contact (pinion_teeth = {pinion_teeth}); use friction_law = 'iso'",
+        _slide_roll,
+    ),
+    Rule(
+        "addendum = {addendum}, allowed: less (the pinion's tips cut below the gear's involute: "
+        "interference)"
+    ),
+    Rule(
+        "film_heat = 'atan', allowed: without helix_angle ({helix_angle} rad), internal "
+        "({internal}), addendum_gear ({addendum_gear}) and friction_law = 'mixed': the paper has "
+        "a spur pair; use film_heat = 'loss'"
+    ),
     Rule("contact_limit = {contact_limit} Pa, allowed: 0 (that of the steel) or 1e+08 .. 3e+09 Pa"),
     Rule("addendum_gear = {addendum_gear}, allowed: 0 (as addendum) or 0.3 .. 1.5"),
     Rule("normal_module = {normal_module} m, allowed: 0 (from centre_distance) or 1e-4 .. 0.1 m"),
-    Rule("permissible_film_ratio = {permissible_film_ratio}, allowed: 0 (no limit is given) or "
-         "0.01 .. 10"),
-)  # fmt: skip
+    Rule(
+        "permissible_film_ratio = {permissible_film_ratio}, allowed: 0 (no limit is given) or "
+        "0.01 .. 10"
+    ),
+)
 
 
 OF_ATAN = (("film_heat", "atan"),)

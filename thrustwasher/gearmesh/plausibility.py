@@ -125,8 +125,10 @@ def _fouling(p: GearMeshParams) -> list[str]:
     angle = math.atan(math.tan(p.pressure_angle) / math.cos(p.helix_angle))
     base, addendum_gear = math.cos(angle), p.addendum_gear or p.addendum
     r1, r2 = 0.5 * p.pinion_teeth, 0.5 * p.pinion_teeth * p.gear_ratio  # over transverse module
-    tip1, tip2 = (r1 + p.addendum * math.cos(p.helix_angle),
-                  r2 - addendum_gear * math.cos(p.helix_angle))  # fmt: skip
+    tip1, tip2 = (
+        r1 + p.addendum * math.cos(p.helix_angle),
+        r2 - addendum_gear * math.cos(p.helix_angle),
+    )
     apart = r2 - r1
     at1 = (tip2 * tip2 - tip1 * tip1 - apart * apart) / (2.0 * apart * tip1)
     at2 = (apart * apart + tip2 * tip2 - tip1 * tip1) / (2.0 * apart * tip2)

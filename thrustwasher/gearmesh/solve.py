@@ -199,15 +199,18 @@ def solve_gearmesh(
             f"{status.advice}"
         )
     doubts = [
-        *idle_warnings(SPEC.key, params, fidelity), *doubts_of_parameters(params),
+        *idle_warnings(SPEC.key, params, fidelity),
+        *doubts_of_parameters(params),
         *doubts_of_point(params, par, field, torque, speed, oil),
-    ]  # fmt: skip
+    ]
     absent = dict.fromkeys(absent_outputs(params))
     said = warnings_of(SPEC, status, {"oil_temperature": oil}, _shown(field.tolist()))
     point = {
-        "status": status, "fidelity": rung_named(SPEC, fidelity), "limits": limits_assumed(params),
+        "status": status,
+        "fidelity": rung_named(SPEC, fidelity),
+        "limits": limits_assumed(params),
         **_size(params, par),
-    }  # fmt: skip
+    }
     result = _result(par, field.tolist(), torque, speed, absent | point)
     return replace(result, warnings=(*said, *_failures(result), *doubts))
 
@@ -240,15 +243,20 @@ def _result(
     shown["friction_power"] = loss * abs(speed)
     asperity = shown.pop("temperature")
     return GearMeshResult(
-        **(shown | more), asperity_temperature=asperity,
-        hertz_pressure=4.0 / math.pi * f[k.F_PRESSURE], hertz_width=f[k.F_WIDTH],
-        viscosity=f[k.F_VISCOSITY], area_ratio=f[k.F_AREA], sliding_speed=f[k.F_SLIDING],
-        start_of_contact=float(par[k.D_START]), contact_ratio=float(par[k.D_CONTACT_RATIO]),
+        **(shown | more),
+        asperity_temperature=asperity,
+        hertz_pressure=4.0 / math.pi * f[k.F_PRESSURE],
+        hertz_width=f[k.F_WIDTH],
+        viscosity=f[k.F_VISCOSITY],
+        area_ratio=f[k.F_AREA],
+        sliding_speed=f[k.F_SLIDING],
+        start_of_contact=float(par[k.D_START]),
+        contact_ratio=float(par[k.D_CONTACT_RATIO]),
         overlap_ratio=float(par[k.D_OVERLAP]),
         slide_roll_ratio=float(par[k.D_SLIDE_ROLL]),
         regime="film" if ratio > 3.0 else "mixed" if ratio >= 1.0 else "boundary",
         iterations=int(f[k.F_ITERATIONS]),
-    )  # fmt: skip
+    )
 
 
 def _failures(result: GearMeshResult) -> Iterator[str]:

@@ -26,15 +26,17 @@ def outside_verified(spec: ModelSpec, inputs: Mapping[str, Any]) -> list[str]:
         f"{quantity_text(s, inputs[s.name])} is outside {range_text(s, s.verified)}, for which the "
         "accuracy was verified; use with care"
         for s in spec.inputs
-        if s.verified and s.name in inputs
-        and not s.verified[0] <= inputs[s.name] <= s.verified[1]
-    ]  # fmt: skip
+        if s.verified and s.name in inputs and not s.verified[0] <= inputs[s.name] <= s.verified[1]
+    ]
 
 
 def warnings_of(
-    spec: ModelSpec, status: Status, inputs: Mapping[str, Any], outputs: Mapping[str, Any],
+    spec: ModelSpec,
+    status: Status,
+    inputs: Mapping[str, Any],
+    outputs: Mapping[str, Any],
     more: Iterable[str] = (),
-) -> tuple[str, ...]:  # fmt: skip
+) -> tuple[str, ...]:
     """Return the warnings of a solution: limits passed, ranges left, the advice of its status.
 
     ``inputs`` and ``outputs`` hold values by the model's names; one that is not there is not

@@ -34,14 +34,18 @@ def _lines(params: Any, changed: set[str], start: str) -> Iterator[str]:
             continue
         over = [n for n in m.get("overrides", ()) if n in changed]
         if over and value:
-            yield (f"{_shown(params, f.name)} stands in place of "
-                   f"{', '.join(_shown(params, n) for n in over)}, which was changed; change it "
-                   "too, or set it to 0")  # fmt: skip
+            yield (
+                f"{_shown(params, f.name)} stands in place of "
+                f"{', '.join(_shown(params, n) for n in over)}, which was changed; change it "
+                "too, or set it to 0"
+            )
         owners = [n for n in m.get("belongs_to", ()) if n in changed]
         if owners and value and f.name not in changed:
-            yield (f"{_shown(params, f.name)} is that of {start}, though "
-                   f"{', '.join(_shown(params, n) for n in owners)} was changed, to which it "
-                   "belongs; give that of this part")  # fmt: skip
+            yield (
+                f"{_shown(params, f.name)} is that of {start}, though "
+                f"{', '.join(_shown(params, n) for n in owners)} was changed, to which it "
+                "belongs; give that of this part"
+            )
 
 
 def _shown(params: Any, name: str) -> str:

@@ -141,34 +141,47 @@ class Oil:
         told = ", ".join(f"{key} {100 * error:.2g} %" for key, error in laws.items())
         stay = {p for s in specs for *_, p in NUMBERS.values() if p in _names(s)}
         stay -= {p for s in specs for p in self.parameters_for(s)}
-        return "; ".join(filter(None, (
-            f"oil {self}",
-            f"density of the parts {density(self.density_15, AT):.4g} kg/m3, that at 40 degC",
-            f"largest error of the viscosity law to ASTM D341 over 20 .. 150 degC: {told}"
-            if told else "",
-            f"given beside it: {', '.join(self.rest)}" if self.rest else "",
-            f"the part's own stay: {', '.join(sorted(stay))}" if stay else "",
-        )))  # fmt: skip
+        return "; ".join(
+            filter(
+                None,
+                (
+                    f"oil {self}",
+                    f"density of the parts {density(self.density_15, AT):.4g} kg/m3, that at "
+                    "40 degC",
+                    f"largest error of the viscosity law to ASTM D341 over 20 .. 150 degC: {told}"
+                    if told
+                    else "",
+                    f"given beside it: {', '.join(self.rest)}" if self.rest else "",
+                    f"the part's own stay: {', '.join(sorted(stay))}" if stay else "",
+                ),
+            )
+        )
 
     def warnings(self, specs: Iterable[ModelSpec], temperature: float) -> list[str]:
         """Say what makes results doubtful with oil of a temperature [K]."""
         t, found = temperature - ZERO, list(self.doubts)
         pour = named_oils()[self.name].pour_point if self.name else None
         if pour is not None and t < pour:
-            found.append(f"oil_temperature = {t:.4g} degC: {self.name} does not flow below about "
-                         f"{pour:g} degC (an estimate); take another oil")  # fmt: skip
+            found.append(
+                f"oil_temperature = {t:.4g} degC: {self.name} does not flow below about "
+                f"{pour:g} degC (an estimate); take another oil"
+            )
         errors = {s.key: self.error(s, temperature) for s in specs}
         if far := {key: x for key, x in errors.items() if abs(x) > FAR_OFF}:
             told = ", ".join(f"{key} {100 * x:+.0f} %" for key, x in far.items())
-            found.append(f"oil_temperature = {t:.4g} degC: the viscosity differs from ASTM D341 "
-                         f"({told}), the laws hold over 20 .. 150 degC; set the viscosity "
-                         "parameters for this range")  # fmt: skip
+            found.append(
+                f"oil_temperature = {t:.4g} degC: the viscosity differs from ASTM D341 "
+                f"({told}), the laws hold over 20 .. 150 degC; set the viscosity "
+                "parameters for this range"
+            )
         return found
 
     def __str__(self) -> str:
         """Return name or numbers."""
-        numbers = (f"{1e6 * self.viscosity_40:.4g} mm2/s at 40 degC, {1e6 * self.viscosity_100:.4g}"
-                   f" at 100 degC, {self.density_15:.4g} kg/m3 at 15 degC")  # fmt: skip
+        numbers = (
+            f"{1e6 * self.viscosity_40:.4g} mm2/s at 40 degC, {1e6 * self.viscosity_100:.4g}"
+            f" at 100 degC, {self.density_15:.4g} kg/m3 at 15 degC"
+        )
         if not self.name:
             return numbers
         standard = named_oils()[self.name].standard
@@ -177,11 +190,13 @@ class Oil:
     def as_dict(self, *specs: ModelSpec) -> dict[str, Any]:
         """Return it as JSON shows it: SI units, errors of the laws over 20 .. 150 degC."""
         return {
-            "name": self.name or None, "kinematic_viscosity_40": self.viscosity_40,
-            "kinematic_viscosity_100": self.viscosity_100, "density_15": self.density_15,
+            "name": self.name or None,
+            "kinematic_viscosity_40": self.viscosity_40,
+            "kinematic_viscosity_100": self.viscosity_100,
+            "density_15": self.density_15,
             "worst_difference": {s.key: self.worst_error(s) for s in specs if law_of(s)},
             **self.rest,
-        }  # fmt: skip
+        }
 
     def as_toml(self) -> str:
         """Return the value of ``oil`` in a file; read back it is the same oil."""
@@ -190,8 +205,10 @@ class Oil:
             table = {"name": f'"{self.name}"'} | table
         else:
             values = (self.viscosity_40, self.viscosity_100, self.density_15)
-            table = {k: json.dumps(exact_quantity(x, SHEET[k][0])) if k != "density_15" else x
-                     for k, x in zip(SHEET, values, strict=True)} | table  # fmt: skip
+            table = {
+                k: json.dumps(exact_quantity(x, SHEET[k][0])) if k != "density_15" else x
+                for k, x in zip(SHEET, values, strict=True)
+            } | table
         return f"{{{', '.join(f'{key} = {value}' for key, value in table.items())}}}"
 
 
@@ -246,7 +263,7 @@ def read_oil(where: str, given: Any) -> Oil | None:
         cold, warm = (float(f"{x}e-6") for x in row[:2])
         return Oil(
             name=name, viscosity_40=cold, viscosity_100=warm, density_15=row.density_15, rest=rest
-        )  # fmt: skip
+        )
     if way == WAYS[1]:
         return _of_sheet(where, table, rest)
     if way:
@@ -280,8 +297,10 @@ def _pairs(where: str, key: str, table: Mapping[str, Any]) -> list[tuple[float, 
     points = table[key]
     if not isinstance(points, list) or not all(isinstance(p, list) and len(p) == 2 for p in points):
         raise ParameterError(f"{where}: {key} = {points!r}, allowed: pairs [temperature, {key}]")
-    return [(quantity(where, "temperature", t, "K"), quantity(where, key, x, POINTS[key]))
-            for t, x in points]  # fmt: skip
+    return [
+        (quantity(where, "temperature", t, "K"), quantity(where, key, x, POINTS[key]))
+        for t, x in points
+    ]
 
 
 def oil_table(where: str, given: Any) -> dict[str, Any]:

@@ -43,9 +43,15 @@ def flag(default: bool, text: str, **extra: Any) -> Any:
 def choice(default: str, options: dict[str, str], type_name: str, text: str, **extra: Any) -> Any:
     """Return an enumeration field; ``options`` maps each name to one sentence."""
     meta = {
-        "kind": "enumeration", "unit": "1", "min": 1, "max": len(options), "help": text,
-        "options": dict(options), "type": type_name, **extra,
-    }  # fmt: skip
+        "kind": "enumeration",
+        "unit": "1",
+        "min": 1,
+        "max": len(options),
+        "help": text,
+        "options": dict(options),
+        "type": type_name,
+        **extra,
+    }
     return field(default=default, metadata=meta)
 
 
@@ -165,8 +171,9 @@ def check_value(name: str, value: Any, m: Mapping[str, Any], *, stated: bool = F
         unit = "" if m["unit"] == "1" else f" {m['unit']}"
         hint = ""
         if m["kind"] == "real" and isinstance(value, int | float) and not stated:
-            hint = meant(float(value), m["unit"], m["min"], m["max"],
-                         difference=bool(m.get("relative")))  # fmt: skip
+            hint = meant(
+                float(value), m["unit"], m["min"], m["max"], difference=bool(m.get("relative"))
+            )
         raise ParameterError(f"{name} = {value!r}{unit}, allowed: {allowed(m)}{hint}")
 
 

@@ -83,16 +83,23 @@ class PartFile:
         starts = {s.name: self.inside(s.name, s.start or 0.0) for s in self.spec.inputs}
         course = tuple((t, *map(self.inside, names, row)) for t, *row in self.spec.course)
         return tailored(
-            self.spec, {**self.parameters, "fidelity": rung_named(self.spec, self.fidelity)},
-            starts, course=course, **self.told,
-        )  # fmt: skip
+            self.spec,
+            {**self.parameters, "fidelity": rung_named(self.spec, self.fidelity)},
+            starts,
+            course=course,
+            **self.told,
+        )
 
     @property
     def told(self) -> dict[str, Any]:
         """What the FMU says of this part, beside its values: fields of the model's record."""
         text = self.description.rstrip(".") or self.spec.help
-        return {"name": self.name, "help": text, "box": self.box,
-                "notes": "; ".join(filter(None, (self.notes, self.oil_words)))}  # fmt: skip
+        return {
+            "name": self.name,
+            "help": text,
+            "box": self.box,
+            "notes": "; ".join(filter(None, (self.notes, self.oil_words))),
+        }
 
     @property
     def oil_words(self) -> str:
@@ -139,8 +146,9 @@ class PartFile:
         known = {s.name: s for s in (*self.spec.inputs, *command_inputs(find_model(self.spec.key)))}
         given = {
             name: check_number(name, value, known[name].unit, *known[name].range)
-            for name, value in inputs.items() if name in known
-        }  # fmt: skip
+            for name, value in inputs.items()
+            if name in known
+        }
         point = point_of(self, given)
         more = {name: value for name, value in inputs.items() if name not in known}
         result = resolve(command.solve)(
@@ -246,10 +254,15 @@ def _part(where: str, table: dict[str, Any]) -> PartFile:
         refuse_two_ways(f"{where}: oil", own, spec, parameters)
         parameters |= own.parameters_for(spec)
     return PartFile(
-        spec=spec, name=name, parameters=parameters, fidelity=fidelity, oil=own,
+        spec=spec,
+        name=name,
+        parameters=parameters,
+        fidelity=fidelity,
+        oil=own,
         box=_box(f"{where} [box]", spec, table.get("box", {})),
-        description=table.get("description", ""), notes=table.get("notes", ""),
-    )  # fmt: skip
+        description=table.get("description", ""),
+        notes=table.get("notes", ""),
+    )
 
 
 def usual_name(spec: ModelSpec) -> str:

@@ -127,14 +127,12 @@ def point_of(
         OUTSIDE.format(quantity_text(own[n], there[n]), range_text(own[n], ends))
         for n, ends in part.box.items()
         if n in there and _moved(part, n, there[n]) != there[n]
-    ]  # fmt: skip
+    ]
     if "oil_temperature" in there:
         outside += oil_doubts(part.oil, part.spec, part.params, [there["oil_temperature"]])
     left_out = {s.name for s in inputs if s.optional} | given.keys() | box.keys()
     default = {n: v for n, v in values.items() if n not in left_out}
-    return Point(
-        values=values, box=box, default=default, warnings=tuple(outside), inputs=inputs
-    )  # fmt: skip
+    return Point(values=values, box=box, default=default, warnings=tuple(outside), inputs=inputs)
 
 
 def _ways(command: Command | None) -> tuple[Callable[..., Values], Callable[..., Values]]:

@@ -169,13 +169,19 @@ def tailored(
         for f in fields(spec.params)
     ]
     params = make_dataclass(
-        spec.params.__name__, kept, bases=(spec.params,), frozen=True, kw_only=True,
+        spec.params.__name__,
+        kept,
+        bases=(spec.params,),
+        frozen=True,
+        kw_only=True,
         namespace={"__module__": spec.params.__module__, "__doc__": spec.params.__doc__},
-    )  # fmt: skip
+    )
     params()  # raises what the model says about values that do not go together
     own = {
-        "params": params, "kind": spec.kind or spec.name, "course": (),
+        "params": params,
+        "kind": spec.kind or spec.name,
+        "course": (),
         "default_fidelity": parameters.get("fidelity", spec.default_fidelity),
         "inputs": tuple(replace(s, start=starts.get(s.name, s.start)) for s in spec.inputs),
-    }  # fmt: skip
+    }
     return replace(spec, **(own | more))

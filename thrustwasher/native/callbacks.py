@@ -111,11 +111,15 @@ def compiled(callback: Callback) -> Any:
 
     compiler: Any = numba  # its annotations lag behind it
     types = compiler.types
-    kinds = [types.float64 if t == "float" else types.CPointer(getattr(types, t))
-             for t in callback.types]  # fmt: skip
+    kinds = [
+        types.float64 if t == "float" else types.CPointer(getattr(types, t)) for t in callback.types
+    ]
     scope = {"carray": compiler.carray, **callback.scope}
-    scope |= {f"at_{item}": pointer(types.CPointer(getattr(types, item)))
-              for item in ITEMS if f"at_{item}(" in callback.source}  # fmt: skip
+    scope |= {
+        f"at_{item}": pointer(types.CPointer(getattr(types, item)))
+        for item in ITEMS
+        if f"at_{item}(" in callback.source
+    }
     exec(callback.source, scope)
     make = compiler.cfunc(types.int32(*kinds), error_model="numpy", boundscheck=False)
     return make(scope["entry"])

@@ -33,10 +33,14 @@ def environment(cache: str) -> dict[str, str]:
     """
     own = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_")}
     return own | {
-        "NUMBA_CPU_NAME": "x86-64-v2", "NUMBA_CPU_FEATURES": "", "NUMBA_OPT": "0",
-        "NUMBA_DISABLE_INTEL_SVML": "1", "NUMBA_CACHE_DIR": cache,
-        "THRUSTWASHER_KERNELS": "emit", "PYTHONHASHSEED": "0",
-    }  # fmt: skip
+        "NUMBA_CPU_NAME": "x86-64-v2",
+        "NUMBA_CPU_FEATURES": "",
+        "NUMBA_OPT": "0",
+        "NUMBA_DISABLE_INTEL_SVML": "1",
+        "NUMBA_CACHE_DIR": cache,
+        "THRUSTWASHER_KERNELS": "emit",
+        "PYTHONHASHSEED": "0",
+    }
 
 
 def module(kernel: ModuleType) -> Any:

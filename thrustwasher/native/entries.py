@@ -119,8 +119,10 @@ def symbol_of(module: str, name: str) -> str:
 
 def entries(library: str) -> list[Entry]:
     """Return the functions of a library that Python calls; imports all their modules."""
-    return [describe(getattr(importlib.import_module(module), name), two)
-            for module, name, two in called(library)]  # fmt: skip
+    return [
+        describe(getattr(importlib.import_module(module), name), two)
+        for module, name, two in called(library)
+    ]
 
 
 def describe(function: Any, two: Sequence[str]) -> Entry:

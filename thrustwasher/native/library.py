@@ -98,8 +98,12 @@ def web_functions(kernel: str, names: Iterable[str]) -> dict[str, dict[str, Any]
         name = getattr(entry.function, "py_func", entry.function).__name__
         if name in names:
             takes = [word for kind in entry.takes for word in _flat(kind)]
-            found[name] = {"place": order.index(entry.symbol), "takes": takes,
-                           "returns": len(entry.returns), "tuple": entry.is_tuple}  # fmt: skip
+            found[name] = {
+                "place": order.index(entry.symbol),
+                "takes": takes,
+                "returns": len(entry.returns),
+                "tuple": entry.is_tuple,
+            }
     return found
 
 
@@ -109,16 +113,26 @@ def _flat(kind: Kind) -> list[str]:
 
 
 def linked_objects(
-    sources: Mapping[str, str | bytes], code: Objects, platform: Platform, name: str,
-    exports: Iterable[str], *, linker: link.Linker | None = None, note: Note = to_stderr,
-) -> bytes:  # fmt: skip
+    sources: Mapping[str, str | bytes],
+    code: Objects,
+    platform: Platform,
+    name: str,
+    exports: Iterable[str],
+    *,
+    linker: link.Linker | None = None,
+    note: Note = to_stderr,
+) -> bytes:
     """Return C files linked with a kernel's objects, checked for what they need and export."""
     linker, levels = linker or link.find_linker(), platform.levels
     parts = {f"kernel_{level}.o": content for (_, level), content in code.items()}
     made = link.shared_library(
-        {**sources, **parts}, platform=platform, name=name, linker=linker, note=note,
+        {**sources, **parts},
+        platform=platform,
+        name=name,
+        linker=linker,
+        note=note,
         defines=[f"TW_LEVEL={levels[0].name}"] if len(levels) == 1 else [],
-    )  # fmt: skip
+    )
     binaries.check(made, exports=exports)
     return made
 

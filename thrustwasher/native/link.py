@@ -98,9 +98,14 @@ def this_level(platform: Platform) -> Level:
 
 
 def shared_library(
-    files: Mapping[str, str | bytes], *, platform: Platform, name: str,
-    defines: Sequence[str] = (), linker: Linker | None = None, note: Note = to_stderr,
-) -> bytes:  # fmt: skip
+    files: Mapping[str, str | bytes],
+    *,
+    platform: Platform,
+    name: str,
+    defines: Sequence[str] = (),
+    linker: Linker | None = None,
+    note: Note = to_stderr,
+) -> bytes:
     """Compile and link C files and objects to a shared library; EnvironmentProblem if that fails.
 
     Parameters
@@ -120,9 +125,13 @@ def shared_library(
 
 
 def build(
-    files: Mapping[str, str | bytes], output: str, flags: Sequence[str], platform: Platform,
-    linker: Linker | None = None, note: Note = to_stderr,
-) -> bytes:  # fmt: skip
+    files: Mapping[str, str | bytes],
+    output: str,
+    flags: Sequence[str],
+    platform: Platform,
+    linker: Linker | None = None,
+    note: Note = to_stderr,
+) -> bytes:
     """Run the compiler in a fresh folder with relative paths only; return the file ``output``."""
     linker = linker or find_linker()
     if not linker.is_cross and platform.name not in linker.platforms:

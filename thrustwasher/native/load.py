@@ -128,24 +128,37 @@ def python_function(
     back = [_BACK[kind.name].format(first + k) for k, kind in enumerate(entry.returns)]
     value = (f"({', '.join(back)},)" if entry.is_tuple else back[0]) if n else "None"
     scope: dict[str, Any] = {
-        "_native": _Native(place), "_plain": plain, "_kept": fixed, "_address": address,
-        "_Unfit": Unfit, "_fail": _fail, "_Words": ctypes.c_int64 * (first + n),
-        "_Numbers": ctypes.c_double * (first + n), "_raised": ctypes.byref(_raised),
-        "_result": ctypes.byref(_result), **{f"_{name}": item for name, item in _ITEMS.items()},
-    }  # fmt: skip
+        "_native": _Native(place),
+        "_plain": plain,
+        "_kept": fixed,
+        "_address": address,
+        "_Unfit": Unfit,
+        "_fail": _fail,
+        "_Words": ctypes.c_int64 * (first + n),
+        "_Numbers": ctypes.c_double * (first + n),
+        "_raised": ctypes.byref(_raised),
+        "_result": ctypes.byref(_result),
+        **{f"_{name}": item for name, item in _ITEMS.items()},
+    }
     steps = [f"{array}[{k}] = {text}" for k, (array, text) in enumerate(words)]
     make = ["_words = _Words()", "_numbers = _Numbers.from_buffer(_words)"]
     if fixed:  # the block stays, and what stands in it
         exec("\n".join([*make, *(step for step in steps if "_kept[" in step)]), scope)
         make, steps = [], [step for step in steps if "_kept[" not in step]
     given = ", ".join(f"_kept[{name!r}]" if name in fixed else name for name in names)
-    source = "\n ".join([
-        f"def {plain.__name__}({', '.join(name for name in names if name not in fixed)}):",
-        *make, "try:", *(f" {step}" for step in steps or ["pass"]),
-        "except _Unfit:", f" return _plain({given})",
-        "if _native(_result, _raised, _words, _words):", " _fail()",
-        f"return {value}",
-    ])  # fmt: skip
+    source = "\n ".join(
+        [
+            f"def {plain.__name__}({', '.join(name for name in names if name not in fixed)}):",
+            *make,
+            "try:",
+            *(f" {step}" for step in steps or ["pass"]),
+            "except _Unfit:",
+            f" return _plain({given})",
+            "if _native(_result, _raised, _words, _words):",
+            " _fail()",
+            f"return {value}",
+        ]
+    )
     exec(source, scope)
     made: Callable[..., Any] = scope.pop(plain.__name__)  # or its arrays would outlive it
     return made

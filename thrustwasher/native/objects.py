@@ -92,9 +92,19 @@ def _compile_missing(kernel: str, name: str, folder: Path, wanted: Wanted, note:
             note(f"compiling {name}, whose source is new here: about {about:.0f} s")
             _make(bitcode, "emit", kernel, digest(kernel))
         with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-            jobs = [pool.submit(_make, _object(folder, w), "lower", str(bitcode), platform.name,
-                                json.dumps(asdict(level)), name)
-                    for w, (platform, level) in sorted(wanted.items()) if w in missing]  # fmt: skip
+            jobs = [
+                pool.submit(
+                    _make,
+                    _object(folder, w),
+                    "lower",
+                    str(bitcode),
+                    platform.name,
+                    json.dumps(asdict(level)),
+                    name,
+                )
+                for w, (platform, level) in sorted(wanted.items())
+                if w in missing
+            ]
             for job in jobs:
                 job.result()
         note(f"compiled {name} in {time.perf_counter() - start:.0f} s")

@@ -121,9 +121,17 @@ def share_out_change(cell: Array, along1: float, along2: float, along3: float) -
 
 @inlined
 def _add_eight(
-    data: Array, at: int, step1: int, step2: int, step3: int, cell: Array, share: int,
-    width: int, out: Array, to: int,
-) -> None:  # fmt: skip
+    data: Array,
+    at: int,
+    step1: int,
+    step2: int,
+    step3: int,
+    cell: Array,
+    share: int,
+    width: int,
+    out: Array,
+    to: int,
+) -> None:
     """Add eight lines times their weights; two along each step, the last one fastest."""
     x0, x1, x2, x3 = cell[share], cell[share + 1], cell[share + 2], cell[share + 3]
     x4, x5, x6, x7 = cell[share + 4], cell[share + 5], cell[share + 6], cell[share + 7]
@@ -131,18 +139,31 @@ def _add_eight(
     p4, p5, p6, p7 = p0 + step1, p1 + step1, p2 + step1, p3 + step1
     for k in range(width):
         out[np.uintp(to + k)] += (
-            x0 * data[np.uintp(p0 + k)] + x1 * data[np.uintp(p1 + k)]
-            + x2 * data[np.uintp(p2 + k)] + x3 * data[np.uintp(p3 + k)]
-            + x4 * data[np.uintp(p4 + k)] + x5 * data[np.uintp(p5 + k)]
-            + x6 * data[np.uintp(p6 + k)] + x7 * data[np.uintp(p7 + k)]
-        )  # fmt: skip
+            x0 * data[np.uintp(p0 + k)]
+            + x1 * data[np.uintp(p1 + k)]
+            + x2 * data[np.uintp(p2 + k)]
+            + x3 * data[np.uintp(p3 + k)]
+            + x4 * data[np.uintp(p4 + k)]
+            + x5 * data[np.uintp(p5 + k)]
+            + x6 * data[np.uintp(p6 + k)]
+            + x7 * data[np.uintp(p7 + k)]
+        )
 
 
 @kernel
 def contract(
-    data: Array, at: int, line: int, patches1: int, patches2: int, patches3: int,
-    cell: Array, shares: int, width: int, out: Array, to: int,
-) -> None:  # fmt: skip
+    data: Array,
+    at: int,
+    line: int,
+    patches1: int,
+    patches2: int,
+    patches3: int,
+    cell: Array,
+    shares: int,
+    width: int,
+    out: Array,
+    to: int,
+) -> None:
     """Interpolate ``width`` numbers of the lines into ``out[to:]``; fast for multiples of 16.
 
     Parameters
@@ -160,8 +181,9 @@ def contract(
     step3 = row if patches3 > 0 else 0
     first = at + 3 * one * step1 + two * step2 + 3 * three * step3
     for a in range(N_NODES if patches1 > 0 else 1):
-        _add_eight(data, first + a * step1, 2 * step3, step3, step2, cell, shares + 8 * a, width,
-                   out, to)  # fmt: skip
+        _add_eight(
+            data, first + a * step1, 2 * step3, step3, step2, cell, shares + 8 * a, width, out, to
+        )
     if patches2 > 0:
         inner = at + (3 * patches1 + 1) * n3 * row
         step3 = line if patches3 > 0 else 0

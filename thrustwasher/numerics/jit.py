@@ -123,8 +123,11 @@ def jitted(function: Callable[..., Any], inline: str = "never") -> Any:
     settings: Any = config
     njit: Any = numba.njit
     rules: dict[str, Any] = {
-        "fastmath": False, "error_model": "numpy", "nogil": True, "inline": inline,
-    }  # fmt: skip
+        "fastmath": False,
+        "error_model": "numpy",
+        "nogil": True,
+        "inline": inline,
+    }
     if way() == "emit":
         return njit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **rules)(function)
     before = settings.CACHE_DIR
@@ -191,10 +194,14 @@ def _compiled_matrix() -> Any:
             view = arrays.make_array(made)(context, builder)
             row = builder.mul(values[2], flat.itemsize)
             arrays.populate_array(
-                view, data=flat.data, shape=pack(builder, values[1:]),
+                view,
+                data=flat.data,
+                shape=pack(builder, values[1:]),
                 strides=pack(builder, [row, flat.itemsize]),
-                itemsize=flat.itemsize, meminfo=flat.meminfo, parent=flat.parent,
-            )  # fmt: skip
+                itemsize=flat.itemsize,
+                meminfo=flat.meminfo,
+                parent=flat.parent,
+            )
             return arrays.impl_ret_borrowed(context, builder, made, view._getvalue())
 
         return made(a, types.intp, types.intp), code

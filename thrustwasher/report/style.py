@@ -24,9 +24,18 @@ def styled(function: F) -> F:
 
 
 def new_figure(
-    width: float, height: float, rows: int = 1, columns: int = 1, *, head: int = 0, foot: int = 0,
-    left: float = LEFT, right: float = RIGHT, top: float = TOP, **options: Any,
-) -> tuple[Figure, list[Axes]]:  # fmt: skip
+    width: float,
+    height: float,
+    rows: int = 1,
+    columns: int = 1,
+    *,
+    head: int = 0,
+    foot: int = 0,
+    left: float = LEFT,
+    right: float = RIGHT,
+    top: float = TOP,
+    **options: Any,
+) -> tuple[Figure, list[Axes]]:
     """Return a figure [inch] and its axes row by row; margins and gaps are fixed lengths.
 
     Parameters
@@ -40,9 +49,13 @@ def new_figure(
     wide = (width - left - right - (columns - 1) * ACROSS) / columns
     tall = (height - bottom - top - (rows - 1) * DOWN) / rows
     grid = {
-        "left": left / width, "right": 1.0 - right / width, "wspace": ACROSS / wide,
-        "bottom": bottom / height, "top": 1.0 - top / height, "hspace": DOWN / tall,
-    }  # fmt: skip
+        "left": left / width,
+        "right": 1.0 - right / width,
+        "wspace": ACROSS / wide,
+        "bottom": bottom / height,
+        "top": 1.0 - top / height,
+        "hspace": DOWN / tall,
+    }
     axes = figure.subplots(rows, columns, gridspec_kw=grid, **options)
     return figure, list(np.atleast_1d(axes).ravel())
 
@@ -91,8 +104,14 @@ def note_at_right(axes: Axes, words: str, height: float, **options: Any) -> None
     """Write small words at the right end of a level."""
     shift, place = options.pop("shift", (-2, 2)), options.pop("place", 1.0)
     look = {"ha": "right", "fontsize": 8, **options}
-    axes.annotate(words, (place, height), shift, xycoords=axes.get_yaxis_transform(),
-                  textcoords="offset points", **look)  # fmt: skip
+    axes.annotate(
+        words,
+        (place, height),
+        shift,
+        xycoords=axes.get_yaxis_transform(),
+        textcoords="offset points",
+        **look,
+    )
 
 
 def second_scale(axes: Axes, factor: float, words: str) -> Any:

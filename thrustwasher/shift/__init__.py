@@ -40,10 +40,23 @@ _HOMES = {
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
-    "FIGURES", "Cost", "Event", "KeyFigure", "Part", "Phase", "Published", "Scene",
-    "SequenceResult", "ShiftResult", "builtin_scenes", "load_scene", "run_auto", "run_sequence",
-    "run_shift", "with_fidelities",
-]  # fmt: skip
+    "FIGURES",
+    "Cost",
+    "Event",
+    "KeyFigure",
+    "Part",
+    "Phase",
+    "Published",
+    "Scene",
+    "SequenceResult",
+    "ShiftResult",
+    "builtin_scenes",
+    "load_scene",
+    "run_auto",
+    "run_sequence",
+    "run_shift",
+    "with_fidelities",
+]
 
 
 def __getattr__(name: str) -> Any:

@@ -108,11 +108,18 @@ def _costs(
     for name, part in system.parts.items():
         instance, (calls, seconds) = part.instance, before[name]
         spent = instance.wall_time - seconds
-        found.append(Cost(
-            part=name, model=part.spec.name, fidelity=scene.parts[name].fidelity,
-            steps=instance.calls - calls, wall_time=spent, share=spent / wall,
-            instantiate=instance.instantiate_time, initialize=instance.initialize_time,
-        ))  # fmt: skip
+        found.append(
+            Cost(
+                part=name,
+                model=part.spec.name,
+                fidelity=scene.parts[name].fidelity,
+                steps=instance.calls - calls,
+                wall_time=spent,
+                share=spent / wall,
+                instantiate=instance.instantiate_time,
+                initialize=instance.initialize_time,
+            )
+        )
     return found
 
 
@@ -197,9 +204,10 @@ def connected(scene: Scene, instances: Mapping[str, Stepping]) -> System:
     carries_on = gearbox.coupling == "capacity" and gearbox.capacity_extrapolation
     # A stand-in for a model may lack a signal: it is then not connected.
     wires = [
-        k for k in wired(scene.parts)
+        k
+        for k in wired(scene.parts)
         if k.input in parts[k.target].input_names and k.output in parts[k.source].output_names
-    ]  # fmt: skip
+    ]
     system = System(parts, wires, carries_on=PACK_INPUTS if carries_on else ())
     system.set_command(scene.command(scene.start_time))
     return system

@@ -27,8 +27,11 @@ from .scene.sequence import sequence_of, shift_scene, times
 from .shift_result import ShiftResult
 
 # Input of the transmission -> course that drives it.
-DRIVEN = {"clutch_pressure": "clutch_pressure", "brake_pressure": "brake_pressure",
-          "engine_torque_input": "engine_torque"}  # fmt: skip
+DRIVEN = {
+    "clutch_pressure": "clutch_pressure",
+    "brake_pressure": "brake_pressure",
+    "engine_torque_input": "engine_torque",
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,18 +76,26 @@ class SequenceResult:
         """Return every number but the time series, as JSON can hold it."""
         oil = self.oil_temperature
         return {
-            "scene": self.scene.name, "title": self.scene.title, "steps": len(self.time) - 1,
-            "oil_temperature_start": float(oil[0]), "oil_temperature_end": float(oil[-1]),
+            "scene": self.scene.name,
+            "title": self.scene.title,
+            "steps": len(self.time) - 1,
+            "oil_temperature_start": float(oil[0]),
+            "oil_temperature_end": float(oil[-1]),
             "oil_temperature_max": float(oil.max()),
             "energy_residual": float(self.signals["transmission.energy_residual"][-1]),
-            "shifts": [{"time": start, "direction": way, **shift.figures} for (start, way), shift
-                       in zip(sequence_of(self.scene).shifts, self.shifts, strict=True)],
+            "shifts": [
+                {"time": start, "direction": way, **shift.figures}
+                for (start, way), shift in zip(
+                    sequence_of(self.scene).shifts, self.shifts, strict=True
+                )
+            ],
             "warnings": list(self.warnings),
             "step_error": self.step_error.relative if self.step_error else None,
             "step_errors": {str(i): e.as_dict() for i, e in self.step_errors.items()},
             "step_advice": min((e.advice for e in self.step_errors.values()), default=None),
-            "wall_time": self.wall_time, "messages": self.messages,
-        }  # fmt: skip
+            "wall_time": self.wall_time,
+            "messages": self.messages,
+        }
 
     def write_csv(self, path: str | Path) -> None:
         """Write time and all signals, as ``ShiftResult.write_csv`` does."""
@@ -92,9 +103,12 @@ class SequenceResult:
 
 
 def run_sequence(
-    scene: Scene, instances: Mapping[str, Stepping], *, progress: Progress | None = None,
+    scene: Scene,
+    instances: Mapping[str, Stepping],
+    *,
+    progress: Progress | None = None,
     guard: bool = False,
-) -> SequenceResult:  # fmt: skip
+) -> SequenceResult:
     """Simulate all shifts of a scene's ``[sequence]`` with living instances.
 
     Instances, ``progress`` and errors are those of ``run_shift``; ParameterError also with another
@@ -130,9 +144,13 @@ def run_sequence(
     wall = perf_counter() - begin
     found = [_one(shift, system, time, recorder) for shift in shifts]
     result = SequenceResult(
-        scene=scene, time=time, signals=recorder.signals(), wall_time=wall, shifts=found,
+        scene=scene,
+        time=time,
+        signals=recorder.signals(),
+        wall_time=wall,
+        shifts=found,
         messages=[f"first shift: {message}" for message in found[0].messages],
-    )  # fmt: skip
+    )
     return _guarded(result, windows, drive) if guard else result
 
 
@@ -181,9 +199,12 @@ def _drives(system: System, shifts: list[Scene]) -> Callable[[float, float], Non
     """
     names, inputs = system.transmission.input_names, system.transmission.inputs
     courses = [
-        {name: np.array(course_points(s.parts["transmission"].params, course)).T
-         for name, course in DRIVEN.items()} for s in shifts
-    ]  # fmt: skip
+        {
+            name: np.array(course_points(s.parts["transmission"].params, course)).T
+            for name, course in DRIVEN.items()
+        }
+        for s in shifts
+    ]
 
     def drive(t: float, end: float) -> None:
         k = max(0, sum(s.start_time <= t + 1e-9 for s in shifts) - 1)

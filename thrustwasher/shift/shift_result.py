@@ -97,10 +97,17 @@ class ShiftResult:
             return []
         run = {figure.name: figure for figure in self.key_figures}
         return [
-            {"name": name, "text": run[name].text, "unit": run[name].unit,
-             "difference": run[name].difference, "published": value, "run": run[name].value}
-            for name, value in published.figures.items() if name in run
-        ]  # fmt: skip
+            {
+                "name": name,
+                "text": run[name].text,
+                "unit": run[name].unit,
+                "difference": run[name].difference,
+                "published": value,
+                "run": run[name].value,
+            }
+            for name, value in published.figures.items()
+            if name in run
+        ]
 
     def units(self) -> dict[str, str]:
         """Return the unit of every signal."""

@@ -50,9 +50,11 @@ class Way:
     @property
     def name(self) -> str:
         """What the line is called."""
-        what = "friction torque" if self.coupling == "torque" else (
-            "capacity, extrapolated" if self.extrapolation else "capacity, held"
-        )  # fmt: skip
+        what = (
+            "friction torque"
+            if self.coupling == "torque"
+            else ("capacity, extrapolated" if self.extrapolation else "capacity, held")
+        )
         rung = "" if self.rung == "field" else f", packs {self.rung}"
         return f"{self.master}, {what}{rung}"
 
@@ -144,9 +146,11 @@ def study(*, quick: bool = False, progress: Callable[[str], None] = print) -> di
         for step in QUICK_STEPS if quick else STEPS:
             samples.append(sample(way, step, truth, uncertainty, 1 if quick else 3))
     return {
-        "scene": "planetary-sun without washers and gear mesh", "truth": truth, "samples": samples,
+        "scene": "planetary-sun without washers and gear mesh",
+        "truth": truth,
+        "samples": samples,
         "quantities": [q.as_dict() for q in QUANTITIES],
-    }  # fmt: skip
+    }
 
 
 def small_step_limit(*, quick: bool = False) -> tuple[dict[str, float], dict[str, float]]:
@@ -171,9 +175,12 @@ def run(way: Way, step: float) -> ShiftResult:
 
 
 def sample(
-    way: Way, step: float, truth: Mapping[str, float], uncertainty: Mapping[str, float],
+    way: Way,
+    step: float,
+    truth: Mapping[str, float],
+    uncertainty: Mapping[str, float],
     repeats: int,
-) -> dict[str, Any]:  # fmt: skip
+) -> dict[str, Any]:
     """Return one sample in the layout of all charts; the cost is per simulated second."""
     wall: list[float] = []
     found: dict[str, float] = {}
@@ -196,9 +203,22 @@ def sample(
     value = f"{1e3 * step:g} ms"
     quartiles = statistics.quantiles(wall, n=4) if len(wall) > 1 else [0.0, 0.0, 0.0]
     return Sample(
-        way.name, f"{way.name}, {value}", "macro step", value, "planetary-sun", errors,
+        way.name,
+        f"{way.name}, {value}",
+        "macro step",
+        value,
+        "planetary-sun",
+        errors,
         {q.name: uncertainty[q.name] / q.size(truth[q.name]) for q in QUANTITIES},
-        statistics.median(wall) if wall else math.nan, quartiles[2] - quartiles[0],
-        min(wall, default=math.nan), len(wall), math.nan, 0.0, float(count), "steps of all parts",
-        1, len(failures), failures,
-    ).as_dict()  # fmt: skip
+        statistics.median(wall) if wall else math.nan,
+        quartiles[2] - quartiles[0],
+        min(wall, default=math.nan),
+        len(wall),
+        math.nan,
+        0.0,
+        float(count),
+        "steps of all parts",
+        1,
+        len(failures),
+        failures,
+    ).as_dict()

@@ -45,20 +45,26 @@ def reference_clutch(
     ParameterError : an argument is outside its range
     SolveError : no film or temperature was found
     """
-    whole = solve_clutch(params, load=load, speed=speed, oil_temperature=oil_temperature,
-                         fidelity="fine")  # fmt: skip
+    whole = solve_clutch(
+        params, load=load, speed=speed, oil_temperature=oil_temperature, fidelity="fine"
+    )
     sign = float(np.sign(speed))
     rows = []
     for n in RINGS:
         par = prepare(params, "fine")
         derive_rings(par, n)
         s = steady_pack(par, load, speed, 0.0, oil_temperature, whole.film_ratio)
-        rows.append({
-            "friction_torque": sign * (s.contact + s.viscous), "temperature": s.temperature,
-            "contact_torque": sign * s.contact, "viscous_torque": sign * s.viscous,
-            "friction_coefficient": s.coefficient, "film_ratio": whole.film_ratio,
-            "film_thickness": whole.film_thickness,
-        })  # fmt: skip
+        rows.append(
+            {
+                "friction_torque": sign * (s.contact + s.viscous),
+                "temperature": s.temperature,
+                "contact_torque": sign * s.contact,
+                "viscous_torque": sign * s.viscous,
+                "friction_coefficient": s.coefficient,
+                "film_ratio": whole.film_ratio,
+                "film_thickness": whole.film_thickness,
+            }
+        )
     values, uncertainty = ref.extrapolated(rows, (2.0, 2.0), 2.0)
     return ReferenceValues(values, uncertainty, ("2, 4, 8 rings, order 2",))
 
@@ -102,8 +108,9 @@ def _by_radau(
     par, work = prepare(params, "fine"), np.zeros(k.NWORK)
     derive_rings(par, n)
     status = int(advance.load_memory(par, force[0], oil, np.zeros(k.NSTATE), work))
-    gains = [par[k.D_GAIN] * par[k.D_AREA] / clutch_rates.ring_of(par, i)[k.D_AREA]
-             for i in range(n)]  # fmt: skip
+    gains = [
+        par[k.D_GAIN] * par[k.D_AREA] / clutch_rates.ring_of(par, i)[k.D_AREA] for i in range(n)
+    ]
 
     def rates(at: float, y: Array, a: int) -> Array:
         x = (at - t[a]) / (t[a + 1] - t[a])
@@ -118,8 +125,15 @@ def _by_radau(
 
     y = np.concatenate(([work[k.W_NOW + k.Y_FILM], 0.0], np.full(n, oil)))
     for a in range(len(t) - 1):  # courses have corners at their points
-        found = solve_ivp(rates, (t[a], t[a + 1]), y, method="Radau", args=(a,), rtol=TOLERANCE,
-                          atol=TOLERANCE * np.r_[1.0, 1e3, np.full(n, 10.0)])  # fmt: skip
+        found = solve_ivp(
+            rates,
+            (t[a], t[a + 1]),
+            y,
+            method="Radau",
+            args=(a,),
+            rtol=TOLERANCE,
+            atol=TOLERANCE * np.r_[1.0, 1e3, np.full(n, 10.0)],
+        )
         if status or not found.success:
             raise SolveError(
                 f"reference_engagement: not integrated beyond t = {t[a]:g} s; "
@@ -132,10 +146,11 @@ def _by_radau(
     point = (float(force[-1]), float(slip[-1]), float(y[0]), 0.0)
     pack_outputs.ring_outputs(par, point, (0.0,) * 4, work, out, np.zeros(k.NOUT))
     return {
-        "friction_torque": float(out[k.O_TORQUE]), "film_ratio": float(y[0]),
+        "friction_torque": float(out[k.O_TORQUE]),
+        "film_ratio": float(y[0]),
         "temperature": float(pack_outputs.mean_surface(par, work)[0]),
         "energy": float(params.faces * y[1]),
-    }  # fmt: skip
+    }
 
 
 def engagement_points(load: float, speed: float) -> tuple[Any, Any, Any]:
@@ -204,17 +219,23 @@ def _answer(params: Any, fidelity: str, known: ReferencePoint) -> Answer:
     if known.chart == "engagement":
         time, load, speed = engagement_points(point["load"], point["speed"])
         e = engage_clutch(
-            params, time=time, load=load, speed=speed, oil_temperature=point["oil_temperature"],
+            params,
+            time=time,
+            load=load,
+            speed=speed,
+            oil_temperature=point["oil_temperature"],
             fidelity=fidelity,
-        )  # fmt: skip
+        )
         return Answer({name: getattr(e, name).tolist() for name in QUANTITIES}, ref.OK)
     c = solve_clutch(params, **point, fidelity=fidelity)
     return Answer({name: getattr(c, name) for name in QUANTITIES}, ref.OK)
 
 
 SOURCE = Source(
-    _at_points, _answer, _at_case,
+    _at_points,
+    _answer,
+    _at_case,
     tuple(f"thrustwasher.clutch.kernels.{name}" for name in ("advance", "pack_outputs", "steady")),
     None,
     (f"{', '.join(map(str, RINGS))} rings, order 2; settled below {k.HOT_LIMIT:g} K",),
-)  # fmt: skip
+)

@@ -21,11 +21,16 @@ TOLERANCE = 1e-12
 SEARCHED = 200  # positions on each stretch from which the hottest is searched
 METHODS = ("adaptive quadrature", "search for the hottest position")
 SHOWN = {
-    "friction_coefficient": k.F_FRICTION, "mean_friction": k.F_MEAN_FRICTION,
-    "temperature": k.F_ASPERITY, "film_ratio": k.F_RATIO, "film_thickness": k.F_FILM,
-    "flash_rise": k.F_FLASH, "surface_temperature": k.F_SURFACE, "bulk_temperature": k.F_BULK,
+    "friction_coefficient": k.F_FRICTION,
+    "mean_friction": k.F_MEAN_FRICTION,
+    "temperature": k.F_ASPERITY,
+    "film_ratio": k.F_RATIO,
+    "film_thickness": k.F_FILM,
+    "flash_rise": k.F_FLASH,
+    "surface_temperature": k.F_SURFACE,
+    "bulk_temperature": k.F_BULK,
     "film_temperature": k.F_FILM_TEMPERATURE,
-}  # fmt: skip
+}
 ROUNDING = 1e-12  # relative, of values that nothing but rounding moves
 
 
@@ -49,8 +54,9 @@ def reference_gearmesh(
     """
     from scipy.integrate import quad
 
-    fine = solve_gearmesh(params, power=power, speed=speed, oil_temperature=oil_temperature,
-                          fidelity="fine")  # fmt: skip
+    fine = solve_gearmesh(
+        params, power=power, speed=speed, oil_temperature=oil_temperature, fidelity="fine"
+    )
     torque = pinion_torque(power, speed)
     if params.film_heat == "loss":
         return _of_loss(params, torque, speed, oil_temperature)
@@ -61,8 +67,14 @@ def reference_gearmesh(
         share = float(par[k.D_PATH_LOSS + first : k.D_PATH_LOSS + first + N_NODES].sum())
         at = _positions(par, first, torque, speed, oil_temperature)
         moment = 0.5 * abs(high * abs(high) - low * abs(low))
-        value, error = quad(lambda s, at=at: float(at(s)[k.F_FRICTION]) * abs(s), low, high,
-                            epsabs=0.0, epsrel=TOLERANCE, limit=200)  # fmt: skip
+        value, error = quad(
+            lambda s, at=at: float(at(s)[k.F_FRICTION]) * abs(s),
+            low,
+            high,
+            epsabs=0.0,
+            epsrel=TOLERANCE,
+            limit=200,
+        )
         total += share * value / moment
         missed += share * error / moment
         weight += share
@@ -72,12 +84,15 @@ def reference_gearmesh(
     friction = total / weight
     loss = float(par[k.D_LOSS]) * torque * friction * float(np.sign(speed))
     values = {
-        "friction_torque": loss, "friction_coefficient": friction,
-        "temperature": float(hottest[k.F_ASPERITY]), "film_ratio": float(hottest[k.F_RATIO]),
-        "film_thickness": float(hottest[k.F_FILM]), "flash_rise": float(hottest[k.F_FLASH]),
+        "friction_torque": loss,
+        "friction_coefficient": friction,
+        "temperature": float(hottest[k.F_ASPERITY]),
+        "film_ratio": float(hottest[k.F_RATIO]),
+        "film_thickness": float(hottest[k.F_FILM]),
+        "flash_rise": float(hottest[k.F_FLASH]),
         "surface_temperature": float(hottest[k.F_SURFACE]),
         "film_temperature": float(hottest[k.F_FILM_TEMPERATURE]),
-    }  # fmt: skip
+    }
     uncertainty = {name: ROUNDING * abs(value) for name, value in values.items()}
     uncertainty["friction_torque"] += abs(loss) * missed / max(friction, 1e-300)
     uncertainty["friction_coefficient"] += missed
@@ -169,9 +184,12 @@ def _hottest(at: Callable[[float], Any], low: float, high: float) -> Any:
     heat = [float(at(s)[k.F_ASPERITY]) for s in grid]
     best = int(np.argmax(heat))
     if 0 < best < SEARCHED - 1:
-        found = minimize_scalar(lambda s: -float(at(s)[k.F_ASPERITY]), method="bounded",
-                                bounds=(grid[best - 1], grid[best + 1]),
-                                options={"xatol": 1e-12})  # fmt: skip
+        found = minimize_scalar(
+            lambda s: -float(at(s)[k.F_ASPERITY]),
+            method="bounded",
+            bounds=(grid[best - 1], grid[best + 1]),
+            options={"xatol": 1e-12},
+        )
         if -found.fun >= heat[best]:
             return at(float(found.x)).copy()
     return at(float(grid[best])).copy()
@@ -197,20 +215,29 @@ def _at_case(point: tuple[float, ...], _before: object = ()) -> ReferenceValues:
 def _answer(params: Any, fidelity: str, known: ReferencePoint) -> Answer:
     p = known.point
     g = solve_gearmesh(
-        params, power=p["load"] * p["speed"], speed=p["speed"],
-        oil_temperature=p["oil_temperature"], fidelity=fidelity,
-    )  # fmt: skip
+        params,
+        power=p["load"] * p["speed"],
+        speed=p["speed"],
+        oil_temperature=p["oil_temperature"],
+        fidelity=fidelity,
+    )
     values: Values = {
-        "friction_torque": g.friction_torque, "temperature": g.asperity_temperature,
-        "film_thickness": g.film_thickness, "film_ratio": g.film_ratio,
-    }  # fmt: skip
+        "friction_torque": g.friction_torque,
+        "temperature": g.asperity_temperature,
+        "film_thickness": g.film_thickness,
+        "film_ratio": g.film_ratio,
+    }
     return Answer(values, OK)
 
 
 SOURCE = Source(
-    _at_points, _answer, _at_case,
-    tuple(f"thrustwasher.gearmesh.kernels.{name}"
-          for name in ("line_of_action", "constants", "operating_point")),
+    _at_points,
+    _answer,
+    _at_case,
+    tuple(
+        f"thrustwasher.gearmesh.kernels.{name}"
+        for name in ("line_of_action", "constants", "operating_point")
+    ),
     None,
     ("adaptive quadrature over the line of action", "search for the hottest position"),
-)  # fmt: skip
+)

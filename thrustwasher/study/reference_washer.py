@@ -28,14 +28,28 @@ from .reference_values import Answer, Point, ReferencePoint, ReferenceValues, So
 Array = NDArray[np.float64]
 GRIDS = ((19, 64), (28, 96), (37, 128))  # all intervals refined alike, 3 : 2 then 4 : 3
 FINER = ((37, 128), (55, 192), (73, 256))
-NAMES = ("friction_torque", "temperature", "temperature_max", "film_thickness", "film_ratio",
-         "fluid_load", "contact_load", "friction_coefficient")  # fmt: skip
+NAMES = (
+    "friction_torque",
+    "temperature",
+    "temperature_max",
+    "film_thickness",
+    "film_ratio",
+    "fluid_load",
+    "contact_load",
+    "friction_coefficient",
+)
 
 
 def reference_washer(
-    params: WasherParams, *, load: float, speed: float, tilt: float,
-    oil_temperature: float = 297.15, branch: str | None = None, finer: bool = False,
-) -> ReferenceValues:  # fmt: skip
+    params: WasherParams,
+    *,
+    load: float,
+    speed: float,
+    tilt: float,
+    oil_temperature: float = 297.15,
+    branch: str | None = None,
+    finer: bool = False,
+) -> ReferenceValues:
     """Return the washer's values converged over the mesh, with what they may be off by.
 
     Parameters
@@ -58,8 +72,9 @@ def reference_washer(
     Extrapolated with order 2 from the two finest meshes; the uncertainty also counts how far the
     value moved from that of the two coarser ones.
     """
-    base = solve_washer(params, load=load, speed=speed, tilt=tilt,
-                        oil_temperature=oil_temperature, branch=branch)  # fmt: skip
+    base = solve_washer(
+        params, load=load, speed=speed, tilt=tilt, oil_temperature=oil_temperature, branch=branch
+    )
     return _converged(base, FINER if finer else GRIDS)[0]
 
 
@@ -103,8 +118,11 @@ def interpolate_to_mesh(result: WasherResult, grid: tuple[int, int]) -> WasherRe
     had = result._state[S_FIELDS : S_FIELDS + n_old]
     temperatures = np.zeros(n_new)
     for name, inner_old, inner_new in (
-        ("film", 0, 0), ("carrier", 0, 0), ("washer", 0, 0), ("gear", old.i_g, new.i_g),
-    ):  # fmt: skip
+        ("film", 0, 0),
+        ("carrier", 0, 0),
+        ("washer", 0, 0),
+        ("gear", old.i_g, new.i_g),
+    ):
         step, to_step = getattr(old, f"{name}_step"), getattr(new, f"{name}_step")
         if name == "film" and step == 0:
             continue
@@ -211,9 +229,11 @@ def _answer(params: Any, fidelity: str, known: ReferencePoint) -> Answer:
 
 
 SOURCE = Source(
-    _at_points, _answer, _at_case,
+    _at_points,
+    _answer,
+    _at_case,
     tuple(f"thrustwasher.washer.kernels.{name}" for name in ("solve", "outputs", "constants")),
     GRIDS[-1],
     tuple(f"{a} x {b} and {c} x {d} nodes, order 2" for (a, b), (c, d) in pairwise(GRIDS)),
     BRANCHES,
-)  # fmt: skip
+)

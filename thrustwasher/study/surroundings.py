@@ -25,14 +25,19 @@ def surroundings(command: str) -> dict[str, Any]:
         "command": command,
         "date": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
         "machine": {
-            "cpu": _cpu(), "cores": os.cpu_count(), "os": platform.platform(terse=True),
-            "python": platform.python_version(), "numpy": metadata.version("numpy"),
-            "numba": metadata.version("numba"), "compiled": not os.environ.get("NUMBA_DISABLE_JIT"),
-            "threads": {name: os.environ.get(name) for name in THREADS}, "load": load(),
+            "cpu": _cpu(),
+            "cores": os.cpu_count(),
+            "os": platform.platform(terse=True),
+            "python": platform.python_version(),
+            "numpy": metadata.version("numpy"),
+            "numba": metadata.version("numba"),
+            "compiled": not os.environ.get("NUMBA_DISABLE_JIT"),
+            "threads": {name: os.environ.get(name) for name in THREADS},
+            "load": load(),
         },
         "package": {"version": made_by, "kernels": kernel_digest(), **_commit()},
         "calibration_s": calibration(),
-    }  # fmt: skip
+    }
 
 
 def load() -> float | None:

@@ -40,13 +40,21 @@ SumpParams = extended(_SumpParams, "SumpParams", _FACTORS)
 
 
 def _heat(i: int) -> Signal:
-    return Signal(name=f"heat_{i}", unit="W", help=f"heat into the oil from one part of kind {i}",
-                  low=-1e9, high=1e9, nominal=1e3, start=0.0)  # fmt: skip
+    return Signal(
+        name=f"heat_{i}",
+        unit="W",
+        help=f"heat into the oil from one part of kind {i}",
+        low=-1e9,
+        high=1e9,
+        nominal=1e3,
+        start=0.0,
+    )
 
 
 def _temperature(name: str, start: float, text: str) -> Signal:
-    return Signal(name=name, unit="K", help=text, low=173.15, high=573.15, nominal=300.0,
-                  start=start)  # fmt: skip
+    return Signal(
+        name=name, unit="K", help=text, low=173.15, high=573.15, nominal=300.0, start=start
+    )
 
 
 SPEC = ModelSpec(
@@ -59,8 +67,15 @@ SPEC = ModelSpec(
     inputs=(
         *map(_heat, PORTS),
         _temperature("ambient_temperature", 298.15, "temperature of the surroundings"),
-        Signal(name="cooler_flow", unit="m3/s", help="oil through the cooler", low=0.0, high=1.0,
-               nominal=1e-4, start=0.0),
+        Signal(
+            name="cooler_flow",
+            unit="m3/s",
+            help="oil through the cooler",
+            low=0.0,
+            high=1.0,
+            nominal=1e-4,
+            start=0.0,
+        ),
         _temperature("cooler_temperature", 338.15, "temperature of the oil from the cooler"),
     ),
     outputs=(
@@ -69,19 +84,29 @@ SPEC = ModelSpec(
         output("stored_heat", "J", 1e4, "heat in oil and housing since the start"),
         output("ambient_heat", "J", 1e4, "heat into the surroundings since the start"),
         output("cooler_heat", "J", 1e4, "heat into the cooler since the start"),
-        Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
-               help="how the last step was solved"),
+        Signal(
+            name="solver_status",
+            unit="1",
+            kind="enumeration",
+            type="SolverStatus",
+            help="how the last step was solved",
+        ),
     ),
     kernel="thrustwasher.sump.kernels.step",
     terminals=tuple(
-        Terminal(name=f"part_{i}", kind="thrustwasher.HeatPort",
-                 help="Heat from a kind of part in, temperature of its oil out",
-                 members=((f"heat_{i}", "Q_flow", "inflow"), ("temperature", "T", "signal")))
+        Terminal(
+            name=f"part_{i}",
+            kind="thrustwasher.HeatPort",
+            help="Heat from a kind of part in, temperature of its oil out",
+            members=((f"heat_{i}", "Q_flow", "inflow"), ("temperature", "T", "signal")),
+        )
         for i in PORTS
     ),
     stop_time=600.0,
     step_size=1.0,
     # 2 kW for ten minutes, the cooler from half of it on.
-    course=tuple((t, *[2e3 if i == 1 else 0.0 for i in PORTS], 298.15, flow, 338.15)
-                 for t, flow in ((0.0, 0.0), (300.0, 0.0), (301.0, 5e-5), (600.0, 5e-5))),
-)  # fmt: skip
+    course=tuple(
+        (t, *[2e3 if i == 1 else 0.0 for i in PORTS], 298.15, flow, 338.15)
+        for t, flow in ((0.0, 0.0), (300.0, 0.0), (301.0, 5e-5), (600.0, 5e-5))
+    ),
+)

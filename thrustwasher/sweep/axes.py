@@ -42,9 +42,11 @@ class Place:
             check_value(self.name, value, self.meta)
             return str(value) if self.kind == "enumeration" else bool(value)
         number = parse_quantity(
-            value if isinstance(value, str) else float(value), self.unit, self.name,
+            value if isinstance(value, str) else float(value),
+            self.unit,
+            self.name,
             difference=bool(self.meta.get("relative")),
-        )  # fmt: skip
+        )
         check_value(self.name, number, self.meta, stated=has_unit(value))
         return int(number) if self.kind == "integer" else number
 

@@ -33,12 +33,19 @@ ANSWER_TIME = "10s"  # a cluster that takes longer is taken for absent
 
 
 def run_sweep(
-    model: str | PartFile, over: Mapping[str, Any] | None = None, *,
+    model: str | PartFile,
+    over: Mapping[str, Any] | None = None,
+    *,
     at: Mapping[str, Any] | None = None,
-    points: Mapping[str, Any] | None = None, params: Any = None, fidelity: str | None = None,
-    out: str | Path | None = None, workers: int | None = None, cluster: str | None = None,
-    progress: Progress | None = None, keep: bool = True,
-) -> SweepTable:  # fmt: skip
+    points: Mapping[str, Any] | None = None,
+    params: Any = None,
+    fidelity: str | None = None,
+    out: str | Path | None = None,
+    workers: int | None = None,
+    cluster: str | None = None,
+    progress: Progress | None = None,
+    keep: bool = True,
+) -> SweepTable:
     """Return the outputs of a model over all combinations of some inputs and parameters.
 
     Parameters
@@ -120,9 +127,13 @@ class Run:
     """One run of a sweep: hands out tasks and takes in their rows, each once."""
 
     def __init__(
-        self, plan: Plan, numbers: NDArray[np.float64], flags: NDArray[np.int32],
-        journal: Journal | None, progress: Progress | None,
-    ) -> None:  # fmt: skip
+        self,
+        plan: Plan,
+        numbers: NDArray[np.float64],
+        flags: NDArray[np.int32],
+        journal: Journal | None,
+        progress: Progress | None,
+    ) -> None:
         self.plan, self.numbers, self.flags = plan, numbers, flags  # without rows: not kept
         self.journal, self.progress = journal, progress
         self.done, self.n_done = np.zeros(plan.n_rows, bool), 0
@@ -239,10 +250,13 @@ class Run:
         plan = self.plan
         starts = plan.starts[a : b + 1]
         return Task(
-            plan.spec.key, plan.fidelity, int(starts[0]), plan.inputs[starts[0] : starts[-1]],
+            plan.spec.key,
+            plan.fidelity,
+            int(starts[0]),
+            plan.inputs[starts[0] : starts[-1]],
             tuple((starts - starts[0]).tolist()),
             tuple(plan.params[i] for i in plan.params_of[a:b]),
-        )  # fmt: skip
+        )
 
 
 @contextmanager

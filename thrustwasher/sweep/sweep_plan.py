@@ -53,9 +53,13 @@ class Plan:
 
 
 def make_plan(
-    model: str | PartFile, over: Mapping[str, Any], at: Mapping[str, Any],
-    points: Mapping[str, Any] | None, params: Any, fidelity: str | None,
-) -> Plan:  # fmt: skip
+    model: str | PartFile,
+    over: Mapping[str, Any],
+    at: Mapping[str, Any],
+    points: Mapping[str, Any] | None,
+    params: Any,
+    fidelity: str | None,
+) -> Plan:
     """Return the plan of a sweep; arguments as in ``run_sweep``."""
     part = model if isinstance(model, PartFile) else find_part(spec_of(model).key)
     spec, params = spec_of(part.spec.key), part.params if params is None else params
@@ -91,10 +95,13 @@ def _chosen(plan: Plan, tolerance: float) -> Plan:
         )
     names, low, high = [s.name for s in plan.spec.inputs], rows.min(0), rows.max(0)
     choice = chooser.choose(
-        plan.spec.key, dict(zip(names, zip(low, high, strict=True), strict=True)), tol=tolerance,
-        n_calls=plan.n_rows, params=plan.params[0],
+        plan.spec.key,
+        dict(zip(names, zip(low, high, strict=True), strict=True)),
+        tol=tolerance,
+        n_calls=plan.n_rows,
+        params=plan.params[0],
         points=[dict(zip(names, row, strict=True)) for row in rows_to_compare(rows).tolist()],
-    )  # fmt: skip
+    )
     identity = {**plan.identity, "fidelity": choice.fidelity}
     return replace(plan, fidelity=choice.fidelity, choice=str(choice), identity=identity)
 
@@ -169,9 +176,14 @@ def _checked(place: Place, i: int, value: Any) -> Any:
 
 
 def _assemble(
-    part: PartFile, fidelity: str, base: Any, held: dict[str, Any], rows: dict[str, Any],
-    starts: NDArray[np.int64], order: list[Place],
-) -> Plan:  # fmt: skip
+    part: PartFile,
+    fidelity: str,
+    base: Any,
+    held: dict[str, Any],
+    rows: dict[str, Any],
+    starts: NDArray[np.int64],
+    order: list[Place],
+) -> Plan:
     """Fill in what is not varied and give every line its parameters."""
     n, spec = int(starts[-1]), part.spec
     varied = [place.name for place in order if not place.is_input]
@@ -204,14 +216,22 @@ def _assemble(
         units[name] = next(p.unit for p in order if p.name == name)
     rung = rung_named(spec, fidelity)
     plan = Plan(
-        spec, rung, inputs, shown, units, starts, params, params_of,
+        spec,
+        rung,
+        inputs,
+        shown,
+        units,
+        starts,
+        params,
+        params_of,
         taken=taken_text(box, default, spec.inputs),
         warnings=(
-            *_idle(params, fidelity, spec.key), *_of_oil(part, params, inputs),
+            *_idle(params, fidelity, spec.key),
+            *_of_oil(part, params, inputs),
             *_outside(part, inputs),
             *_doubt(spec, rung, params, np.repeat(params_of, np.diff(starts)), inputs),
         ),
-    )  # fmt: skip
+    )
     plan.identity.update(_identity(plan, base, fixed, varied))
     return plan
 
@@ -268,15 +288,20 @@ def _outside(part: PartFile, inputs: Array) -> Iterator[str]:
         column = inputs[:, i][np.isfinite(inputs[:, i])]
         beyond = column[(column < low) | (column > high)]
         if len(beyond):
-            yield (f"{len(beyond)} of {len(inputs)} points, as {quantity_text(s, beyond[0])}, are "
-                   f"outside {range_text(s, (low, high))}, the part's box: solved all the same, "
-                   "but not what the part is meant for")  # fmt: skip
+            yield (
+                f"{len(beyond)} of {len(inputs)} points, as {quantity_text(s, beyond[0])}, are "
+                f"outside {range_text(s, (low, high))}, the part's box: solved all the same, "
+                "but not what the part is meant for"
+            )
 
 
 def _parameters(
-    base: Any, fixed: dict[str, Any], columns: list[Any], names: list[str],
+    base: Any,
+    fixed: dict[str, Any],
+    columns: list[Any],
+    names: list[str],
     starts: NDArray[np.int64],
-) -> tuple[tuple[Any, ...], NDArray[np.int64]]:  # fmt: skip
+) -> tuple[tuple[Any, ...], NDArray[np.int64]]:
     """Return the parameter objects of all lines and the index of each line's."""
     keys = list(zip(*(column[starts[:-1]].tolist() for column in columns), strict=True))
     if not names:

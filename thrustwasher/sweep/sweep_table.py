@@ -53,8 +53,9 @@ class SweepTable:
         told = {"OK", *(["HOT"] if hot >= self.counts.get("HOT", 0) else [])}  # told with the worst
         advised = (
             f"{n} of {len(self)} points {name}: {Status[name].advice}"
-            for name, n in sorted(self.counts.items()) if name not in told
-        )  # fmt: skip
+            for name, n in sorted(self.counts.items())
+            if name not in told
+        )
         return (*self.outside, *advised, *limits)
 
     def __len__(self) -> int:
@@ -93,9 +94,15 @@ def make_table(
     columns["status"] = names[flags[:, -1]]
     counts = {Status(i).name: n for i, n in enumerate(np.bincount(flags[:, -1]).tolist()) if n}
     return SweepTable(
-        columns, units, plan.fidelity, plan.choice, counts, plan.taken, plan.warnings,
+        columns,
+        units,
+        plan.fidelity,
+        plan.choice,
+        counts,
+        plan.taken,
+        plan.warnings,
         tuple(beyond(plan.spec, columns)),
-    )  # fmt: skip
+    )
 
 
 def pieces(plan: Plan, blocks: Iterable[Block]) -> Iterator[SweepTable]:
@@ -150,8 +157,10 @@ def write_table(
 
 def write_csv(table: SweepTable, stream: IO[str], *, head: bool = True) -> None:
     """Write the table as CSV: units in the head, numbers in full, empty where a point failed."""
-    heads = [f"{name} [{table.units[name]}]" if table.units.get(name, "1") != "1" else name
-             for name in table.columns]  # fmt: skip
+    heads = [
+        f"{name} [{table.units[name]}]" if table.units.get(name, "1") != "1" else name
+        for name in table.columns
+    ]
     if head:
         stream.write(",".join(heads) + "\n")
     n = len(table)

@@ -32,12 +32,16 @@ def bearing_fields(name: str) -> dict[str, Any]:
 
 def two_ends(name: str) -> Rule:
     """Return the rule that a bearing lies between two shafts."""
-    return Rule(f"{name}_shaft_2 = {{{name}_shaft_2}}, allowed: another shaft than "
-                f"{name}_shaft_1 ({' or '.join(SHAFT)})")  # fmt: skip
+    return Rule(
+        f"{name}_shaft_2 = {{{name}_shaft_2}}, allowed: another shaft than "
+        f"{name}_shaft_1 ({' or '.join(SHAFT)})"
+    )
 
 
 def rubbing(name: str) -> Rule:
     """Return the rule that a bearing takes less than the teeth give."""
-    return Rule(f"{name}_mean_radius = {{{name}_mean_radius}} m, allowed: with {name}_coefficient "
-                f"({{{name}_coefficient}}) x tan(helix_angle) up to a tenth of the sun's pitch "
-                "radius, or the bearing takes more than the teeth give")  # fmt: skip
+    return Rule(
+        f"{name}_mean_radius = {{{name}_mean_radius}} m, allowed: with {name}_coefficient "
+        f"({{{name}_coefficient}}) x tan(helix_angle) up to a tenth of the sun's pitch "
+        "radius, or the bearing takes more than the teeth give"
+    )

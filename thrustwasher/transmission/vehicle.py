@@ -41,6 +41,8 @@ class Vehicle:
         drag = 0.5 * self.air_density * self.drag_area * (LOAD_SPEED * self.reach) ** 2 * self.reach
         return {
             "vehicle_inertia" if elastic else "carrier_inertia": self.inertia,
-            "load_torque": drag, "load_speed": LOAD_SPEED,
-            "rolling_torque": self.rolling * weight, "grade_torque": self.grade * weight,
-        }  # fmt: skip
+            "load_torque": drag,
+            "load_speed": LOAD_SPEED,
+            "rolling_torque": self.rolling * weight,
+            "grade_torque": self.grade * weight,
+        }

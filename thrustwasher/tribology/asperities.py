@@ -36,9 +36,13 @@ class AsperityArgs(NamedTuple):
 
 @kernel
 def asperity_args(
-    contact_modulus: float, youngs_modulus: float, poisson_ratio: float, yield_strength: float,
-    by_contact: bool, radius: float,
-) -> AsperityArgs:  # fmt: skip
+    contact_modulus: float,
+    youngs_modulus: float,
+    poisson_ratio: float,
+    yield_strength: float,
+    by_contact: bool,
+    radius: float,
+) -> AsperityArgs:
     """Return the constants of one asperity; ``by_contact``: e_y = S_y/E' instead of S_y/E.
 
     ``contact_modulus`` is E' of both bodies, the other constants are those of the softer one.
@@ -66,9 +70,12 @@ def asperity_force(w: float, a: AsperityArgs) -> float:
         return a.critical_force * x * math.sqrt(x)
     log_x = math.log(x)
     contact_strain = (
-        0.5 * math.pi * a.c * a.yield_strain
+        0.5
+        * math.pi
+        * a.c
+        * a.yield_strain
         * math.exp(min(0.5 * log_x + 0.5 * a.b * (log_x - math.log(YIELD_END)), 300.0))
-    )  # fmt: skip
+    )
     hardness = 2.84 * (1.0 - math.exp(-0.82 * contact_strain**-0.7))  # H/S_y
     elastic = math.exp(-0.25 * math.exp(5.0 / 12.0 * log_x)) * x * math.sqrt(x)
     plastic = 4.0 * hardness / a.c * -math.expm1(-0.04 * math.exp(5.0 / 9.0 * log_x)) * x
@@ -110,9 +117,12 @@ def _nodes(a: AsperityArgs, sigma: float, work: Array) -> int:
 
 @kernel
 def contact_table(
-    a: AsperityArgs, density: float, sigma: float, table: Array,
+    a: AsperityArgs,
+    density: float,
+    sigma: float,
+    table: Array,
     work: Array,
-) -> bool:  # fmt: skip
+) -> bool:
     """Tabulate ln P over d/sigma, with first and second derivative; return True if finite.
 
     Parameters
@@ -136,8 +146,13 @@ def contact_table(
             if u > 40.0:
                 break
             # relative to the Gaussian at d, so that nothing underflows at large d
-            g = math.exp(-0.5 * work[k] * (work[k] + 2.0 * max(d, 0.0)) - (0.0 if d > 0.0 else
-                         0.5 * d * d + d * work[k])) * work[N_NODES + k]  # fmt: skip
+            g = (
+                math.exp(
+                    -0.5 * work[k] * (work[k] + 2.0 * max(d, 0.0))
+                    - (0.0 if d > 0.0 else 0.5 * d * d + d * work[k])
+                )
+                * work[N_NODES + k]
+            )
             p0 += g
             p1 -= u * g
             p2 += (u * u - 1.0) * g

@@ -53,9 +53,16 @@ def height_integrals(u: float) -> tuple[float, float]:
 def pressure_scale(roughness: float, modulus: float, density: float, radius: float) -> float:
     """Return the factor [Pa] of F_5/2 in Greenwood & Tripp's pressure."""
     group = density * radius * roughness
-    return 16.0 * math.sqrt(2.0) * math.pi / 15.0 * group * group * math.sqrt(
-        roughness / radius
-    ) * modulus  # fmt: skip
+    return (
+        16.0
+        * math.sqrt(2.0)
+        * math.pi
+        / 15.0
+        * group
+        * group
+        * math.sqrt(roughness / radius)
+        * modulus
+    )
 
 
 def _table() -> np.ndarray:

@@ -33,9 +33,13 @@ def rise_after(
 
 @kernel
 def rise_changes(
-    capacity: float, above: float, power: float, cooling: float, dt: float,
+    capacity: float,
+    above: float,
+    power: float,
+    cooling: float,
+    dt: float,
     change: tuple[float, float, float],
-) -> tuple[float, float]:  # fmt: skip
+) -> tuple[float, float]:
     """Return the changes of what ``rise_after`` returns; ``change`` of above, power, cooling."""
     z = cooling * dt / capacity
     decay, first, second = exponential_weights(z)

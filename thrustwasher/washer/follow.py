@@ -76,10 +76,17 @@ class CourseError(SolveError):
 
 
 def follow_washer(
-    params: WasherParams, *, time: ArrayLike, load: ArrayLike, speed: ArrayLike, tilt: ArrayLike,
-    oil_temperature: ArrayLike = 297.15, far_face_temperature: ArrayLike = 0.0,
-    fidelity: str = "field", grid: tuple[int, int] | None = None,
-) -> WasherCourse:  # fmt: skip
+    params: WasherParams,
+    *,
+    time: ArrayLike,
+    load: ArrayLike,
+    speed: ArrayLike,
+    tilt: ArrayLike,
+    oil_temperature: ArrayLike = 297.15,
+    far_face_temperature: ArrayLike = 0.0,
+    fidelity: str = "field",
+    grid: tuple[int, int] | None = None,
+) -> WasherCourse:
     """Return friction, temperature and film of a washer whose inputs are given over time.
 
     Parameters
@@ -138,18 +145,24 @@ def follow_washer(
     def packed(n: int) -> WasherCourse:
         """Return the first points."""
         return WasherCourse(
-            time=points[:n], distress=lost[:n].copy(), status=said, fidelity=rung,
-            thermal_mode=params.thermal_mode, grid=run.grid, warnings=gone_rung(SPEC, fidelity),
+            time=points[:n],
+            distress=lost[:n].copy(),
+            status=said,
+            fidelity=rung,
+            thermal_mode=params.thermal_mode,
+            grid=run.grid,
+            warnings=gone_rung(SPEC, fidelity),
             **{s.name: inputs[:n, k].copy() for k, s in enumerate(SPEC.inputs)},
             **{name: rows[:n, k].copy() for k, name in enumerate(SPEC.real_outputs)},
-        )  # fmt: skip
+        )
 
     for i in range(len(points)):
         duration = points[i] - points[i - 1] if i else 0.0
         code = run.go(inputs[max(i - 1, 0)], inputs[i], duration)
         if Status(code).is_failure:
-            values = ", ".join(f"{s.name} = {x:g} {s.unit}"
-                               for s, x in zip(SPEC.inputs, inputs[i], strict=True))  # fmt: skip
+            values = ", ".join(
+                f"{s.name} = {x:g} {s.unit}" for s, x in zip(SPEC.inputs, inputs[i], strict=True)
+            )
             text = f"t = {points[i]:g} s, {values}: {Status(code).advice}"
             raise CourseError(text, packed(i))
         rows[i], lost[i] = run.out, bool(run.iout[L.IO_DISTRESS])
@@ -198,7 +211,8 @@ class Follower:
         return self._step(now, 0.0)
 
     def _step(self, inputs: Array, duration: float) -> int:
-        code = int(kernel.step(self.par, inputs, self.state, self.work, self.out, self.iout,
-                               0.0, duration))  # fmt: skip
+        code = int(
+            kernel.step(self.par, inputs, self.state, self.work, self.out, self.iout, 0.0, duration)
+        )
         self.out[L.O_OIL_HEAT] = self.work[L.AT_OUTPUTS + L.O_OIL_HEAT]  # at the point
         return code

@@ -68,10 +68,17 @@ class LoadCurve:
 
 
 def load_curve(
-    params: WasherParams, *, speed: float, tilt: float, oil_temperature: float = 297.15,
-    far_face_temperature: float = 0.0, fidelity: str = "field", grid: tuple[int, int] | None = None,
-    load_min: float = 20.0, load_max: float = 3000.0,
-) -> LoadCurve:  # fmt: skip
+    params: WasherParams,
+    *,
+    speed: float,
+    tilt: float,
+    oil_temperature: float = 297.15,
+    far_face_temperature: float = 0.0,
+    fidelity: str = "field",
+    grid: tuple[int, int] | None = None,
+    load_min: float = 20.0,
+    load_max: float = 3000.0,
+) -> LoadCurve:
     """Return all solutions between two loads and the folds where the film is lost and regained.
 
     The film thickness is prescribed and the load computed, so the curve is followed through both
@@ -329,7 +336,14 @@ class Continuation:
         state[L.S_SCAN_SPEED], state[L.S_SCAN_TILT] = pt.speed, pt.tilt
         state[L.S_SCAN_OIL] = pt.oil_temperature
         return result_from(
-            self.params, (pt.load, *self.inputs[1:]), fidelity, self.nodes, state, self.work,
-            Status.OK, L.FILM_BRANCH, False,
+            self.params,
+            (pt.load, *self.inputs[1:]),
+            fidelity,
+            self.nodes,
+            state,
+            self.work,
+            Status.OK,
+            L.FILM_BRANCH,
+            False,
             BY_CARD if self.nodes == GRIDS[fidelity] else None,
-        )  # fmt: skip
+        )

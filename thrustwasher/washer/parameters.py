@@ -79,8 +79,9 @@ OVER_LOAD = (("friction_law", "load"),)
 def _own(name: str, common: str, unit: str, least: float, largest: float) -> Rule:
     """Return the rule of a body's own value: 0, or in the range of the common one."""
     unit = "" if unit == "1" else f" {unit}"
-    return Rule(f"{name} = {{{name}}}{unit}, allowed: 0 (as {common}) or "
-                f"{least:g} .. {largest:g}{unit}")  # fmt: skip
+    return Rule(
+        f"{name} = {{{name}}}{unit}, allowed: 0 (as {common}) or {least:g} .. {largest:g}{unit}"
+    )
 
 
 def _material(name: str, **extra: Any) -> Any:
@@ -94,9 +95,14 @@ def _body(name: str, **extra: Any) -> Any:
     common, body = name.rsplit("_", 1)
     unit, _, _, largest, text = MATERIAL[common]
     return quantity(
-        0.0, unit, 0.0, largest, f"{text} of the {body} (0: {common})", overrides=(common,),
+        0.0,
+        unit,
+        0.0,
+        largest,
+        f"{text} of the {body} (0: {common})",
+        overrides=(common,),
         **extra,
-    )  # fmt: skip
+    )
 
 
 def property_of(params: Any, name: str, body: str) -> float:
@@ -106,30 +112,51 @@ def property_of(params: Any, name: str, body: str) -> float:
 
 
 RULES = (
-    Rule("gear_inner_radius = {gear_inner_radius} m, allowed: between inner_radius {inner_radius} "
-         "and outer_radius {outer_radius} m"),
+    Rule(
+        "gear_inner_radius = {gear_inner_radius} m, allowed: between inner_radius {inner_radius} "
+        "and outer_radius {outer_radius} m"
+    ),
     Rule("outer_radius = {outer_radius} m, allowed: up to 20 x inner_radius ({inner_radius} m)"),
     *(_own(f"roughness_{body}", "roughness", "m", LEAST_ROUGHNESS, 1e-5) for body in BODIES),
-    Rule("friction_pressure_min = {friction_pressure_min} Pa, allowed: below "
-         "friction_pressure_max ({friction_pressure_max} Pa)"),
-    Rule("asperity_density x asperity_radius = {asperity_density} 1/m2 x {asperity_radius} m "
-         "leaves no scatter of the summits at roughness = {roughness} m; raise either, or use "
-         "asperity_height_law = 'surface'"),
-    *(_own(f"{name}_{body}", name, unit, least, largest)
-      for name, (unit, _, least, largest, _) in MATERIAL.items() if least > 0.0 for body in BODIES),
-    *(Rule(f"yield_strength = {{yield_strength}} Pa, allowed: for {pair} up to their contact "
-           "modulus (youngs_modulus = {youngs_modulus} Pa): they could not touch elastically")
-      for pair in ("carrier and washer", "washer and gear")),
-    Rule("oil_supply_temperature = {oil_supply_temperature} K, allowed: 0 (as oil_temperature) or "
-         "233.15 .. 473.15 K"),
-    Rule("film_heat_fraction = {film_heat_fraction}, allowed: 1 with oil_cooling, which carries "
-         "the film's heat away already"),
+    Rule(
+        "friction_pressure_min = {friction_pressure_min} Pa, allowed: below "
+        "friction_pressure_max ({friction_pressure_max} Pa)"
+    ),
+    Rule(
+        "asperity_density x asperity_radius = {asperity_density} 1/m2 x {asperity_radius} m "
+        "leaves no scatter of the summits at roughness = {roughness} m; raise either, or use "
+        "asperity_height_law = 'surface'"
+    ),
+    *(
+        _own(f"{name}_{body}", name, unit, least, largest)
+        for name, (unit, _, least, largest, _) in MATERIAL.items()
+        if least > 0.0
+        for body in BODIES
+    ),
+    *(
+        Rule(
+            f"yield_strength = {{yield_strength}} Pa, allowed: for {pair} up to their contact "
+            "modulus (youngs_modulus = {youngs_modulus} Pa): they could not touch elastically"
+        )
+        for pair in ("carrier and washer", "washer and gear")
+    ),
+    Rule(
+        "oil_supply_temperature = {oil_supply_temperature} K, allowed: 0 (as oil_temperature) or "
+        "233.15 .. 473.15 K"
+    ),
+    Rule(
+        "film_heat_fraction = {film_heat_fraction}, allowed: 1 with oil_cooling, which carries "
+        "the film's heat away already"
+    ),
     Rule("cavity_shear = liquid, allowed: with oil_cooling, which knows where the liquid is"),
-    Rule("thermal_mode = transient, allowed: with fidelity field or fine; a map has "
-         "no bodies that could store heat"),
-    Rule("gear_far_face = bulk, allowed: with fidelity field or fine; a map is for oil or "
-         "insulated"),
-)  # fmt: skip
+    Rule(
+        "thermal_mode = transient, allowed: with fidelity field or fine; a map has "
+        "no bodies that could store heat"
+    ),
+    Rule(
+        "gear_far_face = bulk, allowed: with fidelity field or fine; a map is for oil or insulated"
+    ),
+)
 
 
 INNER, OUTER = 0.0111, 0.0227  # [m] radii of Jackson & Green's washer
@@ -276,8 +303,13 @@ class WasherParams:
         read_by=(("friction_law", "constant"),),
     )
     friction_reference: float = quantity(
-        0.48 - 0.05 * math.log(MEGAPASCAL * PAPER_FACE), "1", -2.0, 2.0,
-        "dry friction at a mean contact pressure of 1 MPa", read_by=OVER_LOAD)  # fmt: skip
+        0.48 - 0.05 * math.log(MEGAPASCAL * PAPER_FACE),
+        "1",
+        -2.0,
+        2.0,
+        "dry friction at a mean contact pressure of 1 MPa",
+        read_by=OVER_LOAD,
+    )
     friction_slope: float = quantity(
         0.05, "1", 0.0, 0.2, "slope of the dry friction law", read_by=OVER_LOAD
     )

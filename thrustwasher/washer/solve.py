@@ -80,9 +80,13 @@ def check_far_face(params: WasherParams, far_face_temperature: float) -> None:
 
 
 def check_point(
-    params: WasherParams, load: float, speed: float, tilt: float, oil_temperature: float,
+    params: WasherParams,
+    load: float,
+    speed: float,
+    tilt: float,
+    oil_temperature: float,
     far_face_temperature: float = 0.0,
-) -> Inputs:  # fmt: skip
+) -> Inputs:
     """Return the operating point as floats, or raise ParameterError for the first bad one."""
     given = load, speed, tilt, oil_temperature, far_face_temperature
     a, b, c, d, e = (
@@ -94,24 +98,49 @@ def check_point(
 
 
 def result_from(
-    params: WasherParams, point: Inputs, fidelity: str,
-    grid: tuple[int, int], state: Array, work: Array, status: Status, branch: float, lost: bool,
+    params: WasherParams,
+    point: Inputs,
+    fidelity: str,
+    grid: tuple[int, int],
+    state: Array,
+    work: Array,
+    status: Status,
+    branch: float,
+    lost: bool,
     error: float | None,
-) -> WasherResult:  # fmt: skip
+) -> WasherResult:
     """Build the result from what the kernel left at the head of ``work``."""
     x, q = work[L.AT_OUTPUTS : L.AT_POSITIONS].tolist(), work[L.AT_POSITIONS : L.N_HEAD].tolist()
     return result_of(
-        params, point, x, q[L.TILT_X :], BRANCH_NAMES.get(branch, "film"), lost, status,
-        int(work[L.ITERATIONS]), fidelity, grid, error, state,
-    )  # fmt: skip
+        params,
+        point,
+        x,
+        q[L.TILT_X :],
+        BRANCH_NAMES.get(branch, "film"),
+        lost,
+        status,
+        int(work[L.ITERATIONS]),
+        fidelity,
+        grid,
+        error,
+        state,
+    )
 
 
 def solve_washer(
-    params: WasherParams, *, load: float, speed: float, tilt: float,
-    oil_temperature: float = 297.15, far_face_temperature: float = 0.0, fidelity: str = "field",
-    grid: tuple[int, int] | None = None, branch: str | None = None,
-    start: WasherResult | None = None, throw: bool = True,
-) -> WasherResult:  # fmt: skip
+    params: WasherParams,
+    *,
+    load: float,
+    speed: float,
+    tilt: float,
+    oil_temperature: float = 297.15,
+    far_face_temperature: float = 0.0,
+    fidelity: str = "field",
+    grid: tuple[int, int] | None = None,
+    branch: str | None = None,
+    start: WasherResult | None = None,
+    throw: bool = True,
+) -> WasherResult:
     """Return friction torque, temperature and film thickness of a thrust washer.
 
     Parameters
@@ -225,18 +254,27 @@ class _Prepared:
         self.work = work_array(("washer", nodes), L.N_HEAD + size_of_work(*nodes))
         self.inp, self.iout = np.zeros(kernel.NINP + 1), np.zeros(3, np.int32)
         self.step = bound(
-            kernel.step, par=par, inp=self.inp, work=self.work, out=np.zeros(kernel.NOUT),
+            kernel.step,
+            par=par,
+            inp=self.inp,
+            work=self.work,
+            out=np.zeros(kernel.NOUT),
             iout=self.iout,
-        )  # fmt: skip
+        )
 
 
 _prepared = Recent(_Prepared)
 
 
 def _solve(
-    params: WasherParams, point: Inputs, fidelity: str,
-    nodes: tuple[int, int], wanted: float, start: WasherResult | None, card: bool = False,
-) -> WasherResult:  # fmt: skip
+    params: WasherParams,
+    point: Inputs,
+    fidelity: str,
+    nodes: tuple[int, int],
+    wanted: float,
+    start: WasherResult | None,
+    card: bool = False,
+) -> WasherResult:
     """Solve on a mesh; ``card``: the rung is one whose cards know its error."""
     ready = _prepared(params, nodes)
     if start is not None and _continues(start, params, nodes):
@@ -255,9 +293,17 @@ def _solve(
         if np.all(np.isfinite(estimate)):
             state[L.S_POSITIONS :][:4] = estimate
     return result_from(
-        params, point, fidelity, nodes, state, work, status, float(work[L.AT_FOUND]),
-        bool(ready.iout[1]), BY_CARD if card else None,
-    )  # fmt: skip
+        params,
+        point,
+        fidelity,
+        nodes,
+        state,
+        work,
+        status,
+        float(work[L.AT_FOUND]),
+        bool(ready.iout[1]),
+        BY_CARD if card else None,
+    )
 
 
 def _continues(start: WasherResult, params: WasherParams, nodes: tuple[int, int]) -> bool:
@@ -268,9 +314,13 @@ def _continues(start: WasherResult, params: WasherParams, nodes: tuple[int, int]
 
 
 def _prefer(
-    params: WasherParams, point: Inputs, fidelity: str,
-    nodes: tuple[int, int], wanted: float, card: bool = False,
-) -> WasherResult:  # fmt: skip
+    params: WasherParams,
+    point: Inputs,
+    fidelity: str,
+    nodes: tuple[int, int],
+    wanted: float,
+    card: bool = False,
+) -> WasherResult:
     """Solve from nothing on a preferred branch, on the other if it does not exist."""
     result = _solve(params, point, fidelity, nodes, wanted, None, card)
     if result.status is Status.NO_BRANCH:

@@ -136,15 +136,17 @@ class WasherResult:
             return self._error
         names = ("load", "speed", "tilt", "oil_temperature")
         return error_estimate(
-            "washer", self.fidelity, self.params, {n: getattr(self, n) for n in names},
-            branch=self.branch, film_ratio=self.film_ratio,
-        )  # fmt: skip
+            "washer",
+            self.fidelity,
+            self.params,
+            {n: getattr(self, n) for n in names},
+            branch=self.branch,
+            film_ratio=self.film_ratio,
+        )
 
     def point(self) -> Inputs:
         """Return the inputs: load, speed, tilt, oil temperature, that of the gear's far face."""
-        return (
-            self.load, self.speed, self.tilt, self.oil_temperature, self.far_face_temperature
-        )  # fmt: skip
+        return (self.load, self.speed, self.tilt, self.oil_temperature, self.far_face_temperature)
 
     def fields(self) -> WasherFields:
         """Return gap, pressures, temperatures and oil flow; it takes a rung with a mesh."""
@@ -195,19 +197,50 @@ class WasherResult:
 
 
 def result_of(
-    params: WasherParams, point: Inputs, x: Sequence[float],
-    tilts: Sequence[float], branch: str, distress: bool, status: Status, iterations: int,
-    fidelity: str, grid: tuple[int, int], error: float | None, state: Array,
-) -> WasherResult:  # fmt: skip
+    params: WasherParams,
+    point: Inputs,
+    x: Sequence[float],
+    tilts: Sequence[float],
+    branch: str,
+    distress: bool,
+    status: Status,
+    iterations: int,
+    fidelity: str,
+    grid: tuple[int, int],
+    error: float | None,
+    state: Array,
+) -> WasherResult:
     """Return the result with the kernels' outputs ``x`` and the washer's tilts about x and y."""
     return WasherResult(
-        x[L.O_TORQUE], x[L.O_MEAN], x[L.O_PEAK], x[L.O_FILM], x[L.O_RATIO], x[L.O_FLUID_LOAD],
-        x[L.O_CONTACT_LOAD], x[L.O_COEFFICIENT], x[L.O_POWER], x[L.O_OIL_FLOW],
-        x[L.O_THROUGHFLOW_HEAT], x[L.O_OIL_HEAT], x[L.O_OUTLET], x[L.O_FILM_TEMPERATURE],
-        x[L.O_STICK_MARGIN], tilts[0], tilts[1], branch, distress,
-        advised(point, x[L.O_PEAK], distress, status), iterations, fidelity, grid, error, *point,
-        params, state, washer_warnings(params, point, x, distress, status),
-    )  # fmt: skip
+        x[L.O_TORQUE],
+        x[L.O_MEAN],
+        x[L.O_PEAK],
+        x[L.O_FILM],
+        x[L.O_RATIO],
+        x[L.O_FLUID_LOAD],
+        x[L.O_CONTACT_LOAD],
+        x[L.O_COEFFICIENT],
+        x[L.O_POWER],
+        x[L.O_OIL_FLOW],
+        x[L.O_THROUGHFLOW_HEAT],
+        x[L.O_OIL_HEAT],
+        x[L.O_OUTLET],
+        x[L.O_FILM_TEMPERATURE],
+        x[L.O_STICK_MARGIN],
+        tilts[0],
+        tilts[1],
+        branch,
+        distress,
+        advised(point, x[L.O_PEAK], distress, status),
+        iterations,
+        fidelity,
+        grid,
+        error,
+        *point,
+        params,
+        state,
+        washer_warnings(params, point, x, distress, status),
+    )
 
 
 def advised(point: Sequence[float], peak: float, distress: bool, status: Status) -> Status:

@@ -78,9 +78,14 @@ class Reference:
         self.grooves = pad_factor(p) if p.groove_count else 1.0
         self.count = p.asperity_density * p.asperity_radius * p.roughness
         self.scale = (
-            16.0 * math.sqrt(2.0) * math.pi / 15.0 * self.count**2
-            * math.sqrt(p.roughness / p.asperity_radius) * p.contact_modulus
-        )  # fmt: skip
+            16.0
+            * math.sqrt(2.0)
+            * math.pi
+            / 15.0
+            * self.count**2
+            * math.sqrt(p.roughness / p.asperity_radius)
+            * p.contact_modulus
+        )
         self.heat = p.steel_density * p.steel_heat_capacity * self.area * p.steel_thickness / 2.0
 
     def fill(self, slip, gap, eta):
@@ -143,8 +148,13 @@ class Reference:
         """Return film ratio and temperature at ``times``; Radau, rtol 1e-10."""
         first = start or [self.p.initial_film / self.p.roughness, self.oil]
         found = solve_ivp(
-            self.rates, (times[0], times[-1]), first, method="Radau", rtol=1e-10, atol=1e-9,
+            self.rates,
+            (times[0], times[-1]),
+            first,
+            method="Radau",
+            rtol=1e-10,
+            atol=1e-9,
             t_eval=times,
-        )  # fmt: skip
+        )
         assert found.success
         return found.y

@@ -129,8 +129,13 @@ def passed(unit, point, sizes, seed):
     par, state, work, inputs = unit.par, unit.state, unit.work, [float(x) for x in point]
     load_memory(par, inputs[0], inputs[2], state, work)
     course = (
-        state[L.S_LOAD], state[L.S_SLIP], state[L.S_OIL], *inputs[:3], state[L.S_DRUM], inputs[3]
-    )  # fmt: skip
+        state[L.S_LOAD],
+        state[L.S_SLIP],
+        state[L.S_OIL],
+        *inputs[:3],
+        state[L.S_DRUM],
+        inputs[3],
+    )
     work[L.W_VARIED : L.W_VARIED + L.NY] = 0.0
     done = 0.0
     for share in sizes:
@@ -144,9 +149,14 @@ def passed(unit, point, sizes, seed):
 
 @pytest.mark.parametrize("rung", ["field", "fine"])
 @pytest.mark.parametrize(
-    "sizes", [(1.0,), (0.5, 0.5), (0.02, 0.12, 0.3, 0.56),
-              pytest.param((0.1,) * 10, marks=pytest.mark.slow)],
-)  # fmt: skip
+    "sizes",
+    [
+        (1.0,),
+        (0.5, 0.5),
+        (0.02, 0.12, 0.3, 0.56),
+        pytest.param((0.1,) * 10, marks=pytest.mark.slow),
+    ],
+)
 def test_a_moving_film_is_followed_through_any_substeps(sizes, rung):
     rng = np.random.default_rng(13)
     for _ in range(5):
@@ -157,8 +167,10 @@ def test_a_moving_film_is_followed_through_any_substeps(sizes, rung):
             _, found = passed(unit, point, sizes, tuple(seed.tolist()))
             best = np.inf
             for h in (1e-3, 1e-2, 1e-4, 1e-1, 1e-5):  # a corner may be near
-                ends = [passed(unit, point + x * h * seed, sizes, (0.0,) * 4)[0]
-                        for x in (1.0, -1.0, 0.5, -0.5)]  # fmt: skip
+                ends = [
+                    passed(unit, point + x * h * seed, sizes, (0.0,) * 4)[0]
+                    for x in (1.0, -1.0, 0.5, -0.5)
+                ]
                 wanted = (8.0 * (ends[2] - ends[3]) - (ends[0] - ends[1])) / (6.0 * h)
                 wrong, size = np.abs(found - wanted), np.abs(wanted)
                 film = wrong[0] / max(size[0], 1e-6)  # a change by less is none

@@ -57,8 +57,13 @@ def test_stored_heat_is_that_of_the_plates_warmth():
 
 def test_an_engagement_tells_the_same_balance():
     t = np.linspace(0.0, 0.4, 81)
-    e = engage_clutch(ClutchParams(), time=t, load=6000.0 * np.minimum(t / 0.1, 1.0),
-                      speed=300.0 * (1.0 - t / 0.5), oil_temperature=353.15)  # fmt: skip
+    e = engage_clutch(
+        ClutchParams(),
+        time=t,
+        load=6000.0 * np.minimum(t / 0.1, 1.0),
+        speed=300.0 * (1.0 - t / 0.5),
+        oil_temperature=353.15,
+    )
     into_oil = np.sum(e.oil_heat[1:] * np.diff(t))
     assert e.energy[-1] == pytest.approx(e.stored_heat[-1] + into_oil, rel=1e-12)
     assert 0.0 < into_oil < 0.1 * e.energy[-1]  # a shift is over before the plates have cooled

@@ -37,8 +37,10 @@ def test_the_settled_sample_has_the_friction_that_was_measured_whatever_pressure
 
 def test_data_of_the_asperities_alone_take_all_shear_on_top():
     """What it was before: the shear of the settled film a second time."""
-    found = [average(p, t, friction_data="boundary")
-             for p, t in ((0.5e6, 353.15), (1.5e6, 353.15), (0.5e6, 297.15))]  # fmt: skip
+    found = [
+        average(p, t, friction_data="boundary")
+        for p, t in ((0.5e6, 353.15), (1.5e6, 353.15), (0.5e6, 297.15))
+    ]
     assert found == pytest.approx([0.06753, 0.05401, 0.12812], rel=2e-4)
 
 
@@ -77,9 +79,12 @@ def test_the_default_pack_follows_the_tight_reference(oil):
     film, temperature = reference.solve(times)
     exact = np.array([reference.torque(*p) for p in zip(times, film, temperature, strict=True)])
     found = engage_clutch(
-        params, time=times, load=[load(t) for t in times], speed=[slip(t) for t in times],
+        params,
+        time=times,
+        load=[load(t) for t in times],
+        speed=[slip(t) for t in times],
         oil_temperature=oil,
-    )  # fmt: skip
+    )
     counts = exact > 0.05 * exact.max()  # the force is straight between its samples
     assert found.friction_torque[counts] == pytest.approx(exact[counts], rel=1e-3)
     assert found.temperature == pytest.approx(temperature, abs=0.02)

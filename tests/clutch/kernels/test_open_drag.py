@@ -27,8 +27,9 @@ def test_the_pumped_flow_is_that_of_the_radial_momentum_between_two_discs():
     for hub, drum in ((364.0, 0.0), (200.0, 150.0), (300.0, -300.0), (100.0, 100.0)):
         n = 400
         z = np.arange(1, n) / n
-        second = (np.diag(np.full(n - 2, 1.0), 1) + np.diag(np.full(n - 2, 1.0), -1)
-                  - 2.0 * np.eye(n - 1)) * (n / h) ** 2  # fmt: skip
+        second = (
+            np.diag(np.full(n - 2, 1.0), 1) + np.diag(np.full(n - 2, 1.0), -1) - 2.0 * np.eye(n - 1)
+        ) * (n / h) ** 2
         pull = -rho * (drum + (hub - drum) * z) ** 2 / eta
         by_spin, by_pressure = (
             np.linalg.solve(second, right).sum() * h / n for right in (pull, np.ones(n - 1) / eta)

@@ -12,10 +12,16 @@ SPEC = find_spec("CommandSource")
 
 
 def source(scene, lead=0.0):
-    return DirectInstance(SPEC, parameters={
-        "start": scene.shift_start, "duration": scene.shift_duration, "before": scene.shift_from,
-        "after": scene.shift_to, "lead": lead,
-    })  # fmt: skip
+    return DirectInstance(
+        SPEC,
+        parameters={
+            "start": scene.shift_start,
+            "duration": scene.shift_duration,
+            "before": scene.shift_from,
+            "after": scene.shift_to,
+            "lead": lead,
+        },
+    )
 
 
 @pytest.mark.parametrize("lead", [0.0, 0.004])

@@ -156,10 +156,13 @@ def test_types_and_their_items_are_the_same_in_both_versions(spec):
 def test_the_structure_is_that_of_fmi_2_by_value_references(spec):
     def listed(tree, path, key, offset):
         return [
-            (int(u.get(key)) - offset, [int(n) - offset for n in u.get("dependencies").split()],
-             u.get("dependenciesKind"))
+            (
+                int(u.get(key)) - offset,
+                [int(n) - offset for n in u.get("dependencies").split()],
+                u.get("dependenciesKind"),
+            )
             for u in tree.findall(f"ModelStructure/{path}")
-        ]  # fmt: skip
+        ]
 
     old, new = written(spec), written(spec, 3)
     for two, three in (
@@ -175,13 +178,18 @@ def test_the_flags_of_fmi_2_are_these(spec):
     assert flags.pop("modelIdentifier") == spec.name
     assert flags.pop("maxOutputDerivativeOrder") == "0"
     assert {flag for flag, said in flags.items() if said == "true"} == {
-        "canHandleVariableCommunicationStepSize", "canNotUseMemoryManagementFunctions",
-        "canGetAndSetFMUstate", "canSerializeFMUstate",
-    }  # fmt: skip
+        "canHandleVariableCommunicationStepSize",
+        "canNotUseMemoryManagementFunctions",
+        "canGetAndSetFMUstate",
+        "canSerializeFMUstate",
+    }
     assert {flag for flag, said in flags.items() if said == "false"} == {
-        "needsExecutionTool", "canInterpolateInputs", "canRunAsynchronuously",
-        "canBeInstantiatedOnlyOncePerProcess", "providesDirectionalDerivative",
-    }  # fmt: skip
+        "needsExecutionTool",
+        "canInterpolateInputs",
+        "canRunAsynchronuously",
+        "canBeInstantiatedOnlyOncePerProcess",
+        "providesDirectionalDerivative",
+    }
 
 
 @each_spec
@@ -190,14 +198,20 @@ def test_the_flags_of_fmi_3_are_these(spec):
     assert flags.pop("modelIdentifier") == spec.name
     assert flags.pop("maxOutputDerivativeOrder") == "0"
     assert {flag for flag, said in flags.items() if said == "true"} == {
-        "canHandleVariableCommunicationStepSize", "canGetAndSetFMUState", "canSerializeFMUState",
-        "providesDirectionalDerivatives", "providesAdjointDerivatives", "hasEventMode",
-    }  # fmt: skip
+        "canHandleVariableCommunicationStepSize",
+        "canGetAndSetFMUState",
+        "canSerializeFMUState",
+        "providesDirectionalDerivatives",
+        "providesAdjointDerivatives",
+        "hasEventMode",
+    }
     assert {flag for flag, said in flags.items() if said == "false"} == {
-        "needsExecutionTool", "canBeInstantiatedOnlyOncePerProcess",
-        "providesIntermediateUpdate", "mightReturnEarlyFromDoStep",
+        "needsExecutionTool",
+        "canBeInstantiatedOnlyOncePerProcess",
+        "providesIntermediateUpdate",
+        "mightReturnEarlyFromDoStep",
         "canReturnEarlyAfterIntermediateUpdate",
-    }  # fmt: skip
+    }
 
 
 @each_spec

@@ -94,8 +94,14 @@ def test_every_variable_status_and_plug_is_named(spec):
 @each_spec
 def test_what_was_run_and_what_was_not_is_said(spec):
     text = shown(spec)
-    for words in ("under wine; not run on Windows", "linked, never run", "qemu", "Simulink, Dymola",
-                  "not signed", "libraries for linux64, win64"):  # fmt: skip
+    for words in (
+        "under wine; not run on Windows",
+        "linked, never run",
+        "qemu",
+        "Simulink, Dymola",
+        "not signed",
+        "libraries for linux64, win64",
+    ):
         assert words in text
     assert "pip install thrustwasher==" in shown(spec, "python")
     assert "pip install" not in text
@@ -109,8 +115,11 @@ def test_the_equations_and_their_source_are_there(spec):
     assert text.startswith(f"# {spec.name}\n")
     assert "Source" in text and "## Validity" in text and text.count("```") >= 4
     known = {v.name for other in all_specs() for v in interface(other).variables}
-    options = {item for f in spec.params.__dataclass_fields__.values()
-               for item in f.metadata.get("options", ())}  # fmt: skip
+    options = {
+        item
+        for f in spec.params.__dataclass_fields__.values()
+        for item in f.metadata.get("options", ())
+    }
     named = set(re.findall(r"`([a-z_]+)`", text))
     assert named <= known | options
 

@@ -90,9 +90,10 @@ def test_the_default_experiment_gives_the_reference_results(name, fmi, tmp_path)
     expected = read_csv(tmp_path / FOLDER / f"{name}_out.csv")
     given = tmp_path / FOLDER / f"{name}_in.csv"
     found = simulate_fmu(
-        str(packed(name, fmi)), output=expected.dtype.names[1:],
+        str(packed(name, fmi)),
+        output=expected.dtype.names[1:],
         input=read_csv(given) if given.is_file() else None,
-    )  # fmt: skip
+    )
     found = found[np.searchsorted(found["time"], expected["time"] - 1e-9)]
     assert found["time"] == pytest.approx(expected["time"], abs=1e-9)
     for signal in find_spec(name).outputs:
@@ -105,8 +106,13 @@ def test_every_platform_has_its_library_at_its_place(whole):
     fmi, files = whole
     folders = {"linux64": "so", "win64": "dll", "aarch64-linux": "so", "darwin64": "dylib"}
     if fmi == 3:
-        folders = {"x86_64-linux": "so", "x86_64-windows": "dll", "aarch64-linux": "so",
-                   "x86_64-darwin": "dylib", "aarch64-darwin": "dylib"}  # fmt: skip
+        folders = {
+            "x86_64-linux": "so",
+            "x86_64-windows": "dll",
+            "aarch64-linux": "so",
+            "x86_64-darwin": "dylib",
+            "aarch64-darwin": "dylib",
+        }
     expected = {f"binaries/{folder}/{SMALL}.{ending}" for folder, ending in folders.items()}
     assert {name for name in files if name.startswith("binaries/")} == expected
     starts = {"so": b"\x7fELF", "dll": b"MZ", "dylib": b"\xcf\xfa\xed\xfe"}
@@ -132,8 +138,12 @@ def test_everything_a_user_looks_for_is_inside_and_nothing_else(whole):
     assert ("model.png" in files) == (fmi == 2)
     plugs = {"terminalsAndIcons"} if fmi == 3 else set()
     assert {n.split("/")[0] for n in files} - {"model.png"} == plugs | {
-        "modelDescription.xml", "binaries", "documentation", "extra", "resources",
-    }  # fmt: skip
+        "modelDescription.xml",
+        "binaries",
+        "documentation",
+        "extra",
+        "resources",
+    }
     assert not [n for n in files if n.endswith((".py", ".o", ".pdb", ".lib"))]
 
 

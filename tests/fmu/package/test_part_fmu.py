@@ -122,8 +122,9 @@ def test_several_parts_and_models_are_built_at_once(tmp_path):
     ]
     paths = build([files[0], "CommandSource", *files[1:]], out=tmp_path / "dist", **LINUX)
     assert [p.stem for p in paths] == ["MySump", "CommandSource", "Mesh1", "Mesh2"]
-    guids = {etree.fromstring(zipfile.ZipFile(p).read("modelDescription.xml")).get("guid")
-             for p in paths}  # fmt: skip
+    guids = {
+        etree.fromstring(zipfile.ZipFile(p).read("modelDescription.xml")).get("guid") for p in paths
+    }
     assert len(guids) == 4
 
 
@@ -140,10 +141,17 @@ MESH = 'model = "gearmesh"\nname = "{}"\n'
         ([MESH.format("WetClutch")], [], {}, "name = 'WetClutch' is that of the model 'clutch'"),
         ([MESH.format("A")], [], {"target": "python"}, "for native FMUs only"),
         ([], ["nowhere.toml"], {}, "part = 'nowhere.toml': cannot be read"),
-        (['model = "washer"\nname = "A"\nfidelity = "map"\n[parameters]\nroughness = "0.4 um"\n'],
-         [], {}, "fidelity = 'map'"),
+        (
+            [
+                'model = "washer"\nname = "A"\nfidelity = "map"\n'
+                '[parameters]\nroughness = "0.4 um"\n'
+            ],
+            [],
+            {},
+            "fidelity = 'map'",
+        ),
     ],
-)  # fmt: skip
+)
 def test_what_cannot_be_built_is_one_line_and_writes_nothing(
     texts, models, options, said, tmp_path, monkeypatch
 ):

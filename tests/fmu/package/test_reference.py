@@ -23,8 +23,9 @@ def unzipped(fmu, folder):
 
 
 def simulated(fmu, **options):
-    names = [v.name for v in read_model_description(str(fmu)).modelVariables
-             if v.causality == "output"]  # fmt: skip
+    names = [
+        v.name for v in read_model_description(str(fmu)).modelVariables if v.causality == "output"
+    ]
     return simulate_fmu(str(fmu), output=names, **options)
 
 

@@ -52,9 +52,26 @@ def toy_library(flags: tuple[str, ...] = ("-O2",)) -> Path:
     shell = source_folder() / "shell"
     files = [shell / name for name in c_tables.SHELL_FILES]
     library = folder / "toy.so"
-    _compile("-std=c99", *STRICT, *flags, "-shared", "-fPIC", "-fvisibility=hidden", "-I", folder,
-             "-I", shell, "-I", headers(), folder / "model.c", *files,
-             HERE.parent / "toy" / "toy.c", "-o", library, "-lm")  # fmt: skip
+    _compile(
+        "-std=c99",
+        *STRICT,
+        *flags,
+        "-shared",
+        "-fPIC",
+        "-fvisibility=hidden",
+        "-I",
+        folder,
+        "-I",
+        shell,
+        "-I",
+        headers(),
+        folder / "model.c",
+        *files,
+        HERE.parent / "toy" / "toy.c",
+        "-o",
+        library,
+        "-lm",
+    )
     return library
 
 
@@ -81,8 +98,19 @@ def model_library(model: str) -> Path:
 def threads() -> Path:
     """Return the program that runs many instances at once."""
     program = Path(tempfile.mkdtemp(dir=_folder.name)) / "threads"
-    _compile("-std=gnu99", "-O1", *STRICT, "-I", headers(), HERE / "threads.c", "-o", program,
-             "-ldl", "-lm", "-lpthread")  # fmt: skip
+    _compile(
+        "-std=gnu99",
+        "-O1",
+        *STRICT,
+        "-I",
+        headers(),
+        HERE / "threads.c",
+        "-o",
+        program,
+        "-ldl",
+        "-lm",
+        "-lpthread",
+    )
     return program
 
 
@@ -145,8 +173,11 @@ def putting(spec=TOY, **values) -> str:
     found = {v.name: v for v in interface(spec).variables}
     lines = []
     for kind, letter in LETTERS.items():
-        pairs = [f"{found[n].reference} {float(x).hex()}" for n, x in values.items()
-                 if found[n].type == kind]  # fmt: skip
+        pairs = [
+            f"{found[n].reference} {float(x).hex()}"
+            for n, x in values.items()
+            if found[n].type == kind
+        ]
         if pairs:
             lines.append(f"put {letter} {' '.join(pairs)}\n")
     return "".join(lines)

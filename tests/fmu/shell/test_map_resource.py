@@ -18,8 +18,12 @@ from thrustwasher.washer.map.map_build import make_map
 from thrustwasher.washer.map.map_file import VARIABLE
 from thrustwasher.washer.parameters import SPEC, WasherParams
 
-BOX = {"load": (100.0, 1200.0), "speed": (500.0, 600.0), "tilt": (0.002, 0.002),
-       "oil_temperature": (297.15, 297.15)}  # fmt: skip
+BOX = {
+    "load": (100.0, 1200.0),
+    "speed": (500.0, 600.0),
+    "tilt": (0.002, 0.002),
+    "oil_temperature": (297.15, 297.15),
+}
 POINT = {"load": 300.0, "speed": 545.0, "tilt": 0.002, "oil_temperature": 297.15}
 MAP = {"fidelity": "map"}
 NONE = "no map was made for these parameters"
@@ -120,9 +124,11 @@ def test_with_a_map_the_parameters_it_was_made_for_cannot_be_tuned(washer, fmi):
         problems = [m for r in replies if r.status for m in r.messages]
         assert bool(problems) == refused
         if refused:
-            assert problems[0].endswith("heat_split is a fixed parameter with fidelity 'map', made "
-                                        "for one value; it can be set before the initialization "
-                                        "ends")  # fmt: skip
+            assert problems[0].endswith(
+                "heat_split is a fixed parameter with fidelity 'map', made "
+                "for one value; it can be set before the initialization "
+                "ends"
+            )
 
 
 def moved(fmu, name, tmp_path):
@@ -143,9 +149,13 @@ def test_a_map_that_is_gone_or_damaged_is_an_error_with_a_reason(washer, tmp_pat
     else:
         raw = file.read_bytes()
         bit = bytes([raw[-400] ^ 1]) + raw[-399:]
-        file.write_bytes({
-            "cut": raw[:-40], "rubbish": raw[:-4] + b"\xff\xff\xff\xff", "bit": raw[:-400] + bit,
-        }[change])  # fmt: skip
+        file.write_bytes(
+            {
+                "cut": raw[:-40],
+                "rubbish": raw[:-4] + b"\xff\xff\xff\xff",
+                "bit": raw[:-400] + bit,
+            }[change]
+        )
     packed = shutil.make_archive(str(tmp_path / "again"), "zip", folder)
     fmu = shutil.move(packed, tmp_path / "ThrustWasher.fmu")
     said = f"{NONE}.*looked in .*/resources" if gone else "damaged"
@@ -162,8 +172,12 @@ def test_any_folder_name_will_do(washer, tmp_path, name):
     folder = moved(washer(2), name, tmp_path)
     told = read_model_description(str(folder), validate=False)
     place = {v.name: v.valueReference for v in told.modelVariables}
-    fmu = FMU2Slave(guid=told.guid, unzipDirectory=str(folder), instanceName="washer",
-                    modelIdentifier=told.coSimulation.modelIdentifier)  # fmt: skip
+    fmu = FMU2Slave(
+        guid=told.guid,
+        unzipDirectory=str(folder),
+        instanceName="washer",
+        modelIdentifier=told.coSimulation.modelIdentifier,
+    )
     fmu.instantiate()
     fmu.setupExperiment(startTime=0.0)
     fmu.enterInitializationMode()

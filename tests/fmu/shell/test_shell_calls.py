@@ -26,16 +26,19 @@ both = pytest.mark.parametrize("fmi", [2, 3])
 
 def every_call(fmi):
     return [
-        (mode, name) for mode in WAYS for name in call_table.CALLS[fmi]
+        (mode, name)
+        for mode in WAYS
+        for name in call_table.CALLS[fmi]
         if name != "FreeInstance" and (fmi == 3 or mode != call_table.EVENTS)
-    ]  # fmt: skip
+    ]
 
 
 @both
 def test_every_function_is_allowed_in_the_modes_of_the_table_and_in_no_other(fmi):
     made = {mode: f"make toy {GUID} 1 e\n" if mode == call_table.EVENTS else MADE for mode in WAYS}
-    script = "".join(f"{made[mode]}{WAYS[mode]}call fmi{fmi}{name}\ndrop\n"
-                     for mode, name in every_call(fmi))  # fmt: skip
+    script = "".join(
+        f"{made[mode]}{WAYS[mode]}call fmi{fmi}{name}\ndrop\n" for mode, name in every_call(fmi)
+    )
     replies = iter(run(fmi, toy_library(), script))
     for mode, name in every_call(fmi):
         for _ in range(1 + WAYS[mode].count("\n")):
@@ -71,10 +74,13 @@ def test_a_forbidden_call_changes_nothing(fmi, tmp_path):
 @both
 @pytest.mark.parametrize(
     ("way", "name", "first"),
-    [("", "DoStep", "EnterInitializationMode"), ("enter 0\n", "DoStep", "ExitInitializationMode"),
-     ("enter 0\nleave\n", "EnterInitializationMode", "Reset"),
-     ("enter 0\nleave\nend\n", "DoStep", "Reset")],
-)  # fmt: skip
+    [
+        ("", "DoStep", "EnterInitializationMode"),
+        ("enter 0\n", "DoStep", "ExitInitializationMode"),
+        ("enter 0\nleave\n", "EnterInitializationMode", "Reset"),
+        ("enter 0\nleave\nend\n", "DoStep", "Reset"),
+    ],
+)
 def test_the_message_says_what_to_call_first(fmi, way, name, first):
     message = last(fmi, f"{MADE}{way}call fmi{fmi}{name}\n").messages[-1]
     assert message.endswith(f"; call fmi{fmi}{first} first")
@@ -111,11 +117,15 @@ def test_a_description_of_another_build_is_refused_and_both_are_named(fmi, guid)
     assert GUID in reply.messages[0] and (guid in reply.messages[0] or guid == "-")
 
 
-@pytest.mark.parametrize(("fmi", "oddity", "text"), [
-    (2, "m", "not for model exchange"), (3, "m", "not for model exchange"),
-    (3, "s", "not for scheduled execution"),
-    (3, "i", "nRequiredIntermediateVariables has to be 0"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("fmi", "oddity", "text"),
+    [
+        (2, "m", "not for model exchange"),
+        (3, "m", "not for model exchange"),
+        (3, "s", "not for scheduled execution"),
+        (3, "i", "nRequiredIntermediateVariables has to be 0"),
+    ],
+)
 def test_what_the_fmu_is_not_for_is_refused_at_once(fmi, oddity, text):
     reply = last(fmi, f"make toy {GUID} 0 {oddity}\n")
     assert reply.status == 3 and text in reply.messages[0]
@@ -188,8 +198,11 @@ def test_event_mode_is_the_place_for_tunable_parameters():
     script += "call fmi3EnterEventMode\nsave 0\ncall fmi3EnterStepMode\nstep 1e-3 1e-3\n"
     replies = run(3, toy_library(), EVENTS + script + "restore 0\ncall fmi3EnterStepMode\nend\n")
     assert all(r.status == 0 for r in replies)
-    for wrong, first in (("step 0 1e-3", "EnterStepMode"), ("call fmi3EnterEventMode", "EnterStep"),
-                         (putting(discs=3).strip(), "before the initialization")):  # fmt: skip
+    for wrong, first in (
+        ("step 0 1e-3", "EnterStepMode"),
+        ("call fmi3EnterEventMode", "EnterStep"),
+        (putting(discs=3).strip(), "before the initialization"),
+    ):
         reply = last(3, EVENTS + wrong + "\n")
         assert reply.status == 3 and first in reply.messages[-1]
     reply = last(3, BEGUN + "call fmi3UpdateDiscreteStates\n")
@@ -227,14 +240,17 @@ def test_dependencies_of_fmi_3_are_those_of_the_list():
 
 
 @both
-@pytest.mark.parametrize(("spoil", "said"), [
-    (lambda data: None, "missing"),
-    (lambda data: data[:-1], "damaged"),
-    (lambda data: data + b"0", "damaged"),
-    (lambda data: data.replace(b"ToyClutch", b"ToyClutcH"), "damaged"),
-    (lambda data: b"twpart0" + data[7:], "damaged"),
-    (lambda data: summed(data[:8] + b"another build..." + data[24:-4]), "another build"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("spoil", "said"),
+    [
+        (lambda data: None, "missing"),
+        (lambda data: data[:-1], "damaged"),
+        (lambda data: data + b"0", "damaged"),
+        (lambda data: data.replace(b"ToyClutch", b"ToyClutcH"), "damaged"),
+        (lambda data: b"twpart0" + data[7:], "damaged"),
+        (lambda data: summed(data[:8] + b"another build..." + data[24:-4]), "another build"),
+    ],
+)
 def test_without_its_part_there_is_no_instance_and_the_folder_is_named(fmi, spoil, said, tmp_path):
     data = spoil((toy_library().parent / c_tables.PART).read_bytes())
     if data is not None:

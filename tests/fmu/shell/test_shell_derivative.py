@@ -77,13 +77,15 @@ def test_at_a_fold_there_is_none_and_the_instance_lives_on(fmi):
 @both
 @pytest.mark.parametrize(
     ("question", "text"),
-    [(f"{LOAD} {LOAD} 1", "load: derivatives are of real outputs"),
-     (f"{TORQUE} {ENERGY} 1", "energy: derivatives are of real outputs"),
-     (f"{ref('regime')} {LOAD} 1", "regime: derivatives are of real outputs"),
-     (f"{TORQUE} {ref('inner_radius')} 1", "inner_radius: derivatives are of real outputs"),
-     (f"{TORQUE} 99 1", "value reference 99 is unknown"),
-     (f"{TORQUE} {LOAD} nan", "seed of the derivative is not finite")],
-)  # fmt: skip
+    [
+        (f"{LOAD} {LOAD} 1", "load: derivatives are of real outputs"),
+        (f"{TORQUE} {ENERGY} 1", "energy: derivatives are of real outputs"),
+        (f"{ref('regime')} {LOAD} 1", "regime: derivatives are of real outputs"),
+        (f"{TORQUE} {ref('inner_radius')} 1", "inner_radius: derivatives are of real outputs"),
+        (f"{TORQUE} 99 1", "value reference 99 is unknown"),
+        (f"{TORQUE} {LOAD} nan", "seed of the derivative is not finite"),
+    ],
+)
 def test_what_has_no_derivative_is_named(fmi, question, text):
     reply = last(fmi, BEGUN + POINT + f"derive {question}\n")
     assert reply.status == 3 and text in reply.messages[-1]
@@ -115,8 +117,10 @@ def test_until_the_initialization_ends_parameters_are_knowns_as_the_description_
     both_kinds = last(fmi, here + f"derive {TORQUE} {RADIUS} 2 {LOAD} 3\n").values[0]
     assert both_kinds == pytest.approx(2.0 * torque / 0.15 + 3.0 * slopes()[0], rel=1e-8)
     asked = f"derive {TORQUE} {RADIUS} 1\n"
-    replies = [run(fmi, toy_library(), here + x + "leave\n" + taking(["friction_torque"]))
-               for x in ("", asked)]  # fmt: skip
+    replies = [
+        run(fmi, toy_library(), here + x + "leave\n" + taking(["friction_torque"]))
+        for x in ("", asked)
+    ]
     assert replies[0][-1].values == replies[1][-1].values
     assert last(fmi, BEGUN + asked).status == 3
     assert last(fmi, here + f"derive {TORQUE} {DISCS} 1\n").status == 3

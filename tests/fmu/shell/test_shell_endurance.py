@@ -27,8 +27,14 @@ both = pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.fmi3
 needs_valgrind = pytest.mark.skipif(
     not shutil.which("valgrind"), reason="needs valgrind (Debian package valgrind)"
 )
-VALGRIND = ("valgrind", "-q", "--leak-check=full", "--show-leak-kinds=all",
-            "--errors-for-leak-kinds=all", "--error-exitcode=7")  # fmt: skip
+VALGRIND = (
+    "valgrind",
+    "-q",
+    "--leak-check=full",
+    "--show-leak-kinds=all",
+    "--errors-for-leak-kinds=all",
+    "--error-exitcode=7",
+)
 
 
 @needs_gcc
@@ -87,8 +93,9 @@ def test_threads_and_other_fmus_in_the_process_change_no_bit():
     jobs = job(TOY, toy_library(), 3000)
     for model in ("clutch", "gearmesh", "transmission"):
         jobs += job(find_spec(model), model_library(model), 200)
-    done = subprocess.run([threads()], input=jobs, env={}, capture_output=True, text=True,
-                          timeout=300, check=True)  # fmt: skip
+    done = subprocess.run(
+        [threads()], input=jobs, env={}, capture_output=True, text=True, timeout=300, check=True
+    )
     pairs = [line.split() for line in done.stdout.splitlines()]
     assert len(pairs) == 8 and len({alone for alone, _ in pairs}) == 8
     assert all(alone == beside for alone, beside in pairs)
@@ -107,8 +114,14 @@ def test_two_instances_in_turn_answer_as_two_alone(fmi):
         return f"use {slot}\nstep {i * 1e-3!r} 1e-3\n" + asked
 
     library = toy_library()
-    alone = {slot: [r.values for r in run(fmi, library, begin(slot) + "".join(
-        step(slot, i) for i in range(20))) if r.values] for slot in loads}  # fmt: skip
+    alone = {
+        slot: [
+            r.values
+            for r in run(fmi, library, begin(slot) + "".join(step(slot, i) for i in range(20)))
+            if r.values
+        ]
+        for slot in loads
+    }
     script = begin(0) + begin(1) + "".join(step(0, i) + step(1, i) for i in range(20))
     found = [r.values for r in run(fmi, library, script) if r.values]
     assert {0: found[0::2], 1: found[1::2]} == alone and alone[0] != alone[1]

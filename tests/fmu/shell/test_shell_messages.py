@@ -113,9 +113,13 @@ def test_a_step_from_another_time_is_a_warning_and_the_hosts_time_counts(fmi):
 @both
 @pytest.mark.parametrize(
     "values",
-    [{"inner_radius": 0.2}, {"inner_radius": 1e6, "outer_radius": 123456.0}, {"dry": 1},
-     {"inner_radius": 1.5e-5, "outer_radius": 1e-5}],
-)  # fmt: skip
+    [
+        {"inner_radius": 0.2},
+        {"inner_radius": 1e6, "outer_radius": 123456.0},
+        {"dry": 1},
+        {"inner_radius": 1.5e-5, "outer_radius": 1e-5},
+    ],
+)
 def test_a_broken_rule_is_told_with_the_words_of_the_dataclass(fmi, values):
     with pytest.raises(ParameterError) as raised:
         TOY.params(**{n: bool(x) if n == "dry" else x for n, x in values.items()})

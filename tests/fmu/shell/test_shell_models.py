@@ -17,17 +17,24 @@ from thrustwasher.model.registry import find_spec
 pytestmark = needs_linux
 CHEAP = ["clutch", "gearmesh", "transmission", "command"]
 H = 1e-3
-SHAFT = {"shaft_stiffness": 1200.0, "shaft_damping": 2.0, "vehicle_inertia": 8.0,
-         "carrier_inertia": 0.3, "initial_twist": 0.05}  # fmt: skip
+SHAFT = {
+    "shaft_stiffness": 1200.0,
+    "shaft_damping": 2.0,
+    "vehicle_inertia": 8.0,
+    "carrier_inertia": 0.3,
+    "initial_twist": 0.05,
+}
 
 
 def jump(spec, rng):
     """Return inputs anywhere in the ranges, mostly of the size met in use."""
     point = {}
     for s in spec.inputs:
-        reach = (s.low, s.high) if rng.random() < 0.1 else (
-            max(s.low, -2.0 * (s.nominal or 1.0)), min(s.high, 2.0 * (s.nominal or 1.0))
-        )  # fmt: skip
+        reach = (
+            (s.low, s.high)
+            if rng.random() < 0.1
+            else (max(s.low, -2.0 * (s.nominal or 1.0)), min(s.high, 2.0 * (s.nominal or 1.0)))
+        )
         if s.name == "far_face_temperature":  # between 0, the oil's, and real ones there is a gap
             reach = (290.0, 360.0)
         point[s.name] = rng.uniform(*sorted(reach))
@@ -72,9 +79,12 @@ def run_of(spec, seed, n):
 
 @pytest.mark.parametrize(
     ("model", "fmi"),
-    [*((m, 2) for m in CHEAP), ("clutch", 3),
-     *(pytest.param(m, 3, marks=pytest.mark.fmi3) for m in CHEAP if m != "clutch")],
-)  # fmt: skip
+    [
+        *((m, 2) for m in CHEAP),
+        ("clutch", 3),
+        *(pytest.param(m, 3, marks=pytest.mark.fmi3) for m in CHEAP if m != "clutch"),
+    ],
+)
 def test_300_steps_are_the_cores_to_the_bit(model, fmi):
     twin = run_of(find_spec(model), 7, 300)
     replies = run(fmi, model_library(model), twin.script)
@@ -129,8 +139,10 @@ def test_derivatives_are_the_kernels_to_the_bit_after_steps_and_after_sets(model
         for unknown in outputs:
             known = rng.choice([v for v in inputs if v.name in unknown.depends])
             seed = [float(v is known) for v in inputs]
-            twin._ask(f"derive {unknown.reference} {known.reference} 1",
-                      lambda u=unknown, s=seed: slope(u, s))  # fmt: skip
+            twin._ask(
+                f"derive {unknown.reference} {known.reference} 1",
+                lambda u=unknown, s=seed: slope(u, s),
+            )
 
     twin.begin()
     twin.leave()

@@ -67,8 +67,12 @@ def test_no_changed_byte_and_no_missing_one_is_taken_for_a_state(fmi):
 @both
 def test_numbers_that_no_run_leaves_behind_do_no_harm_with_a_right_checksum(fmi, tmp_path):
     library = toy_library(SANITIZED)
-    run(fmi, library, BEGUN + f"step 0 1e-3\nsave 0\nwrite 0 {tmp_path}/good\nforget 0\n",
-        flags=SANITIZED)  # fmt: skip
+    run(
+        fmi,
+        library,
+        BEGUN + f"step 0 1e-3\nsave 0\nwrite 0 {tmp_path}/good\nforget 0\n",
+        flags=SANITIZED,
+    )
     good = (tmp_path / "good").read_bytes()
     script = BEGUN
     for place in range(HEAD, len(good), 4):
@@ -110,9 +114,14 @@ def test_a_state_that_is_got_again_is_written_over_and_a_freed_one_is_gone(fmi):
 @both
 @pytest.mark.parametrize(
     "wrong",
-    ["forget-pointer 0", "restore-address 0", "alias 1 0\nforget 0\nforget 1",
-     "alias 1 0\nforget 0\nrestore 1", "alias 1 0\nforget 0\nsave 1"],
-)  # fmt: skip
+    [
+        "forget-pointer 0",
+        "restore-address 0",
+        "alias 1 0\nforget 0\nforget 1",
+        "alias 1 0\nforget 0\nrestore 1",
+        "alias 1 0\nforget 0\nsave 1",
+    ],
+)
 def test_a_pointer_that_is_no_living_state_is_refused_unread(fmi, wrong):
     """A host hands over the state in place of its address, its address in its place, or one that
     was freed: with the sanitizer a pointer that is followed would end the process."""

@@ -16,10 +16,17 @@ from thrustwasher.model.spec import tailored
 
 HEADERS = Path(str(metadata.distribution("fmpy").locate_file("fmpy"))) / "c-code"
 EXCHANGE_ONLY = {  # functions of FMI 2.0 that co-simulation has not
-    "EnterEventMode", "NewDiscreteStates", "EnterContinuousTimeMode", "CompletedIntegratorStep",
-    "SetTime", "SetContinuousStates", "GetDerivatives", "GetEventIndicators",
-    "GetContinuousStates", "GetNominalsOfContinuousStates",
-}  # fmt: skip
+    "EnterEventMode",
+    "NewDiscreteStates",
+    "EnterContinuousTimeMode",
+    "CompletedIntegratorStep",
+    "SetTime",
+    "SetContinuousStates",
+    "GetDerivatives",
+    "GetEventIndicators",
+    "GetContinuousStates",
+    "GetNominalsOfContinuousStates",
+}
 
 
 @pytest.mark.parametrize(("fmi", "number"), [(2, 34), (3, 75)])

@@ -54,7 +54,9 @@ def test_setting_inputs_warms_nothing():
 
 def test_a_map_has_no_bodies_and_refuses_by_name():
     wrong = {"thermal_mode": "transient", "fidelity": "map"}
-    for make in (lambda: DirectInstance(SPEC, parameters=wrong),
-                 lambda: Instance(washer(2), parameters=wrong)):  # fmt: skip
+    for make in (
+        lambda: DirectInstance(SPEC, parameters=wrong),
+        lambda: Instance(washer(2), parameters=wrong),
+    ):
         with pytest.raises((ParameterError, SolveError), match="thermal_mode = transient, allowed"):
             make().initialize(0.0, POINT)

@@ -30,10 +30,11 @@ class Case(NamedTuple):
 CASES = [
     Case("washer", "heat_split", 0.8, WASHER, {}, "temperature"),
     Case("washer", "film_heat_fraction", 0.5, WASHER, {"oil_cooling": 0}, "temperature"),
-    Case("gearmesh", "constant_friction", 0.1, MESH, {"friction_law": "constant"},
-         "friction_torque"),
+    Case(
+        "gearmesh", "constant_friction", 0.1, MESH, {"friction_law": "constant"}, "friction_torque"
+    ),
     Case("clutch", "friction_scale", 0.5, PACK, {"starts_pressed": 1}, "friction_torque"),
-]  # fmt: skip
+]
 each_case = pytest.mark.parametrize("case", CASES, ids=[c.name for c in CASES])
 CLUTCH = CASES[-1]
 
@@ -92,8 +93,12 @@ class Host:
 
 
 def test_these_are_all_of_them():
-    found = {(s.key, v.name) for s in all_specs() for v in interface(s).variables
-             if v.variability == "tunable"}  # fmt: skip
+    found = {
+        (s.key, v.name)
+        for s in all_specs()
+        for v in interface(s).variables
+        if v.variability == "tunable"
+    }
     assert found == {(c.model, c.name) for c in CASES}
 
 

@@ -40,16 +40,20 @@ class Twin:
             given = [float(values[v.name]) for v in found]
             pairs = " ".join(f"{v.reference} {x.hex()}" for v, x in zip(found, given, strict=True))
             references = [v.reference for v in found]
-            self._ask(f"put {LETTERS[kind]} {pairs}",
-                      lambda r=references, g=given, k=kind: self.core.set(r, g, k))  # fmt: skip
+            self._ask(
+                f"put {LETTERS[kind]} {pairs}",
+                lambda r=references, g=given, k=kind: self.core.set(r, g, k),
+            )
 
     def take(self, names=None):
         early = self.core.mode == Mode.INSTANTIATED  # the shell says that outputs come later
         known = [v.name for v in self.variables.values() if v.causality != "output" or not early]
         for kind, found in self._groups(names or known):
             references = [v.reference for v in found]
-            self._ask(f"take {LETTERS[kind]} {' '.join(map(str, references))}",
-                      lambda r=references, k=kind: self.core.get(r, k))  # fmt: skip
+            self._ask(
+                f"take {LETTERS[kind]} {' '.join(map(str, references))}",
+                lambda r=references, k=kind: self.core.get(r, k),
+            )
 
     def begin(self, start=0.0):
         self._ask(f"setup {start!r}", lambda: None)

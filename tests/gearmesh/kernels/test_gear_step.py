@@ -52,8 +52,12 @@ def test_nothing_is_infinite_at_rest_or_without_load(preset, rest, fidelity, loa
         assert mesh.iout[k.L.IO_REGIME] == L.BOUNDARY
 
 
-@given(st.floats(-1e5, 1e5), st.floats(-5000.0, 5000.0), st.floats(233.15, 473.15),
-       st.sampled_from(["paper", None]))  # fmt: skip
+@given(
+    st.floats(-1e5, 1e5),
+    st.floats(-5000.0, 5000.0),
+    st.floats(233.15, 473.15),
+    st.sampled_from(["paper", None]),
+)
 def test_only_the_loss_has_a_sign_and_it_opposes_motion(load, speed, oil, preset):
     mesh = Mesh(preset=preset)
     out = mesh.outputs(load, speed, oil)
@@ -105,18 +109,21 @@ def test_outputs_have_continuous_slopes(line, changes):
 def test_mixed_friction_loses_power_and_warms_with_continuous_slopes():
     """Contact and temperatures belong to the hottest position, which may be another one."""
     mesh, kept = Mesh(friction_law="mixed"), [L.F_TORQUE, L.F_POWER, L.F_BULK, L.F_OIL_HEAT]
-    jumps = [largest_jump(mesh, [(40.0, 3.0 + 2.0 * s) for s in np.linspace(-1.0, 1.0, n)])[kept]
-             for n in (801, 6401)]  # fmt: skip
+    jumps = [
+        largest_jump(mesh, [(40.0, 3.0 + 2.0 * s) for s in np.linspace(-1.0, 1.0, n)])[kept]
+        for n in (801, 6401)
+    ]
     assert (jumps[1] < 0.3 * jumps[0]).all()
 
 
 def test_advice_is_given_for_hot_films_and_stretched_laws_and_not_in_between():
     mesh = Mesh(preset="paper")
     for point, advice in (
-        ((40.0, 180.0, 299.85), Status.OK), ((40.0, 180.0, 250.0), Status.HOT),
+        ((40.0, 180.0, 299.85), Status.OK),
+        ((40.0, 180.0, 250.0), Status.HOT),
         ((40.0, 1.0, 250.0), Status.OUTSIDE_VERIFIED),
         ((40.0, 180.0, 430.0), Status.OUTSIDE_VERIFIED),
         ((9e4, 180.0, 330.0), Status.OUTSIDE_VERIFIED),
-    ):  # fmt: skip
+    ):
         assert mesh.step(*point) == 0
         assert mesh.iout[L.IO_STATUS] == advice, point

@@ -28,11 +28,19 @@ def events(*pairs):
         (events((0.8, "locked")), 0.8),
         (events((0.7, "locked"), (0.71, "released"), (0.75, "locked")), 0.75),
         (events((0.7, "locked"), (0.71, "released")), None),
-        (events((0.7, "locked"), (0.8, "released"), (0.9, "locked"), (1.1, "released"),
-                (1.2, "locked")), None),
+        (
+            events(
+                (0.7, "locked"),
+                (0.8, "released"),
+                (0.9, "locked"),
+                (1.1, "released"),
+                (1.2, "locked"),
+            ),
+            None,
+        ),
         (events((0.05, "locked"), (0.06, "released"), (0.8, "locked")), 0.8),
     ],
-)  # fmt: skip
+)
 def test_lock_up_is_the_last_lock_after_which_the_pack_holds(found, lock):
     assert lock_up(load_scene("planetary"), found) == lock
 
@@ -112,8 +120,11 @@ def test_a_pressed_pack_that_slips_before_the_shift_is_told(tmp_path):
 
 def test_washers_without_a_tilting_couple_are_told():
     one = np.ones(3)
-    signals = {"transmission.washer_load": one, "washer.friction_torque": one,
-               "transmission.washer_heat": 6.3 * one}  # fmt: skip
+    signals = {
+        "transmission.washer_load": one,
+        "washer.friction_torque": one,
+        "transmission.washer_heat": 6.3 * one,
+    }
     [line] = _of_washers(signals)
     assert "1 N" in line and "6.3 J" in line
     assert not list(_of_washers(signals | {"transmission.washer_load": 2.0 * one}))

@@ -18,8 +18,9 @@ pytestmark = slow_without_jit
 def relieved():
     """A record of quasi-steady states: 1361 N until 0.1 s, then 500 N."""
     few = np.array([0.0, 0.0999, 0.1])
-    c = follow_washer(WasherParams(), time=few, load=[1361.0, 1361.0, 500.0], speed=545.0,
-                      tilt=2e-3)  # fmt: skip
+    c = follow_washer(
+        WasherParams(), time=few, load=[1361.0, 1361.0, 500.0], speed=545.0, tilt=2e-3
+    )
     time = np.linspace(0.0, 5.0, 2501)
     late = (time >= 0.1).astype(int) + 1
     names = ("load", "speed", "tilt", "oil_temperature", *COMPARED)

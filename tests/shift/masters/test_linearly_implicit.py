@@ -32,10 +32,16 @@ def test_held_capacities_are_corrected_to_the_end_of_the_step():
     gearbox = {"washers": 0, "capacity_extrapolation": False}
     fine = shift("planetary-sun", parts=NO_DRAG, stop_time=0.8).figures["lock_time"]
     held, corrected = (
-        shift("planetary-sun", parts=NO_DRAG | {"transmission": gearbox}, master=m, stop_time=0.8,
-              step=4e-3).figures["lock_time"] - fine
+        shift(
+            "planetary-sun",
+            parts=NO_DRAG | {"transmission": gearbox},
+            master=m,
+            stop_time=0.8,
+            step=4e-3,
+        ).figures["lock_time"]
+        - fine
         for m in ("gauss-seidel", MASTER)
-    )  # fmt: skip
+    )
     assert held > 3e-3 and abs(corrected) < 0.25 * held
 
 

@@ -120,8 +120,9 @@ def test_a_name_at_the_systems_border_is_that_of_no_part(name):
 def test_no_enumeration_is_written(name):
     """OMSimulator stops at one; the FMU has the scene's choice as its default."""
     for file in ("SystemStructure.ssd", "Parts.ssd"):
-        assert not [e.tag for e in description(packed(planned(name)), file).iter()
-                    if "Enumeration" in e.tag]  # fmt: skip
+        assert not [
+            e.tag for e in description(packed(planned(name)), file).iter() if "Enumeration" in e.tag
+        ]
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -178,9 +179,15 @@ def test_a_master_that_passes_values_on_until_they_agree_runs_the_shift_of_this_
     scene = scene_of(name)
     system = plan(prepared(scene), start_values(prepared(scene), direct_instances(scene)))
     root = description(packed(system))
-    parts = {p.name: DirectInstance(p.spec, parameters={
-        k: v for k, v in values(components(root)[p.name]).items() if k in p.parameters
-    }) for p in system.components}  # fmt: skip
+    parts = {
+        p.name: DirectInstance(
+            p.spec,
+            parameters={
+                k: v for k, v in values(components(root)[p.name]).items() if k in p.parameters
+            },
+        )
+        for p in system.components
+    }
     row = run(root, parts, exchanges=6)[-1]
     own = run_shift(scene, direct_instances(scene)).signals
     for figure in FIGURES:

@@ -16,8 +16,12 @@ from thrustwasher.shift.tolerance import run_to_tolerance, selection
 
 STOP = 0.2
 RUNGS = {"washer": ["map", "field", "fine"], "clutch": ["field", "fine"], "gearmesh": ["field"]}
-SLOW = {**WHOLE, "load": Axis(1.0, 2000.0, "N", "log"), "speed": Axis(1.0, 1400.0, "rad/s", "log"),
-        "oil_temperature": Axis(250.0, 400.0, "K", "linear")}  # fmt: skip
+SLOW = {
+    **WHOLE,
+    "load": Axis(1.0, 2000.0, "N", "log"),
+    "speed": Axis(1.0, 1400.0, "rad/s", "log"),
+    "oil_temperature": Axis(250.0, 400.0, "K", "linear"),
+}
 
 
 def made(log):
@@ -41,9 +45,12 @@ def test_a_scene_file_asks_for_all_parts_and_for_one(tmp_path):
     file.write_text('base = "planetary-sun"\nfidelity = "auto:0.02"\n[mesh]\nfidelity = "closed"\n')
     found = {n: (p.fidelity, p.tolerance) for n, p in load_scene(file).parts.items()}
     assert found == {
-        "transmission": ("rigid", None), "clutch": ("field", 0.02), "brake": ("field", 0.02),
-        "washer": ("field", 0.02), "mesh": ("closed", None),
-    }  # fmt: skip
+        "transmission": ("rigid", None),
+        "clutch": ("field", 0.02),
+        "brake": ("field", 0.02),
+        "washer": ("field", 0.02),
+        "mesh": ("closed", None),
+    }
 
 
 def test_auto_alone_is_one_percent():
@@ -54,9 +61,10 @@ def test_later_wishes_overrule_earlier_ones():
     parts = auto("auto:0.02", "mesh=closed", "clutch=auto:0.1").parts
     assert parts["mesh"].fidelity == "closed" and parts["mesh"].tolerance is None
     assert (parts["brake"].tolerance, parts["clutch"].tolerance) == (0.02, 0.1)
-    assert auto("auto", "field").parts == load_scene("planetary-sun").with_options(
-        stop_time=STOP
-    ).parts  # fmt: skip
+    assert (
+        auto("auto", "field").parts
+        == load_scene("planetary-sun").with_options(stop_time=STOP).parts
+    )
 
 
 @pytest.mark.parametrize(
@@ -104,8 +112,10 @@ def test_the_first_run_has_the_cheapest_rungs_and_counts_if_they_hold(run):
     assert rungs(r) == USUAL | {"washer": "map"}
     assert [rung for name, rung in log if name == "washer"] == ["map", "field"], "run, then check"
     assert [(c.part, c.rung, c.above) for c in r.guard.checks] == [
-        ("clutch", "field", "fine"), ("brake", "field", "fine"), ("washer", "map", "field"),
-    ]  # fmt: skip
+        ("clutch", "field", "fine"),
+        ("brake", "field", "fine"),
+        ("washer", "map", "field"),
+    ]
 
 
 def test_a_rung_that_its_table_shows_to_be_too_coarse_is_left_out(run):

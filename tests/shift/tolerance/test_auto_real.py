@@ -37,11 +37,13 @@ def judged(r):
     oil = r.scene.oil_temperature
     torque = np.abs(r.signals["washer.friction_torque"])
     return {
-        "slip energy": r.figures["slip_energy"], "lock-up": r.figures["lock_time"],
+        "slip energy": r.figures["slip_energy"],
+        "lock-up": r.figures["lock_time"],
         "clutch's peak": r.figures["peak_clutch_temperature"] - oil,
         "washer's peak": r.figures["peak_washer_temperature"] - oil,
-        "washer's greatest torque": torque.max(), "washers' heat": r.energy["washers"],
-    }  # fmt: skip
+        "washer's greatest torque": torque.max(),
+        "washers' heat": r.energy["washers"],
+    }
 
 
 def test_a_shift_with_the_washers_map_is_the_shift_with_its_field():

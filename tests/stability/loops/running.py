@@ -44,9 +44,10 @@ def gearbox_and_clutch(fmus, gearbox, clutch, brake=0.0):
     links = [Link("transmission", f"clutch_{n}", "clutch", n) for n in ("load", "speed")]
     extrapolates = gearbox.get("capacity_extrapolation", True) and coupling == "capacity"
     return System(
-        parts, [*links, Link("clutch", output, "transmission", "clutch_torque")],
+        parts,
+        [*links, Link("clutch", output, "transmission", "clutch_torque")],
         carries_on=["clutch_torque"] if extrapolates else [],
-    )  # fmt: skip
+    )
 
 
 def march(system, master, h, n):

@@ -3,8 +3,13 @@ from dataclasses import dataclass
 from thrustwasher.model.parameters import check_ranges, quantity
 from thrustwasher.model.spec import ModelSpec, Signal
 
-STATUS = Signal(name="solver_status", unit="1", kind="enumeration", type="SolverStatus",
-                help="how the last solution was obtained")  # fmt: skip
+STATUS = Signal(
+    name="solver_status",
+    unit="1",
+    kind="enumeration",
+    type="SolverStatus",
+    help="how the last solution was obtained",
+)
 RUNGS = {"exact": "linear, in closed form"}
 
 
@@ -37,12 +42,24 @@ def _in(name, unit):
 
 
 BODY = ModelSpec(
-    key="loops.specs:BODY", name="Body", help="A body that a force moves", params=BodyParams,
-    fidelities=RUNGS, default_fidelity="exact", inputs=(_in("force", "N"),),
-    outputs=(_signal("position", "m"), _signal("speed", "m/s"), STATUS), kernel="loops.body",
-)  # fmt: skip
+    key="loops.specs:BODY",
+    name="Body",
+    help="A body that a force moves",
+    params=BodyParams,
+    fidelities=RUNGS,
+    default_fidelity="exact",
+    inputs=(_in("force", "N"),),
+    outputs=(_signal("position", "m"), _signal("speed", "m/s"), STATUS),
+    kernel="loops.body",
+)
 LAW = ModelSpec(
-    key="loops.specs:LAW", name="Law", help="A force that answers motion", params=LawParams,
-    fidelities=RUNGS, default_fidelity="exact", inputs=(_in("position", "m"), _in("speed", "m/s")),
-    outputs=(_signal("force", "N", depends=("position", "speed")), STATUS), kernel="loops.law",
-)  # fmt: skip
+    key="loops.specs:LAW",
+    name="Law",
+    help="A force that answers motion",
+    params=LawParams,
+    fidelities=RUNGS,
+    default_fidelity="exact",
+    inputs=(_in("position", "m"), _in("speed", "m/s")),
+    outputs=(_signal("force", "N", depends=("position", "speed")), STATUS),
+    kernel="loops.law",
+)

@@ -37,8 +37,9 @@ def test_any_point_is_reached_from_any_other(one, two):
 
 
 def test_a_start_of_another_grid_gives_its_branch_only():
-    coarse = solve_washer(WasherParams(), load=750.0, speed=545.0, tilt=0.002, branch="contact",
-                          grid=(7, 24))  # fmt: skip
+    coarse = solve_washer(
+        WasherParams(), load=750.0, speed=545.0, tilt=0.002, branch="contact", grid=(7, 24)
+    )
     r = solve_washer(WasherParams(), load=750.0, speed=545.0, tilt=0.002, start=coarse)
     assert r.branch == "contact" and r.grid == (10, 32)
 

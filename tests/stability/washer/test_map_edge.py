@@ -91,10 +91,10 @@ def test_up_to_the_fold_the_film_is_read_and_past_it_the_contact(shipped, speed)
         r = solve_washer(WasherParams(), load=share * lost, **place, fidelity="map")
         assert (r.branch, r.distress) == ("contact", True)
         with pytest.raises(BranchError):
-            solve_washer(WasherParams(), load=share * lost, **place, fidelity="map",
-                         branch="film")  # fmt: skip
-    held = solve_washer(WasherParams(), load=regained * (1.0 + 2e-5), **place, fidelity="map",
-                        branch="contact")  # fmt: skip
+            solve_washer(WasherParams(), load=share * lost, **place, fidelity="map", branch="film")
+    held = solve_washer(
+        WasherParams(), load=regained * (1.0 + 2e-5), **place, fidelity="map", branch="contact"
+    )
     assert held.branch == "contact"
 
 

@@ -17,9 +17,16 @@ SPEED = 360.0 * 74.0 / 112.0  # of the carrier in first gear
 
 def steady(**more):
     """Return the ring-driven set at 360 rad/s and 250 N m, its load in balance."""
-    return Gearbox(**SIMPSON | {
-        "initial_engine_speed": 360.0, "engine_torque": 250.0, "load_speed": SPEED,
-        "load_torque": 250.0 * 112.0 / 74.0} | more)  # fmt: skip
+    return Gearbox(
+        **SIMPSON
+        | {
+            "initial_engine_speed": 360.0,
+            "engine_torque": 250.0,
+            "load_speed": SPEED,
+            "load_torque": 250.0 * 112.0 / 74.0,
+        }
+        | more
+    )
 
 
 def test_a_ring_driven_set_turns_and_holds_as_its_teeth_say():
@@ -44,8 +51,9 @@ def test_loss_of_a_mesh_is_that_of_the_true_teeth_whichever_gear_is_driven():
     """Friction of all meshes: sun meshes as given, ring meshes by their slide-roll ratio."""
     ring = (1.0 / 18.0 - 1.0 / 74.0) / (1.0 / 18.0 + 1.0 / 38.0)
     for arrangement in ("sun-input", "ring-input"):
-        box = Gearbox(**TEETH | {"arrangement": arrangement, "load_torque": 0.0,
-                                 "engine_torque": 0.0})  # fmt: skip
+        box = Gearbox(
+            **TEETH | {"arrangement": arrangement, "load_torque": 0.0, "engine_torque": 0.0}
+        )
         box.step(1e-5, brake=1e4, mesh=0.25)
         power = 4.0 * (1.0 + ring) * 0.25 * box["mesh_speed"]
         assert box["mesh_heat"] == pytest.approx(power * 1e-5, rel=1e-4)

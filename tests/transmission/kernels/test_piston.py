@@ -15,9 +15,13 @@ BRAKE = ((0.0, 7.6e5), (0.2, 7.6e5), (0.4, 0.0))
 
 
 def pressed(**more):
-    return Gearbox(actuation="pressure", load_torque=0.0, **(
-        course_fields("clutch_pressure", CLUTCH) | course_fields("brake_pressure", BRAKE) | more
-    ))  # fmt: skip
+    return Gearbox(
+        actuation="pressure",
+        load_torque=0.0,
+        **(
+            course_fields("clutch_pressure", CLUTCH) | course_fields("brake_pressure", BRAKE) | more
+        ),
+    )
 
 
 def after(box, *durations):
@@ -68,8 +72,9 @@ def test_a_slow_pressure_kisses_after_the_piston_is_full():
 def test_a_pressed_piston_goes_back_when_the_pressure_has_fallen_to_the_springs():
     """Behind a command of 0 p = p_0 exp(-t/lag); what was let out has to be filled again."""
     points = ((0.0, 1.2e5), (0.1, 1.2e5), (0.1 + 1e-9, 0.0), (0.3, 0.0), (0.3 + 1e-9, 1.2e5))
-    box = pressed(**course_fields("brake_pressure", points), brake_pressure_lag=0.05,
-                  brake_fill_volume=1e-5)  # fmt: skip
+    box = pressed(
+        **course_fields("brake_pressure", points), brake_pressure_lag=0.05, brake_fill_volume=1e-5
+    )
     after(box, 0.15)
     assert box["brake_filled"] == 1.0
     assert box["brake_load"] == pytest.approx((1.2e5 / math.e - SPRING) * AREA, rel=1e-6)
@@ -82,8 +87,7 @@ def test_a_pressed_piston_goes_back_when_the_pressure_has_fallen_to_the_springs(
 
 def test_oil_that_turns_with_the_drum_presses_by_its_head():
     """Pressure rho w^2 (r^2 - r_s^2)/2, integrated over the piston's rings."""
-    radii = {"piston_inner_radius": 0.04, "piston_outer_radius": 0.07,
-             "piston_supply_radius": 0.03}  # fmt: skip
+    radii = {"piston_inner_radius": 0.04, "piston_outer_radius": 0.07, "piston_supply_radius": 0.03}
     n, force = 20000, 0.0
     for i in range(n):
         r = 0.04 + 0.03 * (i + 0.5) / n
@@ -133,8 +137,9 @@ def test_torques_from_outside_stand_beside_the_set_s_own():
 
 def test_rolling_resistance_turns_its_sign_and_a_slope_does_not():
     for speed in (300.0, -300.0):
-        box = Gearbox(load_torque=0.0, rolling_torque=20.0, grade_torque=5.0,
-                      initial_engine_speed=speed)  # fmt: skip
+        box = Gearbox(
+            load_torque=0.0, rolling_torque=20.0, grade_torque=5.0, initial_engine_speed=speed
+        )
         box.step(0.0)
         assert box["resistance_torque"] == pytest.approx(math.copysign(20.0, speed) + 5.0, abs=1e-4)
     rest = Gearbox(load_torque=0.0, rolling_torque=20.0, initial_engine_speed=0.0)

@@ -52,10 +52,16 @@ def newton(box, clutch, brake, engine=150.0, load=250.0):
             [1.0, -1.0, 0.0, 0.0, 0.0, 0.0] if clutch is None else [0, 0, 0, 0, 1.0, 0],
             [0.0, 1.0, 0.0, 0.0, 0.0, 0.0] if brake is None else [0, 0, 0, 0, 0, 1.0],
         ])  # fmt: skip
-        right = np.array([
-            engine - takes[bodies[0]], -takes[bodies[1]], -load - takes["carrier"], 0.0,
-            clutch or 0.0, brake or 0.0,
-        ])  # fmt: skip
+        right = np.array(
+            [
+                engine - takes[bodies[0]],
+                -takes[bodies[1]],
+                -load - takes["carrier"],
+                0.0,
+                clutch or 0.0,
+                brake or 0.0,
+            ]
+        )
         found = np.linalg.solve(rows, right)
         teeth = float(found[3])
     return teeth, float(found[4]), float(found[5])
@@ -68,13 +74,17 @@ def gearbox(**params):
 
 
 @pytest.mark.parametrize("arrangement", [{}, SIMPSON])
-@pytest.mark.parametrize("ends", [("sun", "carrier"), ("ring", "case"), ("carrier", "ring"),
-                                  ("case", "sun")])  # fmt: skip
+@pytest.mark.parametrize(
+    "ends", [("sun", "carrier"), ("ring", "case"), ("carrier", "ring"), ("case", "sun")]
+)
 @pytest.mark.parametrize("modes", ["brake sticks", "both slip", "clutch sticks"])
 def test_torques_are_those_of_newtons_law_for_every_body(arrangement, ends, modes):
     """With friction 0.05 the bearings matter; the drum has an inertia of its own."""
-    more = {"drum_inertia": 0.02, **between("sun_bearing", *ends, 0.05),
-            **between("ring_bearing", "ring", "case", 0.05)}  # fmt: skip
+    more = {
+        "drum_inertia": 0.02,
+        **between("sun_bearing", *ends, 0.05),
+        **between("ring_bearing", "ring", "case", 0.05),
+    }
     more["initial_drum_speed"] = {"brake sticks": 0.0, "both slip": 90.0, "clutch sticks": 350.0}[
         modes
     ]
@@ -133,8 +143,14 @@ def test_without_a_coefficient_nothing_acts():
 
 def test_a_drum_that_a_bearing_turns_breaks_away_where_the_reaction_says():
     """At constant torques the stuck brake carries the teeth and the bearing on its drum."""
-    box = gearbox(**FREE | {"engine_torque": 150.0, "initial_engine_speed": 300.0,
-                            **between("ring_bearing", "ring", "carrier", 0.05)})  # fmt: skip
+    box = gearbox(
+        **FREE
+        | {
+            "engine_torque": 150.0,
+            "initial_engine_speed": 300.0,
+            **between("ring_bearing", "ring", "carrier", 0.05),
+        }
+    )
     box.step(0.01, brake=404.0)
     reaction = abs(newton(box, 0.0, None, load=0.0)[2])
     plain = abs(box.params.ratio * box["input_tooth_torque"])
@@ -152,20 +168,34 @@ coefficients = st.sampled_from([0.0, 0.004, 0.05])
 
 @settings(max_examples=60, deadline=None)
 @given(
-    shafts, shafts, coefficients, coefficients, st.floats(-400.0, 400.0),
-    st.sampled_from([0.0, 90.0, -200.0]), st.sampled_from([0.0, 0.01]),
-    st.sampled_from(["sun-input", "ring-input"]), st.sampled_from([0.0, 2e3]),
-    st.lists(st.tuples(st.floats(1.0, 500.0), st.floats(1.0, 500.0), st.floats(-200.0, 200.0)),
-             min_size=3, max_size=25),
-)  # fmt: skip
+    shafts,
+    shafts,
+    coefficients,
+    coefficients,
+    st.floats(-400.0, 400.0),
+    st.sampled_from([0.0, 90.0, -200.0]),
+    st.sampled_from([0.0, 0.01]),
+    st.sampled_from(["sun-input", "ring-input"]),
+    st.sampled_from([0.0, 2e3]),
+    st.lists(
+        st.tuples(st.floats(1.0, 500.0), st.floats(1.0, 500.0), st.floats(-200.0, 200.0)),
+        min_size=3,
+        max_size=25,
+    ),
+)
 def test_bearings_only_take_energy_and_the_book_closes(
     sun, ring, low, high, engine, drum, inertia, arrangement, stiffness, received
 ):
     box = Gearbox(
-        **between("sun_bearing", *sun, low), **between("ring_bearing", *ring, high),
-        initial_engine_speed=engine, initial_drum_speed=drum, drum_inertia=inertia,
-        arrangement=arrangement, shaft_stiffness=stiffness, engine_torque=0.0,
-    )  # fmt: skip
+        **between("sun_bearing", *sun, low),
+        **between("ring_bearing", *ring, high),
+        initial_engine_speed=engine,
+        initial_drum_speed=drum,
+        drum_inertia=inertia,
+        arrangement=arrangement,
+        shaft_stiffness=stiffness,
+        engine_torque=0.0,
+    )
     turnover, heat = 1.0, 0.0
     for clutch, brake, torque in received:
         assert (

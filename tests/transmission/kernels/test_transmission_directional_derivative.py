@@ -20,9 +20,7 @@ BESIDE = (1e5, 2e5, 0.0, 0.0, 0.05)  # pressures, torques from outside, of a rin
 
 def gearbox(**params):
     par = np.zeros(k.NPAR)
-    par[: k.N_PARAM] = [
-        *as_numbers(TransmissionParams(**{"ring_mesh": True} | params)), 1.0
-    ]  # fmt: skip
+    par[: k.N_PARAM] = [*as_numbers(TransmissionParams(**{"ring_mesh": True} | params)), 1.0]
     assert k.derive(par) == 0
     return Unit(k, par)
 

@@ -8,8 +8,12 @@ from hypothesis import strategies as st
 
 from test_transmission_step import FREE, Gearbox  # isort: skip
 
-SHAFT = {"carrier_inertia": 0.4, "vehicle_inertia": 8.0, "shaft_stiffness": 2000.0,
-         "shaft_damping": 1.5}  # fmt: skip
+SHAFT = {
+    "carrier_inertia": 0.4,
+    "vehicle_inertia": 8.0,
+    "shaft_stiffness": 2000.0,
+    "shaft_damping": 1.5,
+}
 
 
 def free_twist(inertia, t, start=0.02):
@@ -63,8 +67,16 @@ def shift(**params):
     """Return a gearbox after a shift: brake open, clutch locking, load on the vehicle."""
     box = Gearbox(drum_inertia=0.01, washers=8, **params)
     for i in range(300):
-        assert box.step(5e-3, clutch=350.0 if i > 20 else 0.0, brake=380.0 if i <= 20 else 0.0,
-                        washer=0.03, mesh=0.2) == 0  # fmt: skip
+        assert (
+            box.step(
+                5e-3,
+                clutch=350.0 if i > 20 else 0.0,
+                brake=380.0 if i <= 20 else 0.0,
+                washer=0.03,
+                mesh=0.2,
+            )
+            == 0
+        )
     return box
 
 
@@ -94,9 +106,13 @@ def test_the_vehicle_meets_the_load():
 
 def test_a_winding_shaft_breaks_a_stuck_clutch_away_and_lets_it_lock_again():
     """The twist swings the torque in the locked clutch above its capacity and back, each period."""
-    box = Gearbox(**FREE | SHAFT | {"shaft_damping": 0.0}, drum_inertia=0.0,
-                  initial_engine_speed=100.0, initial_drum_speed=100.0,
-                  initial_twist=0.15)  # fmt: skip
+    box = Gearbox(
+        **FREE | SHAFT | {"shaft_damping": 0.0},
+        drum_inertia=0.0,
+        initial_engine_speed=100.0,
+        initial_drum_speed=100.0,
+        initial_twist=0.15,
+    )
     for _ in range(4000):
         assert box.step(1e-3, clutch=75.0) == 0
     assert box["events"] >= 4.0
@@ -110,8 +126,13 @@ def test_a_winding_shaft_breaks_a_stuck_clutch_away_and_lets_it_lock_again():
 def test_events_on_the_shaft_do_not_depend_on_the_communication_step():
     ends = []
     for n in (40, 400):
-        box = Gearbox(**FREE | SHAFT, drum_inertia=0.01, initial_engine_speed=101.0,
-                      initial_drum_speed=100.0, initial_twist=0.15)  # fmt: skip
+        box = Gearbox(
+            **FREE | SHAFT,
+            drum_inertia=0.01,
+            initial_engine_speed=101.0,
+            initial_drum_speed=100.0,
+            initial_twist=0.15,
+        )
         for _ in range(n):
             assert box.step(0.4 / n, clutch=60.0) == 0
         ends.append([box[name] for name in ("lock_time", "events", "shaft_twist", "clutch_heat")])
@@ -124,16 +145,27 @@ rows = st.tuples(torques, torques, st.one_of(st.just(0.0), st.floats(-2.0, 2.0))
 
 @settings(max_examples=80, deadline=None)
 @given(
-    st.floats(-400.0, 400.0), st.sampled_from([0.0, 0.01]), st.floats(0.0, 500.0),
-    st.floats(100.0, 1e5), st.floats(0.0, 50.0), st.floats(-0.2, 0.2),
-    st.sampled_from([1e-3, 1e-2, 0.05]), st.lists(rows, min_size=3, max_size=20),
-)  # fmt: skip
+    st.floats(-400.0, 400.0),
+    st.sampled_from([0.0, 0.01]),
+    st.floats(0.0, 500.0),
+    st.floats(100.0, 1e5),
+    st.floats(0.0, 50.0),
+    st.floats(-0.2, 0.2),
+    st.sampled_from([1e-3, 1e-2, 0.05]),
+    st.lists(rows, min_size=3, max_size=20),
+)
 def test_whatever_arrives_the_book_closes_and_heat_is_not_negative(
     engine, ring_inertia, load, stiffness, damping, twist, dt, received
 ):
-    box = Gearbox(initial_engine_speed=engine, drum_inertia=ring_inertia, load_torque=load,
-                  carrier_inertia=0.3, shaft_stiffness=stiffness, shaft_damping=damping,
-                  initial_twist=twist)  # fmt: skip
+    box = Gearbox(
+        initial_engine_speed=engine,
+        drum_inertia=ring_inertia,
+        load_torque=load,
+        carrier_inertia=0.3,
+        shaft_stiffness=stiffness,
+        shaft_damping=damping,
+        initial_twist=twist,
+    )
     turnover = 1.0 + 0.5 * stiffness * twist**2
     for clutch, brake, washer in received:
         assert box.step(dt, clutch=clutch, brake=brake, washer=washer, mesh=0.1) == 0

@@ -39,8 +39,9 @@ class Gearbox:
     def __getitem__(self, name):
         reals = [s.name for s in SPEC.outputs if s.kind == "real"]
         others = [s.name for s in SPEC.outputs if s.kind != "real"]
-        return float(self.out[reals.index(name)] if name in reals else
-                     self.iout[others.index(name)])  # fmt: skip
+        return float(
+            self.out[reals.index(name)] if name in reals else self.iout[others.index(name)]
+        )
 
 
 FREE = {"engine_torque": 0.0, "load_torque": 0.0, "washers": 0}
@@ -51,12 +52,12 @@ def test_the_arrays_are_laid_out_as_the_lists_say():
         return [n[len(start) :].lower() for n in vars(L) if n.startswith(start) and n not in skip]
 
     found = [f.name for f in fields(TransmissionParams)] + ["fidelity"]
-    whole = names("P_", ("P_CLUTCH_COURSE", "P_ENGINE_COURSE", "P_FIDELITY"))
+    whole = names("P_", ("P_CLUTCH_PROFILE", "P_ENGINE_PROFILE", "P_FIDELITY"))
     assert found[: len(whole)] == whole and len(found) == L.N_PARAM
     assert found[L.P_CLUTCH_PISTON_AREA + L.N_OWN] == "brake_piston_area"
     assert found[L.P_CLUTCH_PISTON_AREA + L.OWN_LAG] == "clutch_pressure_lag"
-    assert found[L.P_CLUTCH_COURSE] == "clutch_pressure_points"
-    assert found[L.P_ENGINE_COURSE + 1 + L.MAX_POINTS] == "engine_torque_1"
+    assert found[L.P_CLUTCH_PROFILE] == "clutch_pressure_points"
+    assert found[L.P_ENGINE_PROFILE + 1 + L.MAX_POINTS] == "engine_torque_1"
     assert names("O_") == [s.name for s in SPEC.outputs if s.kind == "real"]
     others = [s.name for s in SPEC.outputs if s.kind != "real"]
     assert names("IO_") == [n.replace("solver_", "") for n in others]
@@ -139,8 +140,9 @@ def test_both_packs_hold_everything_still_and_say_so():
 
 
 def test_an_engine_turned_on_inside_a_step_starts_there():
-    box = Gearbox(**FREE | {"engine_torque": 20.0, "engine_start_time": 0.037,
-                            "initial_engine_speed": 0.0})  # fmt: skip
+    box = Gearbox(
+        **FREE | {"engine_torque": 20.0, "engine_start_time": 0.037, "initial_engine_speed": 0.0}
+    )
     for _ in range(2):
         box.step(0.05, brake=1e4)
     inertia = 0.25 + 8.0 / 3.2**2
@@ -165,8 +167,10 @@ def test_a_dip_of_the_slip_below_zero_inside_one_step_is_not_missed():
     """Capacity falls from 400 N m to 0: slip dips through zero and is positive again at the end."""
     found = []
     for n in (1, 50):
-        box = Gearbox(**FREE | {"engine_torque": 150.0, "initial_engine_speed": 144.3,
-                                "initial_drum_speed": 100.0})  # fmt: skip
+        box = Gearbox(
+            **FREE
+            | {"engine_torque": 150.0, "initial_engine_speed": 144.3, "initial_drum_speed": 100.0}
+        )
         box.step(1e-4, clutch=400.8)
         for i in range(n):
             box.step(0.05 / n, clutch=400.0 * (1.0 - i / n))
@@ -220,16 +224,26 @@ rows = st.tuples(torques, torques, st.one_of(st.just(0.0), st.floats(-2.0, 2.0))
 
 @settings(max_examples=150, deadline=None)
 @given(
-    st.floats(-400.0, 400.0), st.one_of(st.just(0.0), st.floats(-200.0, 200.0)),
-    st.sampled_from([0.0, 0.01, 0.5]), sizeable(-200.0, 200.0), sizeable(0.0, 500.0),
-    st.sampled_from([1e-4, 1e-3, 1e-2, 0.1]), st.sampled_from([0, 1]),
+    st.floats(-400.0, 400.0),
+    st.one_of(st.just(0.0), st.floats(-200.0, 200.0)),
+    st.sampled_from([0.0, 0.01, 0.5]),
+    sizeable(-200.0, 200.0),
+    sizeable(0.0, 500.0),
+    st.sampled_from([1e-4, 1e-3, 1e-2, 0.1]),
+    st.sampled_from([0, 1]),
     st.lists(rows, min_size=5, max_size=40),
-)  # fmt: skip
+)
 def test_whatever_arrives_friction_takes_energy_and_the_book_closes(
     engine, ring, ring_inertia, torque, load, dt, age, received
 ):
-    box = Gearbox(initial_engine_speed=engine, initial_drum_speed=ring, load_torque=load,
-                  drum_inertia=ring_inertia, engine_torque=torque, torque_age=age)  # fmt: skip
+    box = Gearbox(
+        initial_engine_speed=engine,
+        initial_drum_speed=ring,
+        load_torque=load,
+        drum_inertia=ring_inertia,
+        engine_torque=torque,
+        torque_age=age,
+    )
     turnover = 1.0
     for clutch, brake, washer in received:
         assert box.step(dt, clutch=clutch, brake=brake, washer=washer, mesh=0.1) == 0

@@ -8,9 +8,11 @@ from thrustwasher.washer.map.map_file import VARIABLE
 from thrustwasher.washer.parameters import WasherParams
 
 BOX = {
-    "load": (100.0, 1100.0), "speed": (400.0, 700.0), "tilt": (0.0018, 0.0022),
+    "load": (100.0, 1100.0),
+    "speed": (400.0, 700.0),
+    "tilt": (0.0018, 0.0022),
     "oil_temperature": (297.15, 297.15),
-}  # fmt: skip
+}
 
 
 @pytest.fixture(scope="session")

@@ -91,8 +91,13 @@ def test_rows_and_single_look_ups_are_the_same(small):
 
 
 def test_outside_its_box_a_map_says_nothing_and_the_field_answers(found_first, small):
-    for change in ({"load": 99.0}, {"load": 1101.0}, {"speed": 399.0}, {"tilt": 0.0023},
-                   {"oil_temperature": 298.0}):  # fmt: skip
+    for change in (
+        {"load": 99.0},
+        {"load": 1101.0},
+        {"speed": 399.0},
+        {"tilt": 0.0023},
+        {"oil_temperature": 298.0},
+    ):
         point = {"load": 300.0, **PLACE, **change}
         assert not small.covers(**point)
         assert math.isnan(small.torque(*point.values()))

@@ -30,8 +30,12 @@ from thrustwasher.washer.map.map_plan import plan_map
 from thrustwasher.washer.parameters import WasherParams
 from thrustwasher.washer.solve import solve_washer
 
-TINY = {"load": (300.0, 400.0), "speed": (540.0, 550.0), "tilt": (0.002, 0.002),
-        "oil_temperature": (297.15, 297.15)}  # fmt: skip
+TINY = {
+    "load": (300.0, 400.0),
+    "speed": (540.0, 550.0),
+    "tilt": (0.002, 0.002),
+    "oil_temperature": (297.15, 297.15),
+}
 
 
 def test_what_is_packed_is_read_again(map_path, tmp_path):

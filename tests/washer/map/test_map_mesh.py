@@ -14,10 +14,15 @@ from thrustwasher.washer.parameters import WasherParams
 from thrustwasher.washer.solve import solve_washer
 
 # a layer of asperities at the rim that the mesh of "field" is too coarse for
-WIDE = WasherParams(inner_radius=7.5e-3, outer_radius=19e-3, gear_inner_radius=11e-3,
-                    roughness=3.1e-7)  # fmt: skip
-BOX = {"load": (2.0, 60.0), "speed": (5.0, 20.0), "tilt": (1.6e-3, 1.6e-3),
-       "oil_temperature": (350.0, 350.0)}  # fmt: skip
+WIDE = WasherParams(
+    inner_radius=7.5e-3, outer_radius=19e-3, gear_inner_radius=11e-3, roughness=3.1e-7
+)
+BOX = {
+    "load": (2.0, 60.0),
+    "speed": (5.0, 20.0),
+    "tilt": (1.6e-3, 1.6e-3),
+    "oil_temperature": (350.0, 350.0),
+}
 PLACE = {"load": 12.0, "speed": 10.0, "tilt": 1.6e-3, "oil_temperature": 350.0}
 TINY = {**BOX, "load": (10.0, 14.0), "speed": (10.0, 10.0)}
 
@@ -43,8 +48,15 @@ def test_that_all_lines_go_to_the_finer_mesh_is_said(tmp_path, monkeypatch):
 
     monkeypatch.setattr(map_build, "change_of_mesh", rough)
     labels = []
-    card = make_map(WIDE, tmp_path / "wide.twm", box=TINY, tolerance=0.01, workers=1, points=2,
-                    progress=said_by(labels))  # fmt: skip
+    card = make_map(
+        WIDE,
+        tmp_path / "wide.twm",
+        box=TINY,
+        tolerance=0.01,
+        workers=1,
+        points=2,
+        progress=said_by(labels),
+    )
     assert card["built_from"] == "fine"
     assert "the coarser mesh is 6.0% off: all lines on the finer mesh," in labels
 
@@ -59,8 +71,15 @@ def test_a_missed_tolerance_is_told_with_its_place_and_nothing_is_left(tmp_path,
     real = map_build.check_map
     monkeypatch.setattr(map_build, "check_map", check)
     with pytest.raises(SolveError, match=r"3\.00% off at load = .* N, speed = 10 rad/s") as told:
-        make_map(WIDE, tmp_path / "wide.twm", box=TINY, tolerance=0.01, workers=1, points=2,
-                 progress=said_by(labels))  # fmt: skip
+        make_map(
+            WIDE,
+            tmp_path / "wide.twm",
+            box=TINY,
+            tolerance=0.01,
+            workers=1,
+            points=2,
+            progress=said_by(labels),
+        )
     assert "the map is 3.0% off: all lines on the finer mesh," in labels
     assert "\n" not in str(told.value) and "1.00%" in str(told.value)
     assert len(meshes) == 2 and list(tmp_path.iterdir()) == []  # all lines were tried on "fine"

@@ -5,9 +5,9 @@
 ``constants``               constants of a pack behind its parameters, and rules between these
 ``pack_friction``           boundary friction of the asperities and shear of the oil between them
 ``rates``                   how fast film and heat of an engaging pack change, with slopes
-``rosenbrock``              film, heat and energy over a stretch of time, implicitly
-``rosenbrock_derivatives``  how they change with the inputs at the end of a stretch
-``advance``                 a pack's memory and its way along a stretch of time
+``rosenbrock``              film, heat and energy over an interval of time, implicitly
+``rosenbrock_derivatives``  how they change with the inputs at the end of an interval
+``advance``                 a pack's memory and its way along an interval of time
 ``pack_outputs``            the outputs at a point in time, with slopes
 ``steady``                  a pack that slips for ever: the temperature where cooling wins
 ``directional_derivative``  how the outputs change with the inputs: exact, film and heat held

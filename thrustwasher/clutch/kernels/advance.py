@@ -1,5 +1,5 @@
 # mypy: disable-error-code="no-any-return"
-"""A pack's memory and its way along a stretch of time over which the inputs run straight."""
+"""A pack's memory and its way along an interval of time over which the inputs run straight."""
 
 import math
 
@@ -12,12 +12,12 @@ from ...tribology.lumped_body import exponential_weights
 from . import layout as L
 from .pack_friction import coefficient_slopes, settled_slope
 from .rates import moves_film, n_unknowns, settled_cooling, surfaces
-from .rosenbrock import Course, attempt
+from .rosenbrock import Ramp, attempt
 from .rosenbrock_derivatives import Change, follow
 
 MAX_SUBSTEPS = 20_000
 LEAST_SHARE = 1e-13  # of the time gone by: no smaller substeps
-FIRST_SHARE = 1e-25  # of the stretch: the same at its start
+FIRST_SHARE = 1e-25  # of the interval: the same at its start
 
 
 @kernel
@@ -59,9 +59,15 @@ def settle_film(par: Array, load: float, work: Array) -> int:
 
 @kernel
 def warm_up(
-    par: Array, k: int, power_start: float, power_end: float, oil: float, cooling: float,
-    duration: float, work: Array,
-) -> None:  # fmt: skip
+    par: Array,
+    k: int,
+    power_start: float,
+    power_end: float,
+    oil: float,
+    cooling: float,
+    duration: float,
+    work: Array,
+) -> None:
     """Advance a ring's heat in W_NOW exactly, and the energy, under a power that runs straight.
 
     ``power_start``, ``power_end``: of a face [W]; ``cooling`` of the pack's faces [W/(m2 K)].
@@ -94,45 +100,50 @@ def settled_power(par: Array, load: float, slip: float, work: Array) -> float:
 
 
 @kernel
-def settle(par: Array, course: Course, duration: float, power_start: float, work: Array) -> int:
-    """Bring W_NOW through a stretch where the film is settled: heat only, return a status."""
+def settle(par: Array, ramp: Ramp, duration: float, power_start: float, work: Array) -> int:
+    """Bring W_NOW through an interval where the film is settled: heat only, return a status."""
     work[np.uintp(L.W_NOW + L.Y_FILM)], _, status, _ = settled_slope(
-        par, course[3], work[np.uintp(L.W_NOW + L.Y_FILM)]
+        par, ramp[3], work[np.uintp(L.W_NOW + L.Y_FILM)]
     )
-    end = settled_power(par, course[3], course[4], work)
-    held = course[0] == course[3] and course[1] == course[4]
-    cooling = settled_cooling(par, course[3])
-    warm_up(par, 0, end if held else power_start, end, course[2], cooling, duration, work)
+    end = settled_power(par, ramp[3], ramp[4], work)
+    held = ramp[0] == ramp[3] and ramp[1] == ramp[4]
+    cooling = settled_cooling(par, ramp[3])
+    warm_up(par, 0, end if held else power_start, end, ramp[2], cooling, duration, work)
     return status
 
 
 @kernel
 def is_integrated(par: Array) -> bool:
-    """Tell if a stretch takes the integrator; else the film is settled and the heat exact."""
+    """Tell if an interval takes the integrator; else the film is settled and the heat exact."""
     return moves_film(par) or par[L.P_FIDELITY] == L.FINE
 
 
 @kernel
 def advance(
-    par: Array, course: Course, duration: float, power_start: float, first: float, work: Array
+    par: Array, ramp: Ramp, duration: float, power_start: float, first: float, work: Array
 ) -> int:
-    """Bring W_NOW through a stretch over which load, slip and oil temperature run straight."""
+    """Bring W_NOW through an interval over which load, slip and oil temperature run straight."""
     if is_integrated(par):
-        status = integrate(par, course, (0.0, 0.0, 0.0, 0.0), duration, first, False, work)
-        return status if status != OK else settle_film(par, course[3], work)
-    return settle(par, course, duration, power_start, work)
+        status = integrate(par, ramp, (0.0, 0.0, 0.0, 0.0), duration, first, False, work)
+        return status if status != OK else settle_film(par, ramp[3], work)
+    return settle(par, ramp, duration, power_start, work)
 
 
 @kernel
 def integrate(
-    par: Array, course: Course, change: Change, duration: float, first: float, follows: bool,
+    par: Array,
+    ramp: Ramp,
+    change: Change,
+    duration: float,
+    first: float,
+    follows: bool,
     work: Array,
-) -> int:  # fmt: skip
+) -> int:
     """Advance the unknowns in W_NOW by ``duration`` [s]; return a status.
 
     Parameters
     ----------
-    course : load [N], slip [rad/s], oil temperature [K] at the start, then at the end, then the
+    ramp : load [N], slip [rad/s], oil temperature [K] at the start, then at the end, then the
         drum's speed [rad/s] at both; straight in between
     change : of the inputs at the end; counts with ``follows`` only
     first : size of the first substep [s] to try, 0 if unknown
@@ -151,17 +162,17 @@ def integrate(
         closing = share >= remaining * (1.0 - 1e-9)
         if closing:
             share = remaining
-        taken, factor, status = attempt(par, course, duration, done, share, least, work)
+        taken, factor, status = attempt(par, ramp, duration, done, share, least, work)
         if status != OK:
             return status
         if taken:
             if follows:
-                follow(par, course, change, done, share, duration, work)
+                follow(par, ramp, change, done, share, duration, work)
             copy(work[L.W_TRIAL :], work[L.W_NOW : L.W_NOW + n])
             done += share
             proposed = share * factor * duration
             if closing:
-                # a stretch's last substep may be a crumb: it says nothing about the next one
+                # an interval's last substep may be a crumb: it says nothing about the next one
                 work[L.W_PROPOSED] = max(work[L.W_PROPOSED], proposed) if count > 0 else proposed
                 work[L.W_SUBSTEPS] = float(count + 1) - refused
                 work[L.W_REFUSED] = refused

@@ -44,9 +44,12 @@ def derive_film(par: Array) -> None:
     )
     par[L.D_CONTACT_AREA] = math.pi * math.pi * group * group
     par[L.D_CLOSING] = (
-        2.0 * par[L.D_AREA] * sigma * sigma
+        2.0
+        * par[L.D_AREA]
+        * sigma
+        * sigma
         / (3.0 * math.pi * squeeze_group(ri, ro) * groove_factor(par))
-    )  # fmt: skip
+    )
     cube = sigma * sigma * sigma
     par[L.D_SEEPAGE] = 12.0 * par[L.P_PERMEABILITY] * par[L.P_LINING_THICKNESS] / cube
     square = (ro - ri) * (ro + ri)

@@ -3,7 +3,7 @@
 
 Film and temperature are states. They change with the inputs only where the film is settled (it
 follows the load), at the start (steel as warm as the oil), and with ``input_course`` = linear:
-there the present inputs also end the stretch since the last step, and its change is followed.
+there the present inputs also end the interval since the last step, and its change is followed.
 """
 
 import math
@@ -25,7 +25,7 @@ from .rosenbrock_derivatives import follow
 
 @kernel
 def heat_of_a_ramp(par: Array, inp: Array, state: Array, seed: Array) -> float:
-    """Return the change of the interface [K] where the film settles, at the end of a stretch.
+    """Return the change of the interface [K] where the film settles, at the end of an interval.
 
     The power at that end is the one of the temperature at its start.
     """
@@ -49,15 +49,22 @@ def heat_of_a_ramp(par: Array, inp: Array, state: Array, seed: Array) -> float:
 
 @kernel
 def followed(par: Array, inp: Array, state: Array, work: Array, seed: Array) -> tuple[float, int]:
-    """Return the change of the film ratio over the stretch since the last step; status.
+    """Return the change of the film ratio over the interval since the last step; status.
 
     Leaves in W_NOW what a step of dt = 0 leaves there, the changes of interfaces [K] in
     W_SURFACE_CHANGE.
     """
     load, slip, oil, drum = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL], inp[L.I_DRUM]
-    course = (
-        state[L.S_LOAD], state[L.S_SLIP], state[L.S_OIL], load, slip, oil, state[L.S_DRUM], drum,
-    )  # fmt: skip
+    ramp = (
+        state[L.S_LOAD],
+        state[L.S_SLIP],
+        state[L.S_OIL],
+        load,
+        slip,
+        oil,
+        state[L.S_DRUM],
+        drum,
+    )
     duration = state[L.S_DURATION]
     status = OK
     if is_integrated(par):
@@ -65,13 +72,13 @@ def followed(par: Array, inp: Array, state: Array, work: Array, seed: Array) -> 
         status = load_memory(par, load, oil, state, work)
         change = (seed[L.I_LOAD], seed[L.I_SPEED], seed[L.I_OIL], seed[L.I_DRUM])
         if work[L.W_DURATION] == 0.0 and work[L.W_SUBSTEPS] == 1.0:
-            # the stretch was one substep, still as it was: W_NOW is its start again, for a while
+            # the interval was one substep, still as it was: W_NOW is its start again, for a while
             clear(work[L.W_VARIED : L.W_VARIED + n])
-            follow(par, course, change, 0.0, 1.0, duration, work)
+            follow(par, ramp, change, 0.0, 1.0, duration, work)
             copy(work[L.W_TRIAL :], work[L.W_NOW : L.W_NOW + n])
         else:
             first = state[L.S_SUBSTEP]
-            status = integrate(par, course, change, duration, first, True, work)
+            status = integrate(par, ramp, change, duration, first, True, work)
         status = max(status, settle_film(par, load, work))
         surfaces(par, work, L.W_VARIED, L.W_SURFACE_CHANGE)
         film = work[np.uintp(L.W_VARIED + L.Y_FILM)] + work[L.W_SETTLED_LOAD] * seed[L.I_LOAD]
@@ -79,7 +86,7 @@ def followed(par: Array, inp: Array, state: Array, work: Array, seed: Array) -> 
     if work[L.W_DURATION] != 0.0:
         status = load_memory(par, load, oil, state, work)
         if status == OK:
-            status = settle(par, course, duration, state[L.S_POWER], work)
+            status = settle(par, ramp, duration, state[L.S_POWER], work)
         settle_film(par, load, work)
     work[L.W_SURFACE_CHANGE] = heat_of_a_ramp(par, inp, state, seed)
     return work[L.W_SETTLED_LOAD] * seed[L.I_LOAD], status
@@ -101,7 +108,7 @@ def directional_derivative(
     status = OK
     for k in range(int(par[L.D_RINGS])):
         work[np.uintp(L.W_SURFACE_CHANGE + k)] = heat
-    if started and par[L.P_INPUT_COURSE] == L.LINEAR_COURSE:
+    if started and par[L.P_INPUT_PROFILE] == L.LINEAR_PROFILE:
         film, status = followed(par, inp, state, work, seed)
     surfaces(par, work, L.W_NOW, L.W_SURFACE)
     point = (inp[L.I_LOAD], inp[L.I_SPEED], work[np.uintp(L.W_NOW + L.Y_FILM)], inp[L.I_DRUM])

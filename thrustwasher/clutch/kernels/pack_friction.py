@@ -28,9 +28,12 @@ def shear_slopes(par: Array, slip: float, temperature: float) -> tuple[float, fl
     The temperature acts by ``shear_temperature_slope`` (0: not at all); the ratio stays in 0 .. 1.
     """
     ratio, steepness = shear_and_slope(
-        abs(slip) * par[L.D_RADIUS], par[L.P_SHEAR_FLOOR], par[L.P_STICK_SPEED],
-        par[L.P_DECAY_SPEED], par[L.P_KINK_WIDTH],
-    )  # fmt: skip
+        abs(slip) * par[L.D_RADIUS],
+        par[L.P_SHEAR_FLOOR],
+        par[L.P_STICK_SPEED],
+        par[L.P_DECAY_SPEED],
+        par[L.P_KINK_WIDTH],
+    )
     steepness *= par[L.D_RADIUS]
     slope = par[L.P_SHEAR_TEMPERATURE_SLOPE]
     if slope == 0.0:
@@ -127,9 +130,11 @@ def cooling_slope(par: Array, share: float) -> tuple[float, float]:
 def pack_torques(
     par: Array, load: float, slip: float, drum: float, u: float, temperature: float
 ) -> tuple[
-    tuple[float, float, float, float, float], tuple[float, float, float, float, float, float],
-    tuple[float, float, float, float, float], tuple[float, float, float, float],
-]:  # fmt: skip
+    tuple[float, float, float, float, float],
+    tuple[float, float, float, float, float, float],
+    tuple[float, float, float, float, float],
+    tuple[float, float, float, float],
+]:
     """Return the torques [N m >= 0] of asperities and oil, with slopes, and what they come from.
 
     Asperities: (torque, d/du, d/dT [N m/K], d/d|slip|, d/dload); oil: the same and d/ddrum; then
@@ -154,9 +159,13 @@ def pack_torques(
         return contact, (full, by_u, by_t, by_s, by_d, 0.0), carried, (eta, eta_t, area, area_u)
     rest = 1.0 - share
     shear = (
-        rest * full, rest * by_u - share_u * full, rest * by_t, rest * by_s, rest * by_d,
+        rest * full,
+        rest * by_u - share_u * full,
+        rest * by_t,
+        rest * by_s,
+        rest * by_d,
         -share_f * full,
-    )  # fmt: skip
+    )
     return contact, shear, carried, (eta, eta_t, area, area_u)
 
 
@@ -249,9 +258,12 @@ def viscous_slopes(
     power, relative_t = 1.0, eta_slope / eta  # exponent of |slip| in the torque; its d ln/dT
     if par[L.P_SHEAR_HEATING] != 0.0 and eta_slope < 0.0:
         thinned, steepness = shear_thinned(
-            -relative_t * eta * (slip * par[L.D_RADIUS]) * (slip * par[L.D_RADIUS])
+            -relative_t
+            * eta
+            * (slip * par[L.D_RADIUS])
+            * (slip * par[L.D_RADIUS])
             / par[L.P_OIL_CONDUCTIVITY]
-        )  # fmt: skip
+        )
         full *= thinned
         power += 2.0 * steepness
         reduced = 135.0 + temperature - 273.15
@@ -263,10 +275,16 @@ def viscous_slopes(
         relative_t += eta_slope / eta
     torque = full * thin * abs(slip)
     return (
-        torque, full * thin_u * abs(slip), torque * relative_t,
-        full * thin * (power + by_slip * slip), torque * by_drum, eta, eta_slope, share,
+        torque,
+        full * thin_u * abs(slip),
+        torque * relative_t,
+        full * thin * (power + by_slip * slip),
+        torque * by_drum,
+        eta,
+        eta_slope,
+        share,
         share_slope,
-    )  # fmt: skip
+    )
 
 
 @kernel

@@ -27,9 +27,13 @@ def fill_outputs(
 
 @kernel
 def ring_outputs(
-    par: Array, point: tuple[float, float, float, float],
-    change: tuple[float, float, float, float], work: Array, out: Array, dout: Array,
-) -> None:  # fmt: skip
+    par: Array,
+    point: tuple[float, float, float, float],
+    change: tuple[float, float, float, float],
+    work: Array,
+    out: Array,
+    dout: Array,
+) -> None:
     """Fill ``out`` and its change ``dout`` but for temperature and heats.
 
     ``point``: load [N], slip [rad/s], film ratio, drum speed [rad/s]; ``change`` theirs.

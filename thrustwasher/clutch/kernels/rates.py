@@ -74,9 +74,12 @@ def film_rate(
 def pack_slopes(
     par: Array, load: float, slip: float, drum: float, u: float, temperature: float
 ) -> tuple[
-    tuple[float, float, float], tuple[float, float, float, float, float, float],
-    tuple[float, float, float], float, float,
-]:  # fmt: skip
+    tuple[float, float, float],
+    tuple[float, float, float, float, float, float],
+    tuple[float, float, float],
+    float,
+    float,
+]:
     """Return the rates of a pack of one temperature, and how they change.
 
     (du/dt, its slopes over u and load), (power of a face [W], its slopes over u, T, load, |slip|
@@ -90,17 +93,22 @@ def pack_slopes(
     steep = (1.0 - smooth) * (1.0 + smooth) / width
     torque = contact[0] * smooth + viscous[0]
     power = (
-        speed * torque, speed * (contact[1] * smooth + viscous[1]),
-        speed * (contact[2] * smooth + viscous[2]), speed * (contact[4] * smooth + viscous[5]),
+        speed * torque,
+        speed * (contact[1] * smooth + viscous[1]),
+        speed * (contact[2] * smooth + viscous[2]),
+        speed * (contact[4] * smooth + viscous[5]),
         torque / faces + speed * (contact[3] * smooth + contact[0] * steep + viscous[3]),
         speed * viscous[4],
-    )  # fmt: skip
+    )
     cooling, over = cooling_slope(par, carried[0])
     cooling, over = cooling * par[L.D_AREA], over * par[L.D_AREA]
     return (
-        (rate, rate_u, rate_p / par[L.D_AREA]), power,
-        (cooling, over * carried[1], over * carried[2]), oil[0], oil[1],
-    )  # fmt: skip
+        (rate, rate_u, rate_p / par[L.D_AREA]),
+        power,
+        (cooling, over * carried[1], over * carried[2]),
+        oil[0],
+        oil[1],
+    )
 
 
 @kernel
@@ -121,9 +129,13 @@ def surfaces(par: Array, work: Array, base: int, to: int) -> None:
 
 @kernel
 def _keep(
-    power: tuple[float, float, float, float, float, float], cooling: tuple[float, float, float],
-    share: float, slip: float, at: int, work: Array,
-) -> None:  # fmt: skip
+    power: tuple[float, float, float, float, float, float],
+    cooling: tuple[float, float, float],
+    share: float,
+    slip: float,
+    at: int,
+    work: Array,
+) -> None:
     """Store power and cooling of a ring, which has this share of the load, and their slopes."""
     for i in range(3):
         work[np.uintp(at + L.R_POWER + i)] = power[i]

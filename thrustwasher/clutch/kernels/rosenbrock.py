@@ -1,5 +1,5 @@
 # mypy: disable-error-code="no-any-return"
-"""Film, heat and energy of an engaging pack over a stretch of time, implicitly, error controlled.
+"""Film, heat and energy of an engaging pack over an interval of time, implicitly, error controlled.
 
 The film follows the load at hundreds per second, so the method is linearly implicit and L-stable:
 RODAS (order 4, six stages, embedded order 3) of Hairer & Wanner, Solving Ordinary Differential
@@ -18,7 +18,7 @@ from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
 from .rates import kept_of, n_unknowns, pack_rates, ring_of, surfaces
 
-Course = tuple[float, float, float, float, float, float, float, float]
+Ramp = tuple[float, float, float, float, float, float, float, float]
 GAMMA = 0.25
 A = np.array([
     [0.0, 0.0, 0.0, 0.0, 0.0],
@@ -48,25 +48,22 @@ SHARE_IN_RINGS = 0.1  # of the tolerance that a pack in rings may use
 
 
 @kernel
-def is_moving(course: Course) -> bool:
-    """Tell if the inputs at the end of a stretch differ from those at its start."""
-    return (
-        course[0] != course[3] or course[1] != course[4] or course[2] != course[5]
-        or course[6] != course[7]
-    )  # fmt: skip
+def is_moving(ramp: Ramp) -> bool:
+    """Tell if the inputs at the end of an interval differ from those at its start."""
+    return ramp[0] != ramp[3] or ramp[1] != ramp[4] or ramp[2] != ramp[5] or ramp[6] != ramp[7]
 
 
 @kernel
-def _rates(par: Array, course: Course, x: float, work: Array, base: int, place: int) -> None:
-    """Fill W_RATE with the rates of all unknowns at the share ``x`` of the stretch.
+def _rates(par: Array, ramp: Ramp, x: float, work: Array, base: int, place: int) -> None:
+    """Fill W_RATE with the rates of all unknowns at the share ``x`` of the interval.
 
-    ``course``: load, slip, oil temperature at the start, then at the end, then the drum's speed at
+    ``ramp``: load, slip, oil temperature at the start, then at the end, then the drum's speed at
     both. The slopes are kept at the ``place``-th of W_KEPT.
     """
-    load = course[0] + (course[3] - course[0]) * x
-    slip = course[1] + (course[4] - course[1]) * x
-    oil = course[2] + (course[5] - course[2]) * x
-    drum = course[6] + (course[7] - course[6]) * x
+    load = ramp[0] + (ramp[3] - ramp[0]) * x
+    slip = ramp[1] + (ramp[4] - ramp[1]) * x
+    oil = ramp[2] + (ramp[5] - ramp[2]) * x
+    drum = ramp[6] + (ramp[7] - ramp[6]) * x
     kept = L.W_KEPT + place * L.N_RATES
     surfaces(par, work, base, L.W_SURFACE)
     pack_rates(par, max(load, 0.0), slip, drum, work[np.uintp(base + L.Y_FILM)], work, kept)
@@ -162,18 +159,16 @@ def solve_stage(par: Array, s: float, work: Array, stage: int) -> None:
 
 
 @kernel
-def substep(
-    par: Array, course: Course, x: float, share: float, duration: float, work: Array
-) -> float:
+def substep(par: Array, ramp: Ramp, x: float, share: float, duration: float, work: Array) -> float:
     """Fill W_TRIAL with the state a substep later; return its error in units of the tolerance."""
     n, h = n_unknowns(par), share * duration
     s = 1.0 / (GAMMA * h)
-    moving = is_moving(course)
+    moving = is_moving(ramp)
     last = L.W_STAGES + (L.N_STAGES - 1) * L.NY
     if moving:  # the drift of the rates is differenced; it goes where the last stage will be
-        _rates(par, course, x + NUDGE * share, work, L.W_NOW, L.DRIFTED)
+        _rates(par, ramp, x + NUDGE * share, work, L.W_NOW, L.DRIFTED)
         copy(work[L.W_RATE :], work[last : last + n])
-    _rates(par, course, x, work, L.W_NOW, 0)
+    _rates(par, ramp, x, work, L.W_NOW, 0)
     factorise(par, s, work)
     if moving:
         for i in range(n):
@@ -186,7 +181,7 @@ def substep(
                 for j in range(k):
                     value += A[k, j] * work[np.uintp(L.W_STAGES + j * L.NY + i)]
                 work[np.uintp(L.W_TRIAL + i)] = value
-            _rates(par, course, x + ALPHA[k] * share, work, L.W_TRIAL, k)
+            _rates(par, ramp, x + ALPHA[k] * share, work, L.W_TRIAL, k)
         stage = L.W_STAGES + k * L.NY
         for i in range(n):
             value = work[np.uintp(L.W_RATE + i)]
@@ -220,16 +215,21 @@ def _error(par: Array, work: Array, last: int) -> float:
 
 @kernel
 def attempt(
-    par: Array, course: Course, duration: float, done: float, share: float, least: float,
+    par: Array,
+    ramp: Ramp,
+    duration: float,
+    done: float,
+    share: float,
+    least: float,
     work: Array,
-) -> tuple[bool, float, int]:  # fmt: skip
+) -> tuple[bool, float, int]:
     """Try a substep from W_NOW to W_TRIAL; return if it counts, how its size should change, status.
 
-    It goes from the share ``done`` of the stretch over ``share`` of it. A jump of the rates inside
-    the stretch (the pack opens, a limit is met) shrinks the substeps until it is passed; one as
+    It goes from the share ``done`` of the interval over ``share`` of it. A jump of the rates inside
+    the interval (the pack opens, a limit is met) shrinks the substeps until it is passed; one as
     small as ``least`` is taken.
     """
-    error = substep(par, course, done, share, duration, work)
+    error = substep(par, ramp, done, share, duration, work)
     if not math.isfinite(error):
         error = 1e6
         if share <= least:

@@ -1,5 +1,5 @@
 # mypy: disable-error-code="no-any-return"
-"""How film and heat at the end of a stretch change with the inputs there.
+"""How film and heat at the end of an interval change with the inputs there.
 
 Every substep is differentiated as it was made, stage by stage, with the slopes that it left in
 ``work``; its size counts as given. Only a change of the slopes themselves, by what the changes at
@@ -13,7 +13,7 @@ from ...numerics.jit import Array, kernel
 from . import layout as L
 from . import rosenbrock
 from .rates import kept_of, n_unknowns, pack_rates, ring_of, surfaces
-from .rosenbrock import Course, cooled_by_film, factorise, is_moving, solve_stage
+from .rosenbrock import Ramp, cooled_by_film, factorise, is_moving, solve_stage
 
 Change = tuple[float, float, float, float]
 APART = 1e-5  # relative distance of the neighbouring states
@@ -26,7 +26,7 @@ def _changed_rates(
 ) -> float:
     """Return the change of the film rate with those of states and inputs; fill W_POWER_CHANGE.
 
-    ``change`` of the inputs at the end of the stretch, at the share ``at`` of it.
+    ``change`` of the inputs at the end of the interval, at the share ``at`` of it.
 
     The changes of the rings' temperatures are in W_SURFACE_CHANGE.
     """
@@ -55,11 +55,11 @@ def _changed_cooling(own: Array, film: float, heat: float, change: Change, at: f
 
 
 @kernel
-def _change_slopes(par: Array, course: Course, change: Change, x: float, work: Array) -> None:
+def _change_slopes(par: Array, ramp: Ramp, change: Change, x: float, work: Array) -> None:
     """Fill W_BENT with the changes of the slopes at a substep's start, at the share ``x``."""
-    load = max(course[0] + (course[3] - course[0]) * x, 0.0)
-    slip = course[1] + (course[4] - course[1]) * x
-    drum = course[6] + (course[7] - course[6]) * x
+    load = max(ramp[0] + (ramp[3] - ramp[0]) * x, 0.0)
+    slip = ramp[1] + (ramp[4] - ramp[1]) * x
+    drum = ramp[6] + (ramp[7] - ramp[6]) * x
     load_change, slip_change, drum_change = change[0] * x, change[1] * x, change[3] * x
     clear(work[L.W_BENT : L.W_VARIED])
     u, film = work[np.uintp(L.W_NOW + L.Y_FILM)], work[np.uintp(L.W_VARIED + L.Y_FILM)]
@@ -82,9 +82,14 @@ def _change_slopes(par: Array, course: Course, change: Change, x: float, work: A
             heat = work[np.uintp(L.W_SURFACE_CHANGE + k)]
             work[np.uintp(L.W_SURFACE + k)] += e * heat
         pack_rates(
-            par, max(load + e * load_change, 0.0), slip + e * slip_change, drum + e * drum_change,
-            u + e * film, work, L.W_NEIGHBOUR,
-        )  # fmt: skip
+            par,
+            max(load + e * load_change, 0.0),
+            slip + e * slip_change,
+            drum + e * drum_change,
+            u + e * film,
+            work,
+            L.W_NEIGHBOUR,
+        )
         half = 0.5 / e
         for i in range(L.R_RINGS + int(par[L.D_RINGS]) * L.N_OF_RING):
             work[np.uintp(L.W_BENT + i)] += half * work[np.uintp(L.W_NEIGHBOUR + i)]
@@ -92,24 +97,28 @@ def _change_slopes(par: Array, course: Course, change: Change, x: float, work: A
 
 @kernel
 def _jump(
-    par: Array, course: Course, change: float, x: float, share: float, duration: float, work: Array
+    par: Array, ramp: Ramp, change: float, x: float, share: float, duration: float, work: Array
 ) -> float:
     """Return the change of the film ratio because the pack opens or closes at another instant."""
-    limit, rise = L.OPEN_PRESSURE * par[L.D_AREA], course[3] - course[0]
-    before, after = course[0] + rise * x, course[0] + rise * (x + share)
+    limit, rise = L.OPEN_PRESSURE * par[L.D_AREA], ramp[3] - ramp[0]
+    before, after = ramp[0] + rise * x, ramp[0] + rise * (x + share)
     if (before < limit) == (after < limit):
         return 0.0
-    later = -duration * (limit - course[0]) / rise * change / rise
-    slip, jump = course[1], 0.0
+    later = -duration * (limit - ramp[0]) / rise * change / rise
+    slip, jump = ramp[1], 0.0
     for side in range(2):
         at = x + share * side
         base = L.W_TRIAL if side == 1 else L.W_NOW
         surfaces(par, work, base, L.W_SURFACE)
         pack_rates(
-            par, max(course[0] + rise * at, 0.0), slip + (course[4] - slip) * at,
-            course[6] + (course[7] - course[6]) * at, work[np.uintp(base + L.Y_FILM)], work,
+            par,
+            max(ramp[0] + rise * at, 0.0),
+            slip + (ramp[4] - slip) * at,
+            ramp[6] + (ramp[7] - ramp[6]) * at,
+            work[np.uintp(base + L.Y_FILM)],
+            work,
             L.W_NEIGHBOUR,
-        )  # fmt: skip
+        )
         rate = work[np.uintp(L.W_NEIGHBOUR + L.R_RATE)]
         jump += rate if side == 0 else -rate
     return jump * later
@@ -187,27 +196,32 @@ def _stage(par: Array, change: Change, x: float, at: float, h: float, k: int, wo
 
 @kernel
 def follow(
-    par: Array, course: Course, change: Change, x: float, share: float, duration: float,
+    par: Array,
+    ramp: Ramp,
+    change: Change,
+    x: float,
+    share: float,
+    duration: float,
     work: Array,
-) -> None:  # fmt: skip
+) -> None:
     """Carry the changes at W_VARIED over a substep from W_NOW to W_TRIAL, whose stages still stand.
 
-    ``course`` and ``change``: inputs at start and end of the stretch and how the latter change;
-    the substep goes from the share ``x`` of the stretch over ``share`` of it.
+    ``ramp`` and ``change``: inputs at start and end of the interval and how the latter change;
+    the substep goes from the share ``x`` of the interval over ``share`` of it.
     """
     h = share * duration
     s = 1.0 / (rosenbrock.GAMMA * h)
     if x > 0.0:
-        _change_slopes(par, course, change, x, work)
+        _change_slopes(par, ramp, change, x, work)
     else:
         clear(work[L.W_BENT : L.W_VARIED])
-    _drift(par, change, x, share, h, L.DRIFTED if is_moving(course) else 0, work)
+    _drift(par, change, x, share, h, L.DRIFTED if is_moving(ramp) else 0, work)
     factorise(par, s, work)
     for k in range(L.N_STAGES):
         _stage(par, change, x, x + rosenbrock.ALPHA[k] * share, h, k, work)
         solve_stage(par, s, work, L.W_VARIED_STAGES + k * L.NY)
     last = L.N_STAGES - 1
-    jump = _jump(par, course, change[0], x, share, duration, work)
+    jump = _jump(par, ramp, change[0], x, share, duration, work)
     for i in range(n_unknowns(par)):
         value = work[np.uintp(L.W_VARIED_STAGES + last * L.NY + i)]
         for j in range(last):

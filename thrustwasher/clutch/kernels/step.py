@@ -42,22 +42,28 @@ def step(
         iout[L.IO_STATUS] = BAD_INPUT
         return BAD_INPUT
     started = state[L.S_STARTED] != 0.0
-    linear = par[L.P_INPUT_COURSE] == L.LINEAR_COURSE
+    linear = par[L.P_INPUT_PROFILE] == L.LINEAR_PROFILE
     work[L.W_SUBSTEPS] = work[L.W_REFUSED] = 0.0
     work[L.W_PROPOSED], work[L.W_DURATION] = state[L.S_SUBSTEP], dt
     status = load_memory(par, load, oil, state, work)
     if linear:
         if started and status == OK:
-            course = (
-                state[L.S_LOAD], state[L.S_SLIP], state[L.S_OIL], load, slip, oil,
-                state[L.S_DRUM], drum,
-            )  # fmt: skip
+            ramp = (
+                state[L.S_LOAD],
+                state[L.S_SLIP],
+                state[L.S_OIL],
+                load,
+                slip,
+                oil,
+                state[L.S_DRUM],
+                drum,
+            )
             status = advance(
-                par, course, state[L.S_DURATION], state[L.S_POWER], state[L.S_SUBSTEP], work
+                par, ramp, state[L.S_DURATION], state[L.S_POWER], state[L.S_SUBSTEP], work
             )
     elif dt > 0.0 and status == OK:
-        course = (load, slip, oil, load, slip, oil, drum, drum)
-        status = advance(par, course, dt, 0.0, state[L.S_SUBSTEP], work)
+        ramp = (load, slip, oil, load, slip, oil, drum, drum)
+        status = advance(par, ramp, dt, 0.0, state[L.S_SUBSTEP], work)
     if status == OK:
         status = settle_film(par, load, work)
     fill_outputs(par, load, slip, drum, work, out)

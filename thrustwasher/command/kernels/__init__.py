@@ -1,7 +1,7 @@
 """Compiled code of the command source.
 
 ========  ==================================================================================
-``step``  The course of a shift command: a ramp between two values, a function of time alone
+``step``  The profile of a shift command: a ramp between two values, a function of time alone
 ========  ==================================================================================
 """
 

@@ -1,4 +1,4 @@
-"""The course of a shift command: a ramp between two values, a function of time alone."""
+"""The profile of a shift command: a ramp between two values, a function of time alone."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,9 +21,15 @@ def derive(par: Array) -> int:
 
 @kernel
 def step(
-    par: Array, inp: Array, state: Array, work: Array, out: Array, iout: IntArray,
-    t: float, dt: float,
-) -> int:  # fmt: skip
+    par: Array,
+    inp: Array,
+    state: Array,
+    work: Array,
+    out: Array,
+    iout: IntArray,
+    t: float,
+    dt: float,
+) -> int:
     """Give the command at the end of the step, ``lead`` ahead of time."""
     begin, duration = par[P_START], par[P_DURATION]
     before, after = par[P_BEFORE], par[P_AFTER]

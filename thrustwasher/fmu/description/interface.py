@@ -213,15 +213,24 @@ def _outputs(spec: ModelSpec) -> Iterator[dict[str, Any]]:
 def _signal(signal: Signal, store: str, slot: int) -> dict[str, Any]:
     start = signal.start or 0.0
     own = (
-        {"causality": "input", "initial": None, "start": start} if store == "inp" else
-        {"causality": "output", "initial": "calculated", "depends": signal.depends}
-    )  # fmt: skip
+        {"causality": "input", "initial": None, "start": start}
+        if store == "inp"
+        else {"causality": "output", "initial": "calculated", "depends": signal.depends}
+    )
     return own | {
-        "name": signal.name, "type": signal.kind.capitalize(), "unit": signal.unit,
-        "help": signal.help, "type_name": signal.type, "low": signal.low, "high": signal.high,
-        "nominal": signal.nominal, "relative": signal.relative, "store": store, "slot": slot,
+        "name": signal.name,
+        "type": signal.kind.capitalize(),
+        "unit": signal.unit,
+        "help": signal.help,
+        "type_name": signal.type,
+        "low": signal.low,
+        "high": signal.high,
+        "nominal": signal.nominal,
+        "relative": signal.relative,
+        "store": store,
+        "slot": slot,
         "variability": "continuous" if signal.kind == "real" else "discrete",
-    }  # fmt: skip
+    }
 
 
 def _parameter(slot: int, f: "Field[Any]") -> dict[str, Any]:
@@ -229,20 +238,35 @@ def _parameter(slot: int, f: "Field[Any]") -> dict[str, Any]:
     assert f.default is not MISSING, "every parameter has a default"
     start = list(m["options"]).index(f.default) + 1 if "options" in m else f.default
     return {
-        "name": f.name, "type": m["kind"].capitalize(), "causality": "parameter",
-        "variability": "tunable" if m.get("tunable") else "fixed", "initial": "exact",
-        "unit": m["unit"], "help": m["help"],
-        "store": "par", "slot": slot, "type_name": m.get("type"), "low": m["min"],
-        "high": m["max"], "nominal": m.get("nominal") or abs(float(start)) or None,
-        "start": float(start), "relative": m.get("relative", False),
-    }  # fmt: skip
+        "name": f.name,
+        "type": m["kind"].capitalize(),
+        "causality": "parameter",
+        "variability": "tunable" if m.get("tunable") else "fixed",
+        "initial": "exact",
+        "unit": m["unit"],
+        "help": m["help"],
+        "store": "par",
+        "slot": slot,
+        "type_name": m.get("type"),
+        "low": m["min"],
+        "high": m["max"],
+        "nominal": m.get("nominal") or abs(float(start)) or None,
+        "start": float(start),
+        "relative": m.get("relative", False),
+    }
 
 
 def _fidelity(spec: ModelSpec) -> dict[str, Any]:
     return {
-        "name": "fidelity", "type": "Enumeration", "causality": "parameter",
-        "variability": "fixed", "initial": "exact", "unit": "1", "store": "par",
-        "slot": len(fields(spec.params)), "type_name": "Fidelity",
+        "name": "fidelity",
+        "type": "Enumeration",
+        "causality": "parameter",
+        "variability": "fixed",
+        "initial": "exact",
+        "unit": "1",
+        "store": "par",
+        "slot": len(fields(spec.params)),
+        "type_name": "Fidelity",
         "help": "how finely the model is resolved",
         "start": float(list(spec.fidelities).index(spec.default_fidelity) + 1),
-    }  # fmt: skip
+    }

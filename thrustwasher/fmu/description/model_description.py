@@ -20,9 +20,17 @@ Attributes = dict[str, Any]  # of an element; those that are None are left out
 RELEASED = 1767225600  # without git and SOURCE_DATE_EPOCH: 2026-01-01
 # unit -> its display units
 DISPLAY = {
-    "K": ("degC",), "rad/s": ("rpm",), "rad": ("deg", "mrad"), "m": ("mm", "um"), "N": ("kN",),
-    "W": ("kW",), "J": ("kJ",), "Pa": ("MPa", "GPa"), "Pa.s": ("mPa.s",), "m3/s": ("l/min",),
-}  # fmt: skip
+    "K": ("degC",),
+    "rad/s": ("rpm",),
+    "rad": ("deg", "mrad"),
+    "m": ("mm", "um"),
+    "N": ("kN",),
+    "W": ("kW",),
+    "J": ("kJ",),
+    "Pa": ("MPa", "GPa"),
+    "Pa.s": ("mPa.s",),
+    "m3/s": ("l/min",),
+}
 # Declared types of real variables: name -> attributes.
 REAL_TYPES: dict[str, dict[str, Any]] = table_beside(__file__, "real_types.toml")
 
@@ -52,8 +60,14 @@ def terminals_and_icons(shown: Interface, *, icon: bool = True) -> bytes:
 
 def declared_type(v: Variable) -> str | None:
     """Return the declared type of a real variable, if its unit has one."""
-    return next((name for name, said in REAL_TYPES.items() if said["unit"] == v.unit
-                 and ("relativeQuantity" in said) == v.relative), None)  # fmt: skip
+    return next(
+        (
+            name
+            for name, said in REAL_TYPES.items()
+            if said["unit"] == v.unit and ("relativeQuantity" in said) == v.relative
+        ),
+        None,
+    )
 
 
 def display_unit(v: Variable) -> str | None:
@@ -126,9 +140,14 @@ def types(found: tuple[Variable, ...]) -> list[tuple[str, Attributes]]:
 
 def head_attributes(v: Variable) -> Attributes:
     """Return what a variable of any type says of itself."""
-    return {"name": v.name, "valueReference": v.reference, "description": v.help,
-            "causality": v.causality, "variability": v.variability, "initial": v.initial,
-            }  # fmt: skip
+    return {
+        "name": v.name,
+        "valueReference": v.reference,
+        "description": v.help,
+        "causality": v.causality,
+        "variability": v.variability,
+        "initial": v.initial,
+    }
 
 
 def value_attributes(v: Variable) -> Attributes:
@@ -141,8 +160,13 @@ def value_attributes(v: Variable) -> Attributes:
     if v.type != "Real":
         return {"declaredType": v.type_name, **shown, "nominal": None}
     relative = "true" if v.relative else None
-    return {"declaredType": declared_type(v), "unit": v.unit, "displayUnit": display_unit(v),
-            "relativeQuantity": relative, **shown}  # fmt: skip
+    return {
+        "declaredType": declared_type(v),
+        "unit": v.unit,
+        "displayUnit": display_unit(v),
+        "relativeQuantity": relative,
+        **shown,
+    }
 
 
 def structure(shown: Interface) -> list[tuple[str, str, list[Any]]]:

@@ -25,9 +25,15 @@ WIDTH = 1e-3  # rad/s, of the central difference: small beside every smoothing
 
 
 def page(
-    shown: Interface, folder: Path, *, target: str, fmi: int, guid: str, platforms: Sequence[str],
+    shown: Interface,
+    folder: Path,
+    *,
+    target: str,
+    fmi: int,
+    guid: str,
+    platforms: Sequence[str],
     runs: bool = True,
-) -> str:  # fmt: skip
+) -> str:
     """Return the page.
 
     ``folder`` holds the model's icon and readme, whose first line is the title. With ``runs`` =
@@ -37,17 +43,25 @@ def page(
     spec, icon = shown.spec, folder / "icon.png"
     return filled(
         source_folder() / "documentation" / "index.html",
-        spec=spec, target=target, fmi=fmi, guid=guid, platforms=platforms,
-        version=package_version(), reference=FOLDER,
+        spec=spec,
+        target=target,
+        fmi=fmi,
+        guid=guid,
+        platforms=platforms,
+        version=package_version(),
+        reference=FOLDER,
         icon=data_uri(icon) if icon.is_file() else "",
-        usual=interface(find_spec(spec.key)).variables if spec.kind else (), shown=shown,
+        usual=interface(find_spec(spec.key)).variables if spec.kind else (),
+        shown=shown,
         statuses=sorted(Status),
         advice=find_model(spec.key).wiring if spec.key in MODELS else (),
-        feedthrough=_feedthrough(spec), slope=_slope_words(spec, runs),
+        feedthrough=_feedthrough(spec),
+        slope=_slope_words(spec, runs),
         accuracy_head=("fidelity", "within", "points", *QUANTITIES, "measured with"),
-        accuracy=accuracy(spec), equations=equations(folder),
+        accuracy=accuracy(spec),
+        equations=equations(folder),
         licences=listed_licences(target, platforms),
-    ).decode()  # fmt: skip
+    ).decode()
 
 
 def accuracy(spec: ModelSpec) -> Rows:
@@ -79,11 +93,18 @@ def _of_map(spec: ModelSpec) -> Rows:
         return []
     held, units = card["held_out"], {s.name: s.unit for s in spec.inputs}
     box = ", ".join(f"{n} {low:g} .. {high:g} {units[n]}" for n, (low, high) in card["box"].items())
-    return [(f"{tables.rung}, when built", box, str(held["points"]),
-             shown_error(held["torque"], None),
-             shown_error(held["temperature"], "K"), "-",
-             shown_error(held["film_ratio"], "1"),
-             "x".join(map(str, card.get("checked_on", ()))) + " nodes")]  # fmt: skip
+    return [
+        (
+            f"{tables.rung}, when built",
+            box,
+            str(held["points"]),
+            shown_error(held["torque"], None),
+            shown_error(held["temperature"], "K"),
+            "-",
+            shown_error(held["film_ratio"], "1"),
+            "x".join(map(str, card.get("checked_on", ()))) + " nodes",
+        )
+    ]
 
 
 def equations(folder: Path) -> str:

@@ -24,11 +24,21 @@ def reference_files(spec: ModelSpec) -> dict[str, bytes]:
     """
     rows = reference_run(spec)
     told = [
-        ("in", "testcase", "inputs of the default experiment, linear between the rows",
-         spec.inputs, input_rows(spec)),
-        ("out", "result", "outputs of the default experiment, at the ends of some of its steps",
-         spec.outputs, rows[:: max(1, len(rows) // ROWS)]),
-    ]  # fmt: skip
+        (
+            "in",
+            "testcase",
+            "inputs of the default experiment, linear between the rows",
+            spec.inputs,
+            input_rows(spec),
+        ),
+        (
+            "out",
+            "result",
+            "outputs of the default experiment, at the ends of some of its steps",
+            spec.outputs,
+            rows[:: max(1, len(rows) // ROWS)],
+        ),
+    ]
     told = told if spec.course else told[1:]
     related = [(f"{spec.name}_{ending}.csv", role, meaning) for ending, role, meaning, *_ in told]
     files = {

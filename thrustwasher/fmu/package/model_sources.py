@@ -39,9 +39,14 @@ def model_folder(spec: ModelSpec, sources: Path) -> Path:
 
 
 def identifier(
-    shown: Interface, folder: Path, *, target: str, fmi: int, tools: str = "",
+    shown: Interface,
+    folder: Path,
+    *,
+    target: str,
+    fmi: int,
+    tools: str = "",
     shared: Path | None = None,
-) -> str:  # fmt: skip
+) -> str:
     """Return 32 hex digits over all that decides what an FMU contains.
 
     That is the interface, the kernels, the model's own files in ``folder``, what the models share

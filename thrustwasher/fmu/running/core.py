@@ -20,10 +20,13 @@ from .snapshot import Snapshot
 
 # What is said of an input outside the part's box, and outside what was verified: before it, behind.
 RANGES = (
-    ("", "the part's box: solved all the same, but it is not what the part is meant for; change "
-         "the input, or [box] in the part file"),
+    (
+        "",
+        "the part's box: solved all the same, but it is not what the part is meant for; change "
+        "the input, or [box] in the part file",
+    ),
     ("OUTSIDE_VERIFIED: ", "for which the accuracy was verified; use with care"),
-)  # fmt: skip
+)
 
 
 class Mode(IntEnum):
@@ -53,9 +56,14 @@ class Core:
         self.out, self.iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
         self._step_into = partial(kernel.step, self.par, self.inp, self.state, self.work)
         self._step = bound(
-            kernel.step, par=self.par, inp=self.inp, state=self.state, work=self.work,
-            out=self.out, iout=self.iout,
-        )  # fmt: skip
+            kernel.step,
+            par=self.par,
+            inp=self.inp,
+            state=self.state,
+            work=self.work,
+            out=self.out,
+            iout=self.iout,
+        )
         self._undo = self.state.copy(), self.out.copy(), self.iout.copy()
         self._zeros = np.zeros(kernel.NOUT)
         self._arrays = {name: getattr(self, name) for name in ("par", "inp", "out", "iout")}
@@ -146,8 +154,9 @@ class Core:
         if not self._may_set(v):
             tuned = v.variability == "tunable" and self.mode == Mode.STEPPING
             held = " with fidelity 'map', made for one value" if tuned else ""
-            return (f"{v.name} is a fixed parameter{held}; "
-                    "it can be set before the initialization ends")  # fmt: skip
+            return (
+                f"{v.name} is a fixed parameter{held}; it can be set before the initialization ends"
+            )
         low, high = v.bounds
         if low <= value <= high:  # False for NaN
             return ""
@@ -340,11 +349,20 @@ class Core:
     def snapshot(self) -> Snapshot:
         """Copy all that decides what comes next."""
         return Snapshot(
-            identity=content_digest(self.spec), par=self.par.copy(), inp=self.inp.copy(),
-            state=self.state.copy(), out=self.out.copy(), iout=self.iout.copy(), time=self.time,
-            mode=int(self.mode), dirty=self.dirty, prepared=self.prepared, latch=int(self.latch),
-            refused=np.array(sorted(self.refused), np.int32), seen=np.array(self._seen, np.int32),
-        )  # fmt: skip
+            identity=content_digest(self.spec),
+            par=self.par.copy(),
+            inp=self.inp.copy(),
+            state=self.state.copy(),
+            out=self.out.copy(),
+            iout=self.iout.copy(),
+            time=self.time,
+            mode=int(self.mode),
+            dirty=self.dirty,
+            prepared=self.prepared,
+            latch=int(self.latch),
+            refused=np.array(sorted(self.refused), np.int32),
+            seen=np.array(self._seen, np.int32),
+        )
 
     def restore(self, snapshot: Snapshot) -> None:
         """Go back to a snapshot of this model and version, or raise ParameterError."""

@@ -24,9 +24,20 @@ from ...native.files import code_folder
 KEPT = 20  # unpacked FMUs
 IN_USE = 86400.0  # s; a folder used within this time may be open in another process
 # The disk's or the user's trouble; other errors come of a damaged archive.
-DISK = {getattr(errno, name, None) for name in (
-    "ENOSPC", "EDQUOT", "EFBIG", "EIO", "EROFS", "EACCES", "EPERM", "EMFILE", "ENFILE",
-)}  # fmt: skip
+DISK = {
+    getattr(errno, name, None)
+    for name in (
+        "ENOSPC",
+        "EDQUOT",
+        "EFBIG",
+        "EIO",
+        "EROFS",
+        "EACCES",
+        "EPERM",
+        "EMFILE",
+        "ENFILE",
+    )
+}
 WARNING = 1  # of both FMI versions; what is above carries the reason of a failure
 # Arguments behind "..." lie where named ones would: everywhere but on Apple's ARM.
 VARIADIC_AS_USUAL = (sys.platform, platform.machine()) != ("darwin", "arm64")
@@ -89,8 +100,17 @@ def _extract(path: str, folder: Path) -> None:
         with zipfile.ZipFile(path) as archive:
             archive.getinfo("modelDescription.xml")
             archive.extractall(folder)
-    except (OSError, zipfile.BadZipFile, zlib.error, struct.error, EOFError, KeyError, ValueError,
-            OverflowError, RuntimeError) as problem:  # fmt: skip
+    except (
+        OSError,
+        zipfile.BadZipFile,
+        zlib.error,
+        struct.error,
+        EOFError,
+        KeyError,
+        ValueError,
+        OverflowError,
+        RuntimeError,
+    ) as problem:
         if isinstance(problem, OSError) and problem.errno in DISK:
             raise
         raise ParameterError(
@@ -147,9 +167,11 @@ def instantiate(folder: Path, described: Any, name: str, messages: Messages) -> 
     before = os.getcwd()
     try:
         fmu = (FMU3Slave if third else FMU2Slave)(
-            instanceName=name, guid=described.guid, unzipDirectory=str(folder),
+            instanceName=name,
+            guid=described.guid,
+            unzipDirectory=str(folder),
             modelIdentifier=identifier,
-        )  # fmt: skip
+        )
     except Exception as problem:  # FMPy has no type of its own for a library that does not load
         raise EnvironmentProblem(
             f"{identifier} cannot be loaded on {platform.system()} {platform.machine()}: {problem}"

@@ -11,16 +11,27 @@ from typing import Any, NamedTuple
 
 # C types of values -> how a compiled loop calls them.
 KINDS = {
-    ctypes.c_double: "REAL", ctypes.c_int: "INT32", ctypes.c_int32: "INT32",
-    ctypes.c_int64: "INT64", ctypes.c_bool: "BYTE",
-}  # fmt: skip
+    ctypes.c_double: "REAL",
+    ctypes.c_int: "INT32",
+    ctypes.c_int32: "INT32",
+    ctypes.c_int64: "INT64",
+    ctypes.c_bool: "BYTE",
+}
 # Of both versions: type of a variable -> (name in calls, C type).
 TYPES: dict[int, dict[str, tuple[str, Any]]] = {
-    2: {"Real": ("Real", ctypes.c_double), "Integer": ("Integer", ctypes.c_int),
-        "Enumeration": ("Integer", ctypes.c_int), "Boolean": ("Boolean", ctypes.c_int)},
-    3: {"Float64": ("Float64", ctypes.c_double), "Int32": ("Int32", ctypes.c_int32),
-        "Enumeration": ("Int64", ctypes.c_int64), "Boolean": ("Boolean", ctypes.c_bool)},
-}  # fmt: skip
+    2: {
+        "Real": ("Real", ctypes.c_double),
+        "Integer": ("Integer", ctypes.c_int),
+        "Enumeration": ("Integer", ctypes.c_int),
+        "Boolean": ("Boolean", ctypes.c_int),
+    },
+    3: {
+        "Float64": ("Float64", ctypes.c_double),
+        "Int32": ("Int32", ctypes.c_int32),
+        "Enumeration": ("Int64", ctypes.c_int64),
+        "Boolean": ("Boolean", ctypes.c_bool),
+    },
+}
 
 
 class Protocol:
@@ -71,8 +82,12 @@ class Group:
         self.values = (c_type * n)()
         self.whole = c_type is not ctypes.c_double
         self._arguments = (
-            protocol.fmu.component, self.references, n, self.values, *(n,) * protocol.lengths
-        )  # fmt: skip
+            protocol.fmu.component,
+            self.references,
+            n,
+            self.values,
+            *(n,) * protocol.lengths,
+        )
         self.set_function = protocol.function(f"Set{kind}")
         self.get_function = protocol.function(f"Get{kind}")
 
@@ -122,9 +137,16 @@ class Direction:
         self._call = protocol.function("GetDirectionalDerivative")
         n_unknown, n_known = len(unknowns), len(knowns)
         self._arguments = (
-            protocol.fmu.component, _references(unknowns), n_unknown, _references(knowns), n_known,
-            self.seed, *(n_known,) * protocol.lengths, self.slope, *(n_unknown,) * protocol.lengths,
-        )  # fmt: skip
+            protocol.fmu.component,
+            _references(unknowns),
+            n_unknown,
+            _references(knowns),
+            n_known,
+            self.seed,
+            *(n_known,) * protocol.lengths,
+            self.slope,
+            *(n_unknown,) * protocol.lengths,
+        )
 
     def get(self) -> int:
         """Compute the derivatives and return the status."""

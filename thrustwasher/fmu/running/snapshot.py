@@ -9,8 +9,15 @@ from numpy.typing import NDArray
 
 from ...errors import ParameterError
 
-TYPES = {"par": float, "inp": float, "state": float, "out": float, "iout": np.int32,
-         "refused": np.int32, "seen": np.int32}  # fmt: skip
+TYPES = {
+    "par": float,
+    "inp": float,
+    "state": float,
+    "out": float,
+    "iout": np.int32,
+    "refused": np.int32,
+    "seen": np.int32,
+}
 
 
 @dataclass(frozen=True, slots=True)

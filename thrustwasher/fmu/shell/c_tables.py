@@ -23,9 +23,20 @@ SIZES = ("NPAR", "NINP", "NSTATE", "NWORK", "NOUT", "NIOUT")
 MOST_INPUTS = 32  # dependencies are bits of one word
 # The C files of a native FMU beside the generated ones and the dispatch to the kernels.
 SHELL_FILES = (
-    "lifecycle.c", "resource.c", "values.c", "text.c", "messages.c", "state.c", "derivative.c",
-    "fmi2.c", "fmi2_values.c", "fmi3.c", "fmi3_values.c", "fmi3_state.c", "fmi3_declined.c",
-)  # fmt: skip
+    "lifecycle.c",
+    "resource.c",
+    "values.c",
+    "text.c",
+    "messages.c",
+    "state.c",
+    "derivative.c",
+    "fmi2.c",
+    "fmi2_values.c",
+    "fmi3.c",
+    "fmi3_values.c",
+    "fmi3_state.c",
+    "fmi3_declined.c",
+)
 VERSIONS = (2, 3)  # of FMI, both in one library
 PART, MAGIC, WORD = "part.bin", b"twpart2\0", 64  # as in shell.h
 
@@ -74,44 +85,76 @@ def _lists(shown: Interface) -> dict[str, tuple[str, list[str]]]:
     assert len(inputs) <= MOST_INPUTS, "dependencies are bits of one word"
     return {
         "VARIABLES": ("Variable", [_variable(v, inputs, names) for v in shown.variables]),
-        "ENUMERATIONS": ("Enumeration", [
-            _row(_text(name), len(items), f"ITEMS_{name}")
-            for name, items in shown.enumerations.items()]),
-        "STATUSES": ("StatusText", [
-            _row(int(s), _text(s.name), _text(s.advice)) for s in sorted(Status)]),
-        "SWITCHES": ("Switch", [
-            _row(slot, *map(_text, events)) for slot, events in shown.switches]),
-        "COUNTS": ("Count", [
-            _row(_text(text), place) for text, place in shown.counts]),
+        "ENUMERATIONS": (
+            "Enumeration",
+            [
+                _row(_text(name), len(items), f"ITEMS_{name}")
+                for name, items in shown.enumerations.items()
+            ],
+        ),
+        "STATUSES": (
+            "StatusText",
+            [_row(int(s), _text(s.name), _text(s.advice)) for s in sorted(Status)],
+        ),
+        "SWITCHES": (
+            "Switch",
+            [_row(slot, *map(_text, events)) for slot, events in shown.switches],
+        ),
+        "COUNTS": ("Count", [_row(_text(text), place) for text, place in shown.counts]),
         "RULES": ("Rule", [_row(_text(rule.text)) for rule in shown.spec.rules]),
-        "GONE_RUNGS": ("Item", [
-            _row(number, _text(line)) for number, name in enumerate(shown.spec.fidelities, 1)
-            for line in gone_rung(shown.spec, name)]),
-        "CATEGORIES": ("Category", [
-            _row(_text(name), int(name in shown.categories)) for name in LOG_CATEGORIES]),
+        "GONE_RUNGS": (
+            "Item",
+            [
+                _row(number, _text(line))
+                for number, name in enumerate(shown.spec.fidelities, 1)
+                for line in gone_rung(shown.spec, name)
+            ],
+        ),
+        "CATEGORIES": (
+            "Category",
+            [_row(_text(name), int(name in shown.categories)) for name in LOG_CATEGORIES],
+        ),
         "TYPES": ("TypeText", [_row(*map(_text, names)) for names in TYPES.items()]),
         "ACCESS": ("Access", [_row(*modes) for modes in call_table.ACCESS.values()]),
-        "MODES": ("ModeText", [
-            _row(mode, _text(name), _text(leave))
-            for mode, (name, leave) in call_table.MODES.items()]),
-        "CALLS": ("Call", [
-            _row(_text(f"fmi{fmi}{name}"), modes, _text(call_table.DECLINED[fmi].get(name)))
-            for fmi in VERSIONS for name, modes in call_table.CALLS[fmi].items()]),
-        **{f"ITEMS_{name}": ("Item", [_row(item.value, _text(item.name)) for item in items])
-           for name, items in shown.enumerations.items()},
-    }  # fmt: skip
+        "MODES": (
+            "ModeText",
+            [
+                _row(mode, _text(name), _text(leave))
+                for mode, (name, leave) in call_table.MODES.items()
+            ],
+        ),
+        "CALLS": (
+            "Call",
+            [
+                _row(_text(f"fmi{fmi}{name}"), modes, _text(call_table.DECLINED[fmi].get(name)))
+                for fmi in VERSIONS
+                for name, modes in call_table.CALLS[fmi].items()
+            ],
+        ),
+        **{
+            f"ITEMS_{name}": ("Item", [_row(item.value, _text(item.name)) for item in items])
+            for name, items in shown.enumerations.items()
+        },
+    }
 
 
 def _variable(v: Variable, inputs: Sequence[str], names: Sequence[str]) -> str:
     kind, cause = v.type.upper(), v.causality.upper()
     depends = sum(1 << inputs.index(name) for name in v.depends)
     return _row(
-        _text(v.name), _text(v.unit), *(float(x).hex() for x in v.bounds),
-        f"0x{depends:x}u", v.slot, names.index(v.type_name) if v.type_name else -1,
-        f"TYPE_{kind}", f"CAUSE_{cause}", f"STORE_{v.store.upper()}",
-        int(v.relative), int(v.variability == "tunable"),
+        _text(v.name),
+        _text(v.unit),
+        *(float(x).hex() for x in v.bounds),
+        f"0x{depends:x}u",
+        v.slot,
+        names.index(v.type_name) if v.type_name else -1,
+        f"TYPE_{kind}",
+        f"CAUSE_{cause}",
+        f"STORE_{v.store.upper()}",
+        int(v.relative),
+        int(v.variability == "tunable"),
         f"TYPE_BIT(TYPE_{kind}) | CAUSE_BIT(CAUSE_{cause})",
-    )  # fmt: skip
+    )
 
 
 def _header(shown: Interface, lists: dict[str, tuple[str, list[str]]]) -> str:
@@ -119,28 +162,40 @@ def _header(shown: Interface, lists: dict[str, tuple[str, list[str]]]) -> str:
     status = -1 if shown.status_slot is None else shown.status_slot
     numbers = {
         **{name: getattr(kernel, name) for name in SIZES},
-        "IO_STATUS": status, "FIRST_FAILURE": FIRST_FAILURE,
+        "IO_STATUS": status,
+        "FIRST_FAILURE": FIRST_FAILURE,
         "RUNG": next(v.slot for v in shown.parameters if v.name == "fidelity"),
         **{f"STATUS_{s.name}": int(s) for s in Status},
         **{f"N_{name}": len(rows) for name, (_, rows) in lists.items() if name != "CATEGORIES"},
         **{f"TABLE_{name}": value for name, value in getattr(kernel, "TABLE", {"ROOM": 0}).items()},
         "HAS_RULES": int(hasattr(kernel, "broken_rule")),
         "HAS_SENS": int(has_derivatives(shown.spec)),
-    }  # fmt: skip
-    return "\n".join([
-        "/* Generated: what the shell knows about this model. */",
-        "#ifndef THRUSTWASHER_MODEL_H", "#define THRUSTWASHER_MODEL_H", "",
-        '#include "tables.h"', "",
-        '#define BUILD "@BUILD@"',
-        *(f"#define {name} {value}" for name, value in numbers.items()), "",
-        f"/* The variables that say at which point an event happened. */\n"
-        f"#define POINT {{{', '.join([*(str(v.reference) for v in shown.point), '-1'])}}}", "",
-        "/* Places in CALLS. */", "enum {",
-        *(f"    CALL_fmi{fmi}{name}," for fmi in VERSIONS for name in call_table.CALLS[fmi]),
-        "};", "",
-        *(f"extern const {kind} {name}[];" for name, (kind, _) in lists.items()), "",
-        "#endif", "",
-    ])  # fmt: skip
+    }
+    return "\n".join(
+        [
+            "/* Generated: what the shell knows about this model. */",
+            "#ifndef THRUSTWASHER_MODEL_H",
+            "#define THRUSTWASHER_MODEL_H",
+            "",
+            '#include "tables.h"',
+            "",
+            '#define BUILD "@BUILD@"',
+            *(f"#define {name} {value}" for name, value in numbers.items()),
+            "",
+            f"/* The variables that say at which point an event happened. */\n"
+            f"#define POINT {{{', '.join([*(str(v.reference) for v in shown.point), '-1'])}}}",
+            "",
+            "/* Places in CALLS. */",
+            "enum {",
+            *(f"    CALL_fmi{fmi}{name}," for fmi in VERSIONS for name in call_table.CALLS[fmi]),
+            "};",
+            "",
+            *(f"extern const {kind} {name}[];" for name, (kind, _) in lists.items()),
+            "",
+            "#endif",
+            "",
+        ]
+    )
 
 
 def _tables(lists: dict[str, tuple[str, list[str]]]) -> str:

@@ -29,9 +29,14 @@ ACCESS = {
 }
 
 _NAMED = {
-    "instantiated": INSTANTIATED, "stepping": STEPPING, "initializing": INITIALIZING,
-    "terminated": TERMINATED, "events": EVENTS, "solvable": SOLVABLE, "always": ALWAYS,
-}  # fmt: skip
+    "instantiated": INSTANTIATED,
+    "stepping": STEPPING,
+    "initializing": INITIALIZING,
+    "terminated": TERMINATED,
+    "events": EVENTS,
+    "solvable": SOLVABLE,
+    "always": ALWAYS,
+}
 _TABLE = table_beside(__file__, "calls.toml")
 
 # Version -> functions without an instance.
@@ -43,10 +48,13 @@ DECLINED: dict[int, dict[str, str]] = {
 }
 # Version -> function with an instance -> modes it is allowed in.
 CALLS: dict[int, dict[str, int]] = {
-    fmi: {name: sum(_NAMED[mode] for mode in modes.split())
-          for name, modes in _TABLE[f"fmi{fmi}"].items()} | dict.fromkeys(DECLINED[fmi], ALWAYS)
+    fmi: {
+        name: sum(_NAMED[mode] for mode in modes.split())
+        for name, modes in _TABLE[f"fmi{fmi}"].items()
+    }
+    | dict.fromkeys(DECLINED[fmi], ALWAYS)
     for fmi in (2, 3)
-}  # fmt: skip
+}
 
 
 def functions(fmi: int) -> tuple[str, ...]:

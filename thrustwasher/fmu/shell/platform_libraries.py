@@ -76,9 +76,14 @@ def made_of(spec: ModelSpec, *, local: bool) -> str:
 
 
 def native_contents(
-    shown: Interface, *, fmi: int, guid: str, platforms: Sequence[str], note: Note,
+    shown: Interface,
+    *,
+    fmi: int,
+    guid: str,
+    platforms: Sequence[str],
+    note: Note,
     local: bool = False,
-) -> dict[str, bytes]:  # fmt: skip
+) -> dict[str, bytes]:
     """Return the libraries, each at its place, and the resources that they read.
 
     The two libraries of macOS share one file in FMI 2. ``local``: if they have to be linked and
@@ -145,15 +150,18 @@ def library(
     return data
 
 
-def linked(
-    spec: ModelSpec, platform: Platform, linker: Linker, note: Note = to_stderr
-) -> bytes:  # fmt: skip
+def linked(spec: ModelSpec, platform: Platform, linker: Linker, note: Note = to_stderr) -> bytes:
     """Link the shared library of a model for one platform; nothing that was made before is used."""
     exports = [name for fmi in c_tables.VERSIONS for name in call_table.functions(fmi)]
     return linked_objects(
-        {**sources(spec), **headers()}, objects(spec.kernel, [platform], note), platform,
-        shipped.short(spec.kernel), exports, linker=linker, note=note,
-    )  # fmt: skip
+        {**sources(spec), **headers()},
+        objects(spec.kernel, [platform], note),
+        platform,
+        shipped.short(spec.kernel),
+        exports,
+        linker=linker,
+        note=note,
+    )
 
 
 def library_digest(spec: ModelSpec) -> str:

@@ -70,8 +70,11 @@ def derive_geometry(par: Array) -> None:
     ratio, teeth = par[L.P_GEAR_RATIO], par[L.P_PINION_TEETH]
     side, centre, angle, cos_base = section(par)
     par[L.D_SIDE], par[L.D_CENTRE], par[L.D_ANGLE], par[L.D_COS_BASE] = (
-        side, centre, angle, cos_base,
-    )  # fmt: skip
+        side,
+        centre,
+        angle,
+        cos_base,
+    )
     start, approach, recess = path_of(par)
     par[L.D_START], par[L.D_APPROACH], par[L.D_RECESS] = start, approach, recess
     line, pitch, width = centre * math.sin(angle), centre / (ratio + side), par[L.P_FACE_WIDTH]
@@ -182,7 +185,7 @@ def loss_factor(ratio: float, teeth: float, approach: float, recess: float, side
     alone, it is Ohlendorf's pi (M + 1)/(N M) (1 - e + e1^2 + e2^2).
     """
     whole = math.floor(approach + recess)
-    more = approach + recess - whole  # stretch of a pitch with one pair more than `whole`
+    more = approach + recess - whole  # interval of a pitch with one pair more than `whole`
     total = 0.0
     for k in range(int(min(whole, 100.0)) + 1):
         low = -approach + k

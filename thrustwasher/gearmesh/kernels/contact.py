@@ -32,9 +32,13 @@ def surface_stress(line_load: float, radius: float, modulus: float) -> float:
 
 @kernel
 def film_thickness(
-    viscosity: float, entrainment: float, line_load: float, radius: float, theta: float,
+    viscosity: float,
+    entrainment: float,
+    line_load: float,
+    radius: float,
+    theta: float,
     pressure_viscosity: float,
-) -> float:  # fmt: skip
+) -> float:
     """Return the least film h [m] of Dowson & Higginson: 2.65 U^0.7 G^0.54 W^-0.13 R.
 
     ``entrainment`` (V1 + V2)/2 [m/s], ``viscosity`` [Pa s], E' = 2/theta, U = mu V/(E' R),
@@ -109,9 +113,12 @@ def modification(
 
 @kernel
 def utilization(
-    thermal: float, mechanical: float, thermal_limit: float, mechanical_limit: float,
+    thermal: float,
+    mechanical: float,
+    thermal_limit: float,
+    mechanical_limit: float,
     ultimate: float,
-) -> float:  # fmt: skip
+) -> float:
     """Return the root of the right side of Atan Eq 10 [-]: at 1 the endurance limit is used up."""
     m = mechanical / (mechanical_limit * ultimate)
     t = thermal / (thermal_limit * ultimate)

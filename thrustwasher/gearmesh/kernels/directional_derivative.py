@@ -78,9 +78,14 @@ def follow_friction(
 
 @kernel
 def flash_change(
-    par: Array, field: Array, torque: float, load: float, speed: float, torque_change: float,
+    par: Array,
+    field: Array,
+    torque: float,
+    load: float,
+    speed: float,
+    torque_change: float,
     friction: float,
-) -> float:  # fmt: skip
+) -> float:
     """Return the change of the flash rise [K]: friction x rubbing load x speed^(1/2) b^(-1/2)."""
     rise = field[L.F_FLASH]
     line, width = torque * par[L.D_LINE], 2.0 * LEAST_LINE_LOAD
@@ -93,9 +98,13 @@ def flash_change(
 
 @kernel
 def asperity_change(
-    par: Array, field: Array, hardness: float, body: float, load: float,
+    par: Array,
+    field: Array,
+    hardness: float,
+    body: float,
+    load: float,
     changes: tuple[float, float, float, float, float, float],
-) -> tuple[float, float]:  # fmt: skip
+) -> tuple[float, float]:
     """Return (rise of the asperities over the body [K], its change) for a steel of that hardness.
 
     ``changes``: of body, surface, film, flash [K], contact weight, free area ratio.
@@ -121,9 +130,14 @@ def asperity_change(
 
 @kernel
 def endurance_change(
-    mechanical: float, load: float, thermal: float, hotter: float, allowed: float, used: float,
+    mechanical: float,
+    load: float,
+    thermal: float,
+    hotter: float,
+    allowed: float,
+    used: float,
     steel: int,
-) -> tuple[float, float, float]:  # fmt: skip
+) -> tuple[float, float, float]:
     """Return changes of modification factor, allowable ratio and utilization of a steel.
 
     ``thermal`` stress [Pa] and its change ``hotter``; ``steel``: 0 AISI 1020, 1 AISI 4340.
@@ -139,9 +153,17 @@ def endurance_change(
 
 @kernel
 def fill_changes(
-    par: Array, field: Array, torque: float, oil: float, turning: float,
-    load: float, speed: float, torque_change: float, change: float, dout: Array,
-) -> None:  # fmt: skip
+    par: Array,
+    field: Array,
+    torque: float,
+    oil: float,
+    turning: float,
+    load: float,
+    speed: float,
+    torque_change: float,
+    change: float,
+    dout: Array,
+) -> None:
     """Fill the changes of all outputs but loss torque and power."""
     film, bulk, surface, hottest = film_changes(par, field, oil, turning, load, speed, change)
     friction = follow_friction(par, field, film, bulk, load, speed)
@@ -151,9 +173,17 @@ def fill_changes(
 
 @kernel
 def asperity_changes(
-    par: Array, field: Array, change: float, film: float, surface: float, hottest: float,
-    flash: float, friction: float, load: float, dout: Array,
-) -> None:  # fmt: skip
+    par: Array,
+    field: Array,
+    change: float,
+    film: float,
+    surface: float,
+    hottest: float,
+    flash: float,
+    friction: float,
+    load: float,
+    dout: Array,
+) -> None:
     """Fill the changes that follow from those of body, film (relative), surface, film and flash."""
     body = field[L.F_BULK]
     ratio = field[L.F_RATIO] * film
@@ -173,10 +203,14 @@ def asperity_changes(
         k, allowed, used = 0.0, 0.0, 0.0
         if endures:
             k, allowed, used = endurance_change(
-                mechanical, load, stiff * rise, stiff * more,
-                field[np.uintp(L.F_ALLOWABLE_1020 + s)], field[np.uintp(L.F_UTILIZATION_1020 + s)],
+                mechanical,
+                load,
+                stiff * rise,
+                stiff * more,
+                field[np.uintp(L.F_ALLOWABLE_1020 + s)],
+                field[np.uintp(L.F_UTILIZATION_1020 + s)],
                 s,
-            )  # fmt: skip
+            )
         dout[np.uintp(L.F_MODIFICATION_1020 + s)] = k
         dout[np.uintp(L.F_ALLOWABLE_1020 + s)] = allowed
         dout[np.uintp(L.F_UTILIZATION_1020 + s)] = used

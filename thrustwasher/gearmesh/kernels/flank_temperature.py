@@ -52,9 +52,14 @@ def surface_factor(width: float, speed: float, conductivity: float, capacity: fl
 
 @kernel
 def film_factor(
-    film: float, width: float, speed: float, conductivity: float, capacity: float,
-    oil_conductivity: float, oil_capacity: float,
-) -> float:  # fmt: skip
+    film: float,
+    width: float,
+    speed: float,
+    conductivity: float,
+    capacity: float,
+    oil_conductivity: float,
+    oil_capacity: float,
+) -> float:
     """Return the rise of the film above the surface per heat of the film [K m/W]: Atan Eq 6.
 
     As printed the first group holds the solid's ``capacity`` and the exponential the oil's, both

@@ -82,9 +82,17 @@ def mesh_changes(
     place_mesh(par, int(work[L.W_PLACE]), local)
     load = _heavier(local, torque, seed[L.I_LOAD])
     fill_changes(
-        local, work[L.W_HOTTEST : L.W_HERE], torque, oil, turning, load, faster, seed[L.I_LOAD],
-        seed[L.I_OIL], dout,
-    )  # fmt: skip
+        local,
+        work[L.W_HOTTEST : L.W_HERE],
+        torque,
+        oil,
+        turning,
+        load,
+        faster,
+        seed[L.I_LOAD],
+        seed[L.I_OIL],
+        dout,
+    )
     dout[L.F_FRICTION] = friction
 
 

@@ -77,9 +77,15 @@ def steady_rise(
 
 @kernel
 def heat_of_loss(
-    par: Array, torque: float, speed: float, oil: float, drive: float, state: Array, dt: float,
+    par: Array,
+    torque: float,
+    speed: float,
+    oil: float,
+    drive: float,
+    state: Array,
+    dt: float,
     work: Array,
-) -> int:  # fmt: skip
+) -> int:
     """Fill ``work[:N_FIELD]`` but loss and safety; return 0, an advice or a failure.
 
     ``drive`` [W]: power that the mesh transmits; the loss is friction x D_LOSS x drive.
@@ -167,9 +173,16 @@ def _fill_hottest(par: Array, torque: float, line: float, turning: float, work: 
 
 @kernel
 def loss_changes(
-    par: Array, torque: float, speed: float, oil: float, rate: float, more: float, seed: Array,
-    work: Array, dout: Array,
-) -> None:  # fmt: skip
+    par: Array,
+    torque: float,
+    speed: float,
+    oil: float,
+    rate: float,
+    more: float,
+    seed: Array,
+    work: Array,
+    dout: Array,
+) -> None:
     """Fill the changes of ``heat_of_loss`` along ``seed``.
 
     ``rate`` [W] is the loss of a friction of 1, ``more`` its change. The temperature at which a
@@ -217,9 +230,15 @@ def loss_changes(
 
 @kernel
 def _film_change(
-    par: Array, work: Array, torque: float, film: float, surface: float, speed: float,
-    seed: Array, friction: float,
-) -> float:  # fmt: skip
+    par: Array,
+    work: Array,
+    torque: float,
+    film: float,
+    surface: float,
+    speed: float,
+    seed: Array,
+    friction: float,
+) -> float:
     """Return the change of the film's rise over the flank [K]."""
     line, corner = torque * par[L.D_LINE], 2.0 * LEAST_LINE_LOAD
     rubbing, rise = soft_size(line, corner), work[L.F_FILM_RISE]

@@ -87,9 +87,13 @@ def heat_film(par: Array, oil: float, speed: float, field: Array) -> tuple[int, 
     v1, sliding = par[L.D_V1] * speed, par[L.D_SLIDING] * speed
     bulk = viscosity_at(par, oil)
     film = contact.film_thickness(
-        bulk, 0.5 * speed * (par[L.D_V1] + par[L.D_V2]), line_load, par[L.D_RADIUS], par[L.D_THETA],
+        bulk,
+        0.5 * speed * (par[L.D_V1] + par[L.D_V2]),
+        line_load,
+        par[L.D_RADIUS],
+        par[L.D_THETA],
         par[L.P_PRESSURE_VISCOSITY],
-    )  # fmt: skip
+    )
     shear, cap = bulk * sliding / film, 1e300
     if par[L.P_TRACTION_LAW] != L.AMBIENT:
         shear *= math.exp(min(par[L.P_PRESSURE_VISCOSITY] * pressure, 200.0))
@@ -107,10 +111,19 @@ def heat_film(par: Array, oil: float, speed: float, field: Array) -> tuple[int, 
     field[L.F_RATIO] = film / par[L.D_SIGMA]
     field[L.F_BULK_VISCOSITY], field[L.F_STRESS_SLOPE] = bulk, slope
     field[L.F_SURFACE_RISE] = factor * stress
-    field[L.F_FILM_RISE] = taken * stress * flank.film_factor(
-        film, width, v1, par[L.P_CONDUCTIVITY], par[L.D_CAPACITY], par[L.P_OIL_CONDUCTIVITY],
-        par[L.D_OIL_CAPACITY],
-    )  # fmt: skip
+    field[L.F_FILM_RISE] = (
+        taken
+        * stress
+        * flank.film_factor(
+            film,
+            width,
+            v1,
+            par[L.P_CONDUCTIVITY],
+            par[L.D_CAPACITY],
+            par[L.P_OIL_CONDUCTIVITY],
+            par[L.D_OIL_CAPACITY],
+        )
+    )
     field[L.F_FILM_TEMPERATURE] = surface + field[L.F_FILM_RISE]
     return status, iterations
 
@@ -179,9 +192,11 @@ def outside(par: Array, oil: float, field: Array) -> bool:
     """Tell if the point lies where the laws are stretched: oil, hardness, softened steel."""
     ultimate = ULTIMATE[0] if par[L.P_STEEL] == L.AISI1020 else ULTIMATE[1]
     return (
-        oil < COLDEST or oil > WARMEST or field[L.F_ASPERITY] > HOTTEST_ASPERITY
+        oil < COLDEST
+        or oil > WARMEST
+        or field[L.F_ASPERITY] > HOTTEST_ASPERITY
         or field[L.F_PRESSURE] > par[L.P_HARDNESS_FACTOR] * ultimate
-    )  # fmt: skip
+    )
 
 
 @kernel

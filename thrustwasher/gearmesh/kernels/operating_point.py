@@ -42,9 +42,13 @@ def fill_safety(par: Array, torque: float, oil: float, field: Array) -> None:
 
 @kernel
 def safety_changes(
-    par: Array, torque: float, oil: float, field: Array, change: tuple[float, float, float],
+    par: Array,
+    torque: float,
+    oil: float,
+    field: Array,
+    change: tuple[float, float, float],
     dout: Array,
-) -> None:  # fmt: skip
+) -> None:
     """Fill the changes of ``fill_safety``, from those of bulk, flash and film ratio in ``dout``.
 
     ``change``: of torque [N m], oil [K], relative of the oil's viscosity.
@@ -68,9 +72,15 @@ def safety_changes(
 
 @kernel
 def solve_point(
-    par: Array, torque: float, speed: float, oil: float, drive: float, state: Array, dt: float,
+    par: Array,
+    torque: float,
+    speed: float,
+    oil: float,
+    drive: float,
+    state: Array,
+    dt: float,
     work: Array,
-) -> int:  # fmt: skip
+) -> int:
     """Fill ``work[:N_FIELD]``, except loss torque and power; return 0, an advice or a failure.
 
     ``drive`` [W]: the power that the mesh transmits, as it counts for the loss.
@@ -90,9 +100,16 @@ def solve_point(
 
 @kernel
 def point_changes(
-    par: Array, work: Array, torque: float, speed: float, oil: float, rate: float, more: float,
-    seed: Array, dout: Array,
-) -> None:  # fmt: skip
+    par: Array,
+    work: Array,
+    torque: float,
+    speed: float,
+    oil: float,
+    rate: float,
+    more: float,
+    seed: Array,
+    dout: Array,
+) -> None:
     """Fill the changes along ``seed`` of all outputs but loss torque and power.
 
     ``rate`` [W]: loss of a friction of 1; ``more``: its change.

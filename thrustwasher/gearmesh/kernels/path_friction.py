@@ -119,9 +119,14 @@ def fill_friction(
 
 @kernel
 def _share_load(
-    par: Array, line: float, turning: float, viscosity: float, scale: float, mean: float,
+    par: Array,
+    line: float,
+    turning: float,
+    viscosity: float,
+    scale: float,
+    mean: float,
     work: Array,
-) -> None:  # fmt: skip
+) -> None:
     """Fill the friction of film and asperities; that of asperities makes the mean as given."""
     sheared, contact = 0.0, 0.0
     for k in range(int(par[L.D_PLACES])):
@@ -141,9 +146,16 @@ def _share_load(
 
 @kernel
 def friction_changes(
-    par: Array, line: float, turning: float, load: float, speed: float, oil: float,
-    viscosity: float, thicker: float, work: Array,
-) -> tuple[float, float]:  # fmt: skip
+    par: Array,
+    line: float,
+    turning: float,
+    load: float,
+    speed: float,
+    oil: float,
+    viscosity: float,
+    thicker: float,
+    work: Array,
+) -> tuple[float, float]:
     """Return the changes of the mean friction and of that at the hottest position.
 
     ``load``, ``speed``, ``oil``: relative changes of line load, speed and supplied oil's viscosity;
@@ -173,9 +185,14 @@ def friction_changes(
 
 @kernel
 def _shared_changes(
-    par: Array, line: float, turning: float, viscosity: float,
-    change: tuple[float, float, float], mean: float, work: Array,
-) -> tuple[float, float]:  # fmt: skip
+    par: Array,
+    line: float,
+    turning: float,
+    viscosity: float,
+    change: tuple[float, float, float],
+    mean: float,
+    work: Array,
+) -> tuple[float, float]:
     """Return the changes of the mixed friction; ``change`` of film, shear rate and pressure."""
     scale, place = film_scale(line, turning, viscosity), int(work[L.W_PLACE])
     standard, _ = mean_friction(par, line, turning, work[L.F_BULK_VISCOSITY])

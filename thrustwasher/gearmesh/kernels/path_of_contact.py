@@ -89,7 +89,7 @@ def _piece(par: Array, low: float, high: float, shared: float, borne: float) -> 
 
 @kernel
 def _split(par: Array, low: float, high: float, shared: float, borne: float) -> None:
-    """Add a stretch, cut at the pitch point, where sliding turns round."""
+    """Add an interval, cut at the pitch point, where sliding turns round."""
     if low < 0.0 < high:
         _piece(par, low, 0.0, shared, borne)
         _piece(par, 0.0, high, shared, borne)
@@ -112,12 +112,12 @@ def line_of_action(par: Array, approach: float, recess: float) -> None:
     if par[L.P_FILM_HEAT] == L.LOSS:
         given, alone = pair_share(par, many), pair_share(par, few)
         many, few = 1.0 / given, 1.0 / alone
-    stretches = int(min(whole, 0.5 * MAX_PIECES - 1.0)) + 1
+    intervals = int(min(whole, 0.5 * MAX_PIECES - 1.0)) + 1
     par[L.D_PLACES] = 0.0
     if par[L.D_OVERLAP] >= 1.0:
         _split(par, -approach, recess, approach + recess, 1.0 / (approach + recess))
-        stretches = 0
-    for k in range(stretches):
+        intervals = 0
+    for k in range(intervals):
         low = -approach + k
         _split(par, low, low + more, many, given)
         if k < whole:

@@ -44,9 +44,12 @@ def slip_figure(result: Any, point: Mapping[str, Any], params: ClutchParams) -> 
 
 @styled
 def clutch_figure(
-    speeds: Sequence[float], sweep: Sequence[Any], result: Any, point: Mapping[str, float],
+    speeds: Sequence[float],
+    sweep: Sequence[Any],
+    result: Any,
+    point: Mapping[str, float],
     ploughing: float | None = None,
-) -> Figure:  # fmt: skip
+) -> Figure:
     """Return shear ratio, coefficient and torque over slip, with the operating point marked.
 
     Parameters
@@ -60,9 +63,14 @@ def clutch_figure(
     """
     names = ["shear", "friction", "torque"] if ploughing is not None else ["friction", "torque"]
     figure, axes = new_figure(
-        10.4 if ploughing is not None else 9.6, 4.4, 1, len(names),
-        head=1, foot=int(ploughing is not None), top=TOP + SECOND,
-    )  # fmt: skip
+        10.4 if ploughing is not None else 9.6,
+        4.4,
+        1,
+        len(names),
+        head=1,
+        foot=int(ploughing is not None),
+        top=TOP + SECOND,
+    )
     panels = dict(zip(names, axes, strict=True))
     here, friction = abs(point["speed"]), [r.friction_coefficient for r in sweep]
     capacity = [r.torque_capacity for r in sweep]
@@ -80,11 +88,25 @@ def clutch_figure(
         )
     rest = f"at rest {friction[0]:.4g}", f"static {format_quantity(capacity[0], 'N.m')}"
     for name, values, value, colour, words, title, up in (
-        ("friction", friction, result.friction_coefficient, BLUE, rest[0],
-         "Friction coefficient", "friction coefficient [1]"),
-        ("torque", capacity, result.torque_capacity, RED, rest[1],
-         "Torque of the pack", "friction torque, magnitude [N·m]"),
-    ):  # fmt: skip
+        (
+            "friction",
+            friction,
+            result.friction_coefficient,
+            BLUE,
+            rest[0],
+            "Friction coefficient",
+            "friction coefficient [1]",
+        ),
+        (
+            "torque",
+            capacity,
+            result.torque_capacity,
+            RED,
+            rest[1],
+            "Torque of the pack",
+            "friction torque, magnitude [N·m]",
+        ),
+    ):
         panels[name].plot(speeds, values, color=colour)
         panels[name].axhline(values[0], color=BLACK, lw=0.9, ls=":")
         panels[name].plot([here], [value], "o", color=BLACK, zorder=5)

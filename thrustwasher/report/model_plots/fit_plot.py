@@ -26,8 +26,9 @@ def calibration_figure(found: Any) -> Figure:
         _draw_fit(left, found, series, *inputs[0])
         for axis, (over, (unit, at)) in zip(others, inputs, strict=False):
             look: Any = {"color": BLUE, "marker": "o", "ls": "", "ms": 4.0, "alpha": 0.85}
-            axis.errorbar(at, series.measured - series.computed, series.error, elinewidth=0.8,
-                          **look)  # fmt: skip
+            axis.errorbar(
+                at, series.measured - series.computed, series.error, elinewidth=0.8, **look
+            )
             axis.axhline(0.0, color=BLACK, lw=0.9)
             label(axis, "Residuals", _words(over, unit), _words("measured - fitted", series.unit))
         for axis in others[len(inputs) :]:
@@ -50,12 +51,33 @@ def _draw_fit(
 ) -> None:
     """Draw measured points and the fit with its band; in red what the points do not tell."""
     unit, at = values
-    axis.errorbar(at, series.measured, series.error, color=BLUE, marker="o", ls="", ms=4.5,
-                  elinewidth=0.8, label="measured", zorder=3)  # fmt: skip
+    axis.errorbar(
+        at,
+        series.measured,
+        series.error,
+        color=BLUE,
+        marker="o",
+        ls="",
+        ms=4.5,
+        elinewidth=0.8,
+        label="measured",
+        zorder=3,
+    )
     known = np.isfinite(series.half) & (series.half < 10.0 * np.abs(series.computed).max())
     name = f"fit, {100 * found.confidence:g} % band"
-    axis.errorbar(at[known], series.computed[known], series.half[known], color=ORANGE, marker="_",
-                  ls="", ms=8.0, ecolor=SKY, elinewidth=4.0, alpha=0.9, label=name)  # fmt: skip
+    axis.errorbar(
+        at[known],
+        series.computed[known],
+        series.half[known],
+        color=ORANGE,
+        marker="_",
+        ls="",
+        ms=8.0,
+        ecolor=SKY,
+        elinewidth=4.0,
+        alpha=0.9,
+        label=name,
+    )
     if not known.all():
         axis.plot(at[~known], series.computed[~known], "x", color=RED, label="fit, not told")
     label(axis, series.name.replace("_", " "), _words(over, unit), _words("", series.unit))

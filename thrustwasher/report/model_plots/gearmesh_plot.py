@@ -24,9 +24,10 @@ SURFACES: dict[str, tuple[str, str, Any, str]] = {
 STEELS = {"aisi1020": ("AISI 1020", BLUE, 3.0), "aisi4340": ("AISI 4340", RED, 1.4)}
 # Safety -> words, colour.
 SAFETIES = {
-    "pitting_safety": ("pitting", BLUE), "scuffing_safety": ("scuffing", RED),
+    "pitting_safety": ("pitting", BLUE),
+    "scuffing_safety": ("scuffing", RED),
     "micropitting_safety": ("micropitting", GREEN),
-}  # fmt: skip
+}
 FEWEST_TEETH, MOST_TEETH = 5, 60
 LEAST_FACTOR = 1e-3  # K below leaves more than 99.95 % of the endurance: nothing to see
 Sweeps = Mapping[str, Sequence[Any]]  # surface -> results, None where the model refuses
@@ -109,13 +110,28 @@ def draw_temperatures(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
     for surface, results in sweeps.items():
         words, colour, dashes, marker = SURFACES[surface]
         _line(
-            axes, teeth, results, "asperity_temperature", colour, f"asperities, {words}",
-            zero=CELSIUS, ls=dashes, marker=marker, lw=2.4,
-        )  # fmt: skip
+            axes,
+            teeth,
+            results,
+            "asperity_temperature",
+            colour,
+            f"asperities, {words}",
+            zero=CELSIUS,
+            ls=dashes,
+            marker=marker,
+            lw=2.4,
+        )
     _line(
-        axes, teeth, first, "surface_temperature", BLUE, "surface $T_s$",
-        zero=CELSIUS, lw=1.1, zorder=4,
-    )  # fmt: skip
+        axes,
+        teeth,
+        first,
+        "surface_temperature",
+        BLUE,
+        "surface $T_s$",
+        zero=CELSIUS,
+        lw=1.1,
+        zorder=4,
+    )
     label(axes, "Temperatures", "teeth of the pinion [1]", "temperature [°C]")
     axes.legend(loc="upper right")
 
@@ -136,8 +152,9 @@ def draw_safeties(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
     axes.yaxis.set_major_formatter("{x:g}")
     label(axes, "Safety of the teeth", "teeth of the pinion [1]", "safety factor [1]")
     shown = [line for line in axes.lines if np.any(np.isfinite(np.asarray(line.get_ydata())))]
-    axes.legend(handles=[line for line in shown if not str(line.get_label()).startswith("_")],
-                loc="best")  # fmt: skip
+    axes.legend(
+        handles=[line for line in shown if not str(line.get_label()).startswith("_")], loc="best"
+    )
 
 
 def draw_loss(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
@@ -154,8 +171,12 @@ def draw_ratios(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
     """Draw 1/sqrt(1 + K): the share of the endurance limit left for the contact stress."""
     _draw_steels(axes, teeth, sweeps, "allowable_ratio")
     axes.set_ylim(0.0, 1.04)
-    label(axes, "Contact stress still allowed", "teeth of the pinion [1]",
-          r"allowable ratio $1/\sqrt{1+K}$ [1]")  # fmt: skip
+    label(
+        axes,
+        "Contact stress still allowed",
+        "teeth of the pinion [1]",
+        r"allowable ratio $1/\sqrt{1+K}$ [1]",
+    )
     axes.legend(loc="lower right")
 
 
@@ -168,8 +189,11 @@ def draw_factors(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
     axes.yaxis.set_major_formatter("{x:g}")
     label(axes, "Stress modification factor", "teeth of the pinion [1]", "K [1]")
     shown = [line for line in axes.lines if np.any(np.isfinite(np.asarray(line.get_ydata())))]
-    axes.legend(handles=[line for line in shown if not str(line.get_label()).startswith("_")],
-                loc="upper right", title=f"not drawn: K below {LEAST_FACTOR:g}")  # fmt: skip
+    axes.legend(
+        handles=[line for line in shown if not str(line.get_label()).startswith("_")],
+        loc="upper right",
+        title=f"not drawn: K below {LEAST_FACTOR:g}",
+    )
 
 
 def _draw_steels(
@@ -180,15 +204,30 @@ def _draw_steels(
         words, _, dashes, marker = SURFACES[surface]
         for steel, (name_of_steel, colour, width) in STEELS.items():
             _line(
-                axes, teeth, results, f"{name}_{steel}", colour, f"{name_of_steel}, {words}",
-                least=least, ls=dashes, marker=marker, lw=width,
-            )  # fmt: skip
+                axes,
+                teeth,
+                results,
+                f"{name}_{steel}",
+                colour,
+                f"{name_of_steel}, {words}",
+                least=least,
+                ls=dashes,
+                marker=marker,
+                lw=width,
+            )
 
 
 def _line(
-    axes: Axes, teeth: Sequence[int], results: Sequence[Any], name: str, colour: str, words: str,
-    zero: float = 0.0, least: float = 0.0, **look: Any,
-) -> None:  # fmt: skip
+    axes: Axes,
+    teeth: Sequence[int],
+    results: Sequence[Any],
+    name: str,
+    colour: str,
+    words: str,
+    zero: float = 0.0,
+    least: float = 0.0,
+    **look: Any,
+) -> None:
     """Draw a result over the teeth, with gaps where there is none above ``least``."""
     values = np.array([getattr(r, name, np.nan) for r in results], float)
     shown = np.where(values > least, values - zero, np.nan)

@@ -64,9 +64,15 @@ def _draw_map(axis: Axes, fields: Any, values: Array, title: str, unit: str, cma
     x, y = _plane(fields)
     low, high = float(np.min(values)), float(np.max(values))
     shades = axis.pcolormesh(
-        x, y, _around(fields, values), shading="gouraud", cmap=cmap, rasterized=True,
-        vmin=low, vmax=high if high > low else low + 1.0,
-    )  # fmt: skip
+        x,
+        y,
+        _around(fields, values),
+        shading="gouraud",
+        cmap=cmap,
+        rasterized=True,
+        vmin=low,
+        vmax=high if high > low else low + 1.0,
+    )
     bar = axis.figure.colorbar(shades, ax=axis, shrink=0.82, pad=0.02)
     bar.set_label(f"{title.lower()} [{unit}]")
     bar.outline.set_visible(False)
@@ -106,9 +112,16 @@ def _draw_flow(axis: Axes, fields: Any) -> None:
     if not longest > 0.0:
         return
     axis.quiver(
-        radius * cos, radius * sin, outward * cos - around * sin, outward * sin + around * cos,
-        color=RED, angles="xy", scale_units="xy", scale=longest / (0.2 * radius.max()), width=0.004,
-    )  # fmt: skip
+        radius * cos,
+        radius * sin,
+        outward * cos - around * sin,
+        outward * sin + around * cos,
+        color=RED,
+        angles="xy",
+        scale_units="xy",
+        scale=longest / (0.2 * radius.max()),
+        width=0.004,
+    )
     axis.set_xlabel(f"x [mm]    (longest arrow: {1e6 * longest:.4g} mm²/s)")
 
 
@@ -119,9 +132,12 @@ def _draw_rotation(axis: Axes, fields: Any, speed: float) -> None:
     radius = 0.5e3 * fields.radius[0]
     turn = np.radians(np.linspace(-150.0, 120.0, 60)) * np.sign(speed)
     axis.plot(radius * np.cos(turn), radius * np.sin(turn), color=BLACK, lw=1.2)
-    axis.annotate("", (radius * np.cos(turn[-1]), radius * np.sin(turn[-1])),
-                  (radius * np.cos(turn[-4]), radius * np.sin(turn[-4])),
-                  arrowprops={"arrowstyle": "-|>", "color": BLACK, "lw": 1.2})  # fmt: skip
+    axis.annotate(
+        "",
+        (radius * np.cos(turn[-1]), radius * np.sin(turn[-1])),
+        (radius * np.cos(turn[-4]), radius * np.sin(turn[-4])),
+        arrowprops={"arrowstyle": "-|>", "color": BLACK, "lw": 1.2},
+    )
     axis.text(0.0, 0.0, "washer\nturns", ha="center", va="center", fontsize=7.5)
 
 
@@ -178,9 +194,14 @@ def _say_what_is_cut(axis: Axes, points: Sequence[Any]) -> None:
     lowest = min(p.film_ratio for p in points)
     if lowest < LOWEST_RATIO:
         axis.annotate(
-            f"not drawn: ratios below {LOWEST_RATIO:g},\nhere down to {lowest:.2g}", (0.0, 0.0),
-            (4, 4), xycoords="axes fraction", textcoords="offset points", fontsize=8, color=RED,
-        )  # fmt: skip
+            f"not drawn: ratios below {LOWEST_RATIO:g},\nhere down to {lowest:.2g}",
+            (0.0, 0.0),
+            (4, 4),
+            xycoords="axes fraction",
+            textcoords="offset points",
+            fontsize=8,
+            color=RED,
+        )
 
 
 def _draw_branches(axis: Axes, points: Sequence[Any], name: str, zero: float) -> None:
@@ -190,8 +211,10 @@ def _draw_branches(axis: Axes, points: Sequence[Any], name: str, zero: float) ->
         axis.plot(
             [p.load for p in part],
             [getattr(p, name) - zero for p in part],
-            color=colour, ls=dashes, label=words,
-        )  # fmt: skip
+            color=colour,
+            ls=dashes,
+            label=words,
+        )
 
 
 def _runs(points: Sequence[Any]) -> Iterator[tuple[str, Sequence[Any]]]:

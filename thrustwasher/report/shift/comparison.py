@@ -32,18 +32,24 @@ def comparison_page(runs: Sequence[Run], pictures: Sequence[Any]) -> Page:
         cards=[],
         sections=[
             Section("compared", "What is compared", tables=settings_tables(runs)),
-            Section("said", "What happened",
-                    texts=[f"{name}: {' '.join(run['summary'])}" for name, run in named]),
+            Section(
+                "said",
+                "What happened",
+                texts=[f"{name}: {' '.join(run['summary'])}" for name, run in named],
+            ),
             Section("course", "Both shifts over time", widgets=["plots"], plots=stills),
-            *([Section("friction", "Friction over slip", widgets=["slip"])]
-              if any(run["slip"] for run in runs) else []),
+            *(
+                [Section("friction", "Friction over slip", widgets=["slip"])]
+                if any(run["slip"] for run in runs)
+                else []
+            ),
             Section("energy", "Energy", widgets=["flow"]),
             Section("key-figures", "Key figures", tables=[difference_table(runs)]),
         ],
         footer="One file, readable offline.",
         scripts=SCRIPTS,
         data=page_data(runs),
-    )  # fmt: skip
+    )
 
 
 ALWAYS = ("from", "scene", "communication step", "master", "rungs")

@@ -7,9 +7,12 @@ import numpy as np
 from .shift_record import Array, Record
 
 OWNERS = {
-    "clutch": "clutch", "brake": "brake", "washer": "one thrust washer",
-    "mesh": "one sun mesh", "ring_mesh": "one ring mesh",
-}  # fmt: skip
+    "clutch": "clutch",
+    "brake": "brake",
+    "washer": "one thrust washer",
+    "mesh": "one sun mesh",
+    "ring_mesh": "one ring mesh",
+}
 
 
 LEAST_HEAT = 0.1  # J

@@ -26,7 +26,10 @@ def live_washer(record: Record) -> dict[str, Any] | None:
     view = resolve(model.explore)
     packed = zlib.compress(module.read_bytes(), 9)
     return {
-        "module": base64.b64encode(packed).decode("ascii"), "script": view.worker_script(),
-        "about": view.worker_data(part.spec), "parameters": as_numbers(part.params()),
-        "rung": rung_with_fields(part), "least_load": LEAST_LOAD,
-    }  # fmt: skip
+        "module": base64.b64encode(packed).decode("ascii"),
+        "script": view.worker_script(),
+        "about": view.worker_data(part.spec),
+        "parameters": as_numbers(part.params()),
+        "rung": rung_with_fields(part),
+        "least_load": LEAST_LOAD,
+    }

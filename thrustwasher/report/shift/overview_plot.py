@@ -46,8 +46,12 @@ def _draw_signals(axis: Axes, record: Record, panel: Mapping[str, Any]) -> None:
             continue
         found, words = signal_of(record, name), name.removeprefix("transmission.")
         shown, unit = (values - found["zero"]) / found["scale"], found["unit"]
-        axis.plot(record.time, np.maximum(shown, floor), color=getattr(palette, colour.upper()),
-                  label=words.replace(".", " ").replace("_", " "))  # fmt: skip
+        axis.plot(
+            record.time,
+            np.maximum(shown, floor),
+            color=getattr(palette, colour.upper()),
+            label=words.replace(".", " ").replace("_", " "),
+        )
     if panel.get("logarithmic"):
         axis.set_yscale("log")
         low, high = axis.get_ylim()
@@ -68,9 +72,15 @@ def _draw_phases(axis: Axes, record: Record) -> None:
         shade = SHADES[index % len(SHADES)]
         axis.axvspan(phase.start, phase.end, color=shade, lw=0, zorder=0)
         if phase.end - phase.start > LETTER * len(phase.name) * (last - first):
-            axis.annotate(phase.name, (0.5 * (phase.start + phase.end), 0.985), ha="center",
-                          va="top", xycoords=axis.get_xaxis_transform(), fontsize=8.5,
-                          color="#666666")  # fmt: skip
+            axis.annotate(
+                phase.name,
+                (0.5 * (phase.start + phase.end), 0.985),
+                ha="center",
+                va="top",
+                xycoords=axis.get_xaxis_transform(),
+                fontsize=8.5,
+                color="#666666",
+            )
 
 
 def _draw_events(axis: Axes, record: Record) -> None:
@@ -83,9 +93,15 @@ def _draw_events(axis: Axes, record: Record) -> None:
         before = event.time
         words = fill(f"{number}: {event.time:.4g} s {event.text}", 36, subsequent_indent="    ")
         axis.axvline(event.time, color="#444444", lw=0.8, ls=":", label=words)
-        axis.annotate(str(number), (event.time, 0.0), (2, 3 + 9 * height),
-                      textcoords="offset points", xycoords=axis.get_xaxis_transform(),
-                      fontsize=8, color="#444444")  # fmt: skip
+        axis.annotate(
+            str(number),
+            (event.time, 0.0),
+            (2, 3 + 9 * height),
+            textcoords="offset points",
+            xycoords=axis.get_xaxis_transform(),
+            fontsize=8,
+            color="#444444",
+        )
     if len(shown) < len(record.events):
         more = len(record.events) - len(shown)
         axis.plot([], [], lw=0.0, label=f"and {more} more events")

@@ -30,11 +30,17 @@ def sequence_page(result: Any) -> Page:
     run = run_data(whole, {}, room=ROOM, said=([said], warnings))
     run |= {"slip": None, "shifts": len(records)}
     sections = [
-        Section("course", "The shifts over time", widgets=["plots"], tables=[_table(records)],
-                plots=[Plot("sequence", overview_figure(whole, STILL), CAPTION, bitmap=True,
-                            still=True)]),
+        Section(
+            "course",
+            "The shifts over time",
+            widgets=["plots"],
+            tables=[_table(records)],
+            plots=[
+                Plot("sequence", overview_figure(whole, STILL), CAPTION, bitmap=True, still=True)
+            ],
+        ),
         Section("energy", "Energy", texts=[ENERGY_TEXT], widgets=["flow"]),
-    ]  # fmt: skip
+    ]
     washer = live_washer(whole)
     if washer:
         sections.insert(1, Section("washer", "The thrust washer", widgets=["discs"]))
@@ -60,15 +66,23 @@ def sequence_page(result: Any) -> Page:
 def _whole(result: Any, records: Sequence[Record]) -> Record:
     """Return the run as a record; its phases are the shifts, its events their locks."""
     shifts = result.scene.sequence.shifts
-    named = [(f"{i} {way}", record) for i, ((_, way), record) in
-             enumerate(zip(shifts, records, strict=True), 1)]  # fmt: skip
+    named = [
+        (f"{i} {way}", record)
+        for i, ((_, way), record) in enumerate(zip(shifts, records, strict=True), 1)
+    ]
     locks = [(name, record.figures.get("lock_time")) for name, record in named]
     return replace(
-        record_of(result.shifts[0]), time=result.time, signals=result.signals, judder=None,
+        record_of(result.shifts[0]),
+        time=result.time,
+        signals=result.signals,
+        judder=None,
         phases=[Phase(name, float(r.time[0]), float(r.time[-1])) for name, r in named],
         events=[Event(time, f"{name} locks") for name, time in locks if time is not None],
-        key_figures=[], published=[], messages=result.messages, wall_time=result.wall_time,
-    )  # fmt: skip
+        key_figures=[],
+        published=[],
+        messages=result.messages,
+        wall_time=result.wall_time,
+    )
 
 
 def _head(records: Sequence[Record], row: Sequence[KeyFigure | None]) -> str:
@@ -81,18 +95,31 @@ def _head(records: Sequence[Record], row: Sequence[KeyFigure | None]) -> str:
 
 def _table(records: Sequence[Record]) -> Table:
     """Return key figures, a row for each shift."""
-    names = ("lock_after_ramp_start", "slip_energy", "peak_clutch_temperature",
-             "peak_brake_temperature", "peak_jerk", "least_washer_film_ratio")  # fmt: skip
+    names = (
+        "lock_after_ramp_start",
+        "slip_energy",
+        "peak_clutch_temperature",
+        "peak_brake_temperature",
+        "peak_jerk",
+        "least_washer_film_ratio",
+    )
     found = [[record.figure(name) for name in names] for record in records]
     shown = [k for k in range(len(names)) if any(row[k] for row in found)]
     heads = [_head(records, [row[k] for row in found]) for k in shown]
     return Table(
         heads=("shift", "begins", *heads),
         rows=[
-            (f"{i} {'up' if record.engaging == 'clutch' else 'down'}", f"{record.ramp_start:.5g} s",
-             *("" if (f := row[k]) is None or f.value is None
-               else say(f.value, f.unit, digits=4, difference=f.difference) for k in shown))
+            (
+                f"{i} {'up' if record.engaging == 'clutch' else 'down'}",
+                f"{record.ramp_start:.5g} s",
+                *(
+                    ""
+                    if (f := row[k]) is None or f.value is None
+                    else say(f.value, f.unit, digits=4, difference=f.difference)
+                    for k in shown
+                ),
+            )
             for i, (record, row) in enumerate(zip(records, found, strict=True), 1)
         ],
         numbers=range(1, len(shown) + 2),
-    )  # fmt: skip
+    )

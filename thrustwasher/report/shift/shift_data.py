@@ -29,10 +29,11 @@ DROPPED = 8  # bits of a number's 24 that a long run leaves out: four digits sta
 JERK_TIME = 0.01  # s over which a change of acceleration counts
 READABLE = {"Pa": "kPa", "J": "kJ", "W": "kW", "m": "um", "m3/s": "l/min", "rad": "mrad"}
 FIELDS = {
-    "film_thickness": ("film thickness", "m"), "pressure": ("pressure in the film", "Pa"),
+    "film_thickness": ("film thickness", "m"),
+    "pressure": ("pressure in the film", "Pa"),
     "contact_pressure": ("pressure on asperities", "Pa"),
     "washer_temperature": ("temperature of the washer", "K"),
-}  # fmt: skip
+}
 OF_THE_VEHICLE = {
     "vehicle.acceleration": ("acceleration of the vehicle", "m/s2"),
     "vehicle.jerk": ("its change over the next 10 ms", "m/s3"),
@@ -55,9 +56,12 @@ def page_data(runs: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 
 
 def run_data(
-    record: Record, moments: Mapping[str, Moment | None], *, room: int = ROOM,
+    record: Record,
+    moments: Mapping[str, Moment | None],
+    *,
+    room: int = ROOM,
     said: tuple[Sequence[str], Sequence[str]] | None = None,
-) -> dict[str, Any]:  # fmt: skip
+) -> dict[str, Any]:
     """Return a run as JSON types; ``moments``: the washer solved again, by the moment's words.
 
     ``said`` are its summary and its warnings, if they are not those of one shift.
@@ -72,9 +76,14 @@ def run_data(
     row_of = [places.setdefault(row.tobytes(), len(places)) for row in rows]
     kept, packed = _packed_to_fit(rows[np.unique(row_of, return_index=True)[1]], record, room)
     swing = record.judder
-    judged = [] if swing is None else [
-        (swing.start, "the swing's growth is judged from here"), (swing.end, "to here"),
-    ]  # fmt: skip
+    judged = (
+        []
+        if swing is None
+        else [
+            (swing.start, "the swing's growth is judged from here"),
+            (swing.end, "to here"),
+        ]
+    )
     return {
         "name": record.name,
         "title": record.title,
@@ -86,11 +95,14 @@ def run_data(
         "recorded": len(record.time),
         "points": kept,
         "packed": packed,
-        "moving": [{**signal_of(record, name), "row": k}
-                    for name, k in zip(moving, row_of[1:], strict=True)],
+        "moving": [
+            {**signal_of(record, name), "row": k}
+            for name, k in zip(moving, row_of[1:], strict=True)
+        ],
         "steady": [
             {**signal_of(record, name), "value": float(values[0])}
-            for name, values in signals.items() if name not in moving and np.isfinite(values[0])
+            for name, values in signals.items()
+            if name not in moving and np.isfinite(values[0])
         ],
         "shifts": 1,
         "slip": slip_of(record),
@@ -98,7 +110,7 @@ def run_data(
         "inputs": [s.name for s in part.spec.inputs] if (part := record.part("washer")) else [],
         "moments": {words: _moment(m) for words, m in moments.items() if m is not None},
         "settings": shift_tables.settings(record),
-    }  # fmt: skip
+    }
 
 
 def set_aside(record: Record) -> list[str]:
@@ -123,8 +135,11 @@ def slip_of(record: Record) -> dict[str, Any] | None:
     where = (record.time >= start) & (record.time < end) & (slip != 0.0)
     if np.sum(where) < 2 or np.ptp(friction[where]) < 1e-9:
         return None
-    found = [(p.published, f"published mean {p.published:.4g}") for p in record.published
-             if p.name == "friction_mean"]  # fmt: skip
+    found = [
+        (p.published, f"published mean {p.published:.4g}")
+        for p in record.published
+        if p.name == "friction_mean"
+    ]
     mean = record.figures.get("friction_mean")
     found += [] if mean is None else [(mean, f"mean of this run {mean:.4g}")]
     return {"pack": pack, "from": start, "to": end, "levels": found}

@@ -20,10 +20,26 @@ from .usual import beside, usual_table
 from .worst_moments import Moment, highest, solve_moment, worst_film
 
 SCRIPTS = (
-    "vendor/uPlot.min.css", "vendor/uPlot.iife.min.js", "draw.css", "draw.js", "shift/shift.css",
-    *(f"shift/{name}.js" for name in
-      ("decode", "page_parts", "controls", "plots", "flow", "live", "discs", "slip", "start")),
-)  # fmt: skip
+    "vendor/uPlot.min.css",
+    "vendor/uPlot.iife.min.js",
+    "draw.css",
+    "draw.js",
+    "shift/shift.css",
+    *(
+        f"shift/{name}.js"
+        for name in (
+            "decode",
+            "page_parts",
+            "controls",
+            "plots",
+            "flow",
+            "live",
+            "discs",
+            "slip",
+            "start",
+        )
+    ),
+)
 OVERVIEW_CAPTION = (
     "Shaded: the phases of the shift; dotted and numbered: what happened when. Above a film ratio "
     "of 3 the oil carries, below 1 the asperities do."
@@ -45,27 +61,38 @@ def shift_page(record: Record) -> Page:
     sections = [
         *_usual_sections(record),
         Section(
-            "course", "The shift over time", texts=temperature_texts(record),
-            widgets=["plots"], tables=[shift_tables.phase_table(record)],
-            plots=[Plot("overview", overview_figure(record), OVERVIEW_CAPTION, bitmap=True,
-                        still=True)],
+            "course",
+            "The shift over time",
+            texts=temperature_texts(record),
+            widgets=["plots"],
+            tables=[shift_tables.phase_table(record)],
+            plots=[
+                Plot("overview", overview_figure(record), OVERVIEW_CAPTION, bitmap=True, still=True)
+            ],
         ),
         *_friction_sections(record),
         *_judder_sections(record),
         *_washer_sections(record),
-        Section("energy", "Energy", texts=[ENERGY_TEXT, HEAT_TEXT], widgets=["flow"],
-                tables=[shift_tables.energy_table(record), shift_tables.heat_table(record)]),
+        Section(
+            "energy",
+            "Energy",
+            texts=[ENERGY_TEXT, HEAT_TEXT],
+            widgets=["flow"],
+            tables=[shift_tables.energy_table(record), shift_tables.heat_table(record)],
+        ),
         Section("key-figures", "Key figures", tables=[shift_tables.key_table(record)]),
         *rung_sections(record),
-        Section("cost", "Time spent", texts=cost_texts(record),
-                tables=[shift_tables.cost_table(record)]),
         Section(
-            "parameters", "What was simulated",
+            "cost", "Time spent", texts=cost_texts(record), tables=[shift_tables.cost_table(record)]
+        ),
+        Section(
+            "parameters",
+            "What was simulated",
             texts=simulated_texts(record),
             tables=shift_tables.parameter_tables(record),
         ),
         Section("trust", "How far to trust it", texts=trust_texts(record)),
-    ]  # fmt: skip
+    ]
     return Page(
         title=record.title,
         subtitle=f"Scene {record.name}, {record.time[-1] - record.time[0]:.4g} s simulated in "
@@ -99,11 +126,21 @@ def _usual_sections(record: Record) -> list[Section]:
 
 
 CARDS = (
-    "lock_after_ramp_start", "lock_after_half_ramp", "lock_speed", "stopped_inertia", "slip_energy",
-    "slip_energy_per_area", "{pack}_heat_flux", "peak_jerk", "friction_mean", "friction_lock",
-    "{pack}_temperature", "peak_washer_temperature_max", "least_washer_film_ratio",
+    "lock_after_ramp_start",
+    "lock_after_half_ramp",
+    "lock_speed",
+    "stopped_inertia",
+    "slip_energy",
+    "slip_energy_per_area",
+    "{pack}_heat_flux",
+    "peak_jerk",
+    "friction_mean",
+    "friction_lock",
+    "{pack}_temperature",
+    "peak_washer_temperature_max",
+    "least_washer_film_ratio",
     "peak_flash_temperature",
-)  # fmt: skip
+)
 OF_A_LONE_PACK = ("lock_after_half_ramp", "stopped_inertia", "friction_mean", "friction_lock")
 
 
@@ -115,11 +152,16 @@ def _cards(record: Record) -> list[Card]:
     usual = beside(record)
     cards = [
         Card(f.text, usual[name][0].value_words(f.value), usual[name][0].note(f.value))
-        if name in usual else
-        Card(f.text, f"{f.value:.4g} s" if f.unit == "s"
-             else say(f.value, f.unit, digits=4, difference=f.difference))
-        for name in names if (f := known.get(name)) is not None and f.value is not None
-    ]  # fmt: skip
+        if name in usual
+        else Card(
+            f.text,
+            f"{f.value:.4g} s"
+            if f.unit == "s"
+            else say(f.value, f.unit, digits=4, difference=f.difference),
+        )
+        for name in names
+        if (f := known.get(name)) is not None and f.value is not None
+    ]
     share = f"{record.energy['residual_share']:.1e}"
     cards.append(Card(f"energy missing, of {record.whole_name}", share))
     if record.step_error is not None:
@@ -133,11 +175,15 @@ def _friction_sections(record: Record) -> list[Section]:
     title, widgets = f"Friction of the {record.engaging}", ["slip"] if slip_of(record) else []
     if not record.published:
         return [Section("friction", title, widgets, [FRICTION_TEXT])] if widgets else []
-    return [Section(
-        "friction", f"{title}, published and computed", widgets,
-        texts=[f"Published: {record.source}.", FRICTION_TEXT],
-        tables=[shift_tables.published_table(record)],
-    )]  # fmt: skip
+    return [
+        Section(
+            "friction",
+            f"{title}, published and computed",
+            widgets,
+            texts=[f"Published: {record.source}.", FRICTION_TEXT],
+            tables=[shift_tables.published_table(record)],
+        )
+    ]
 
 
 def _judder_sections(record: Record) -> list[Section]:

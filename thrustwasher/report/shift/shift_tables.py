@@ -43,10 +43,13 @@ def energy_table(record: Record) -> Table:
     ]
     return Table(
         heads=("", "J", f"% of {name}"),
-        rows=[(words, _joule(value), _percent(value, whole)) for words, value in rows
-              if value or words.startswith("residual")],
+        rows=[
+            (words, _joule(value), _percent(value, whole))
+            for words, value in rows
+            if value or words.startswith("residual")
+        ],
         numbers=(1, 2),
-    )  # fmt: skip
+    )
 
 
 def phase_table(record: Record) -> Table:
@@ -59,22 +62,40 @@ def phase_table(record: Record) -> Table:
             np.interp(phase.end, record.time, record.signals[f"transmission.{name}_speed"])
             for name in ("engine", "output")
         )
-        rows.append((
-            phase.name, f"{phase.start:.4g}", f"{phase.end - phase.start:.4g}", _joule(end - begin),
-            f"{RPM * engine:.0f}", f"{RPM * output:.0f}",
-        ))  # fmt: skip
-    heads = ("phase", "from [s]", "lasts [s]", f"heat in the {record.engaging} [J]",
-             "engine at its end [rpm]", "output [rpm]")  # fmt: skip
+        rows.append(
+            (
+                phase.name,
+                f"{phase.start:.4g}",
+                f"{phase.end - phase.start:.4g}",
+                _joule(end - begin),
+                f"{RPM * engine:.0f}",
+                f"{RPM * output:.0f}",
+            )
+        )
+    heads = (
+        "phase",
+        "from [s]",
+        "lasts [s]",
+        f"heat in the {record.engaging} [J]",
+        "engine at its end [rpm]",
+        "output [rpm]",
+    )
     return Table(heads, rows, numbers=(1, 2, 3, 4, 5))
 
 
 def heat_table(record: Record) -> Table:
     """Return the heat of every part: made, stored, given to the oil, and what is left over."""
     rows = [
-        (s.words, _joule(s.made[-1]), "" if s.stored is None else _joule(s.stored[-1]),
-         _joule(s.to_oil[-1]), _joule(s.rest[-1]), _percent(s.to_oil[-1], s.made[-1]))
+        (
+            s.words,
+            _joule(s.made[-1]),
+            "" if s.stored is None else _joule(s.stored[-1]),
+            _joule(s.to_oil[-1]),
+            _joule(s.rest[-1]),
+            _percent(s.to_oil[-1], s.made[-1]),
+        )
         for s in heat_splits(record)
-    ]  # fmt: skip
+    ]
     heads = ("", "made [J]", "stored [J]", "to the oil [J]", "rest [J]", "to the oil [%]")
     return Table(heads, rows, numbers=(1, 2, 3, 4, 5))
 
@@ -82,19 +103,29 @@ def heat_table(record: Record) -> Table:
 def key_table(record: Record) -> Table:
     """Return the key figures with the time they belong to; those that say something new."""
     rows = [
-        (f.text,
-         f"{f.value:.6g} s" if f.unit == "s"
-         else say(f.value, f.unit, digits=5, difference=f.difference),
-         "" if f.time is None else f"{f.time:.4g}")
-        for f in record.key_figures if f.value and f.name not in SAID_TWICE
-    ]  # fmt: skip
+        (
+            f.text,
+            f"{f.value:.6g} s"
+            if f.unit == "s"
+            else say(f.value, f.unit, digits=5, difference=f.difference),
+            "" if f.time is None else f"{f.time:.4g}",
+        )
+        for f in record.key_figures
+        if f.value and f.name not in SAID_TWICE
+    ]
     return Table(("", "value", "at time [s]"), rows, numbers=(1, 2))
 
 
 OF_A_WASHER = (
-    "friction_power", "oil_heat", "throughflow_heat", "oil_flow", "oil_outlet_temperature",
-    "film_temperature", "temperature_max", "stick_margin",
-)  # fmt: skip
+    "friction_power",
+    "oil_heat",
+    "throughflow_heat",
+    "oil_flow",
+    "oil_outlet_temperature",
+    "film_temperature",
+    "temperature_max",
+    "stick_margin",
+)
 
 
 def washer_table(record: Record) -> Table | None:
@@ -149,34 +180,70 @@ def cost_table(record: Record) -> Table:
     used = sum(cost.steps for cost in record.costs)
     rest = max(record.wall_time - used, 0.0)
     rows = [
-        (c.name, c.fidelity, _ms(c.instantiate), _ms(c.initialize), str(c.calls), _ms(c.steps),
-         f"{1e6 * c.steps / c.calls:.1f}" if c.calls else "", _percent(c.steps, record.wall_time))
+        (
+            c.name,
+            c.fidelity,
+            _ms(c.instantiate),
+            _ms(c.initialize),
+            str(c.calls),
+            _ms(c.steps),
+            f"{1e6 * c.steps / c.calls:.1f}" if c.calls else "",
+            _percent(c.steps, record.wall_time),
+        )
         for c in record.costs
-    ]  # fmt: skip
+    ]
     parts = [("master, the rest", rest), ("together", record.wall_time)]
-    rows += [(words, "", "", "", "", _ms(taken), "", _percent(taken, record.wall_time))
-             for words, taken in parts]  # fmt: skip
+    rows += [
+        (words, "", "", "", "", _ms(taken), "", _percent(taken, record.wall_time))
+        for words, taken in parts
+    ]
     return Table(
-        heads=("", "fidelity", "instantiate [ms]", "initialise [ms]", "calls", "time [ms]",
-               "per call [µs]", "share [%]"),
+        heads=(
+            "",
+            "fidelity",
+            "instantiate [ms]",
+            "initialise [ms]",
+            "calls",
+            "time [ms]",
+            "per call [µs]",
+            "share [%]",
+        ),
         rows=rows,
         numbers=(2, 3, 4, 5, 6, 7),
-    )  # fmt: skip
+    )
 
 
 def check_table(record: Record) -> Table:
     """Return a row per check of a rung, in the order they were made."""
     rows = [
-        (c.part, c.rung, c.above, str(c.points), str(len(c.failed)), f"{100.0 * c.worst.share:.3g}",
-         f"{100.0 * c.tolerance:.3g}", "yes" if c.holds else "no", f"{1e3 * c.seconds:.2f}")
+        (
+            c.part,
+            c.rung,
+            c.above,
+            str(c.points),
+            str(len(c.failed)),
+            f"{100.0 * c.worst.share:.3g}",
+            f"{100.0 * c.tolerance:.3g}",
+            "yes" if c.holds else "no",
+            f"{1e3 * c.seconds:.2f}",
+        )
         for c in record.guard.checks
-    ]  # fmt: skip
+    ]
     return Table(
-        heads=("", "rung", "compared with", "points", "without solution", "worst difference [%]",
-               "allowed [%]", "holds", "time [ms]"),
+        heads=(
+            "",
+            "rung",
+            "compared with",
+            "points",
+            "without solution",
+            "worst difference [%]",
+            "allowed [%]",
+            "holds",
+            "time [ms]",
+        ),
         rows=rows,
         numbers=(3, 4, 5, 6, 8),
-    )  # fmt: skip
+    )
 
 
 def parameter_tables(record: Record) -> list[Table]:

@@ -60,8 +60,10 @@ def _said_of(text: str, shifts: list[str]) -> str:
 
 def step_words(result: Any) -> list[str]:
     """Return what the step errs by in the shifts of a sequence that were checked."""
-    return [f"Error of the step in shift {i + 1}: {error.words()}"
-            for i, error in result.step_errors.items()]  # fmt: skip
+    return [
+        f"Error of the step in shift {i + 1}: {error.words()}"
+        for i, error in result.step_errors.items()
+    ]
 
 
 def _not_locked(r: Record) -> list[str]:

@@ -34,9 +34,7 @@ def guarded(result: ShiftResult, make: Make, run: Run) -> ShiftResult:
         followed = follow.result()
     for name, washer in followed.items():
         found += washer.warnings(name, REMEDY)
-    return replace(
-        result, step_error=error, in_time=followed, found=(*result.found, *found)
-    )  # fmt: skip
+    return replace(result, step_error=error, in_time=followed, found=(*result.found, *found))
 
 
 def followed_washers(

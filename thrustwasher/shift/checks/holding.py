@@ -146,8 +146,11 @@ def failed_because(scene: Scene, time: Array, recorder: Recorder) -> str:
             since = float(time[held[-1]]) if len(held) else float(time[0])
             now = "neither is pressed" if _open(reached)[-1] else "they only slip"
             speed = float(reached["transmission.engine_speed"][-1])
-            reasons.insert(0, (
-                f"since {since:.4g} s no pack held ({now} at {time[done[-1]]:.4g} s) and the "
-                f"engine reached {say(speed, 'rad/s')}: look at the pressures of both packs"
-            ))  # fmt: skip
+            reasons.insert(
+                0,
+                (
+                    f"since {since:.4g} s no pack held ({now} at {time[done[-1]]:.4g} s) and the "
+                    f"engine reached {say(speed, 'rad/s')}: look at the pressures of both packs"
+                ),
+            )
     return "; ".join(reasons)

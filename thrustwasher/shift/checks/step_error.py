@@ -50,10 +50,13 @@ def recorded_parts(scene: Scene, time: Array, signals: Mapping[str, Array]) -> d
     return {
         name: Recorded(
             ([s.name for s in part.spec.inputs], [s.name for s in part.spec.outputs]),
-            name, time, signals,
+            name,
+            time,
+            signals,
         )
-        for name, part in scene.parts.items() if name in DIRECT
-    }  # fmt: skip
+        for name, part in scene.parts.items()
+        if name in DIRECT
+    }
 
 
 def parts_of_a_step(scene: Scene, step: float, steps: int) -> float:
@@ -102,9 +105,10 @@ def errors_between(run: ShiftResult, finer: ShiftResult, factor: float) -> dict[
 
     work = LEAST_HEAT * max(abs(run.energy["engine_work"]), abs(run.energy["kinetic"]), 1e-6)
     found = (
-        share("lock_time", zero=start), share("slip_energy", least=work) or 0.0,
+        share("lock_time", zero=start),
+        share("slip_energy", least=work) or 0.0,
         share("peak_jerk", least=LEAST_JERK),
-    )  # fmt: skip
+    )
     return {n: x for n, x in zip(LIMITS, found, strict=True) if x is not None}
 
 

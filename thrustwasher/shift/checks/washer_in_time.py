@@ -35,9 +35,10 @@ THIN = 3.0  # film ratio: above it the film carries all, whatever its thickness
 WARMER = 5.0  # K
 COMPARED = ("friction_torque", "film_ratio", "temperature_max")
 SHOWN = {
-    "friction_torque": ("friction torque", "N.m"), "film_ratio": ("film ratio", "1"),
+    "friction_torque": ("friction torque", "N.m"),
+    "film_ratio": ("film ratio", "1"),
     "temperature_max": ("hottest spot", "K"),
-}  # fmt: skip
+}
 PLACES = [SPEC.real_outputs.index(name) for name in COMPARED]
 
 
@@ -82,8 +83,9 @@ def _words(differences: list[Difference]) -> str:
     return ", ".join(
         f"{SHOWN[d.quantity][0]} {say(d.steady, SHOWN[d.quantity][1], digits=3)} where in time it "
         f"is {say(d.in_time, SHOWN[d.quantity][1], digits=3)} (at {d.time:.4g} s, for "
-        f"{say(d.lasts, 's', digits=2)})" for d in differences
-    )  # fmt: skip
+        f"{say(d.lasts, 's', digits=2)})"
+        for d in differences
+    )
 
 
 def washer_in_time(
@@ -100,9 +102,12 @@ def washer_in_time(
 
 
 def follow_recorded(
-    params: WasherParams, grid: tuple[int, int], time: Array, signals: dict[str, Array],
+    params: WasherParams,
+    grid: tuple[int, int],
+    time: Array,
+    signals: dict[str, Array],
     shortest: float,
-) -> InTime:  # fmt: skip
+) -> InTime:
     """Follow a washer along recorded inputs and compare it with the recorded steady outputs.
 
     Parameters
@@ -128,9 +133,13 @@ def follow_recorded(
         return _over(steady[at], values, greatest, turning[at])
 
     places, values, stopped = _walk(
-        Follower(params, grid), time, inputs,
-        sorted({*_instants(time, inputs, steady), min(rest, len(time) - 1)}), rest, over,
-    )  # fmt: skip
+        Follower(params, grid),
+        time,
+        inputs,
+        sorted({*_instants(time, inputs, steady), min(rest, len(time) - 1)}),
+        rest,
+        over,
+    )
     off = values - steady[places]
     after = slice(0, places[-1] + 1)
     course = steady[after] + np.column_stack(
@@ -141,9 +150,13 @@ def follow_recorded(
         _longest(name, time, steady[:, k], course[:, k], share[:, k] > 1.0)
         for k, name in enumerate(COMPARED)
     ]
-    return InTime(time[places], values, stopped,
-                  [d for d in found if d is not None and d.lasts > shortest],
-                  float(share.max()))  # fmt: skip
+    return InTime(
+        time[places],
+        values,
+        stopped,
+        [d for d in found if d is not None and d.lasts > shortest],
+        float(share.max()),
+    )
 
 
 def _over(steady: Array, values: Array, greatest: float, turning: NDArray[np.bool_]) -> Array:
@@ -179,9 +192,13 @@ def _instants(time: Array, inputs: Array, steady: Array) -> list[int]:
 
 
 def _walk(
-    follower: Follower, time: Array, inputs: Array, instants: list[int], rest: int,
+    follower: Follower,
+    time: Array,
+    inputs: Array,
+    instants: list[int],
+    rest: int,
     over: Callable[[Array, NDArray[np.intp]], Array],
-) -> tuple[NDArray[np.intp], Array, str]:  # fmt: skip
+) -> tuple[NDArray[np.intp], Array, str]:
     """Go from instant to instant; return the points reached, values there and why it stopped.
 
     Where the difference is likely and changes much on the way, it is gone again in shorter ways.

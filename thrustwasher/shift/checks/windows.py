@@ -38,11 +38,13 @@ class Windows:
         """Keep the present point if a window begins there."""
         i = len(self._began)
         if self.able and i < len(self._starts) and abs(time - self._starts[i]) < NEAR:
-            self._began.append(Began(
-                [capable(part.instance).get_state() for part in self._parts],
-                [list(part.inputs) for part in self._parts],
-                [list(part.outputs) for part in self._parts],
-            ))  # fmt: skip
+            self._began.append(
+                Began(
+                    [capable(part.instance).get_state() for part in self._parts],
+                    [list(part.inputs) for part in self._parts],
+                    [list(part.outputs) for part in self._parts],
+                )
+            )
 
     def again(
         self, i: int, window: float, steps: int, drive: Drive, played: dict[str, Recorded]

@@ -45,15 +45,27 @@ class CompiledLoop:
         self._back, self._ticks = np.zeros(4, np.int64), np.zeros(2, np.int64)
         clock, tick = wall_clock(self._ticks)
         self._now = np.zeros(recorder.rows.shape[1])
-        played = [p.instance.at(run.time[:-1]) for p in self.parts
-                  if isinstance(p.instance, Recorded)]  # fmt: skip
+        played = [
+            p.instance.at(run.time[:-1]) for p in self.parts if isinstance(p.instance, Recorded)
+        ]
         recorded = np.concatenate(played, axis=1) if played else np.zeros((1, 1))
         self._arguments: list[Any] = [
-            np.array(self._operations, np.int64), np.array(self._places, np.int64), self._now,
-            self._back.ctypes.data, clock, tick, np.zeros(n), self._spent, self._calls, run.time,
-            run.h, run.commands, recorder.input_place(hub, hub.input_names.index(COMMAND)),
-            recorder.rows, recorded,
-        ]  # fmt: skip
+            np.array(self._operations, np.int64),
+            np.array(self._places, np.int64),
+            self._now,
+            self._back.ctypes.data,
+            clock,
+            tick,
+            np.zeros(n),
+            self._spent,
+            self._calls,
+            run.time,
+            run.h,
+            run.commands,
+            recorder.input_place(hub, hub.input_names.index(COMMAND)),
+            recorder.rows,
+            recorded,
+        ]
         self._run(0)  # compiled or loaded before time counts
 
     def _run(self, stop: int) -> int:
@@ -85,8 +97,9 @@ class CompiledLoop:
         first = len(self._places)
         for slot, source, output in part.sources:
             self._places += [
-                recorder.input_place(part, slot), recorder.output_place(source, output)
-            ]  # fmt: skip
+                recorder.input_place(part, slot),
+                recorder.output_place(source, output),
+            ]
         self._add(self.codes.PULL, number, count=len(part.sources), first=first)
 
     def _step(self, number: int) -> None:
@@ -103,10 +116,16 @@ class CompiledLoop:
         def travel(kind: int, groups: Any, first: int) -> None:
             for group in groups:
                 self._add(
-                    kind, number, function=group.function, references=group.references,
-                    count=len(group.places), values=group.values, type=getattr(c, group.kind),
-                    first=len(self._places), **call,
-                )  # fmt: skip
+                    kind,
+                    number,
+                    function=group.function,
+                    references=group.references,
+                    count=len(group.places),
+                    values=group.values,
+                    type=getattr(c, group.kind),
+                    first=len(self._places),
+                    **call,
+                )
                 self._places.extend(first + place for place in group.places)
 
         self._add(c.BEGIN, number)

@@ -127,12 +127,24 @@ def _step(op: NDArray[np.int64], t: float, h: float, back: int) -> int:
 
 @kernel
 def run_operations(
-    operations: NDArray[np.int64], places: NDArray[np.int64], now: NDArray[np.float64],
-    back: int, clock: NDArray[np.int64], tick: float, begun: NDArray[np.float64],
-    spent: NDArray[np.float64], calls: NDArray[np.int64], time: NDArray[np.float64], h: float,
-    commands: NDArray[np.float64], command: int, rows: NDArray[np.float64],
-    recorded: NDArray[np.float64], stop: int, report: NDArray[np.int64],
-) -> int:  # fmt: skip
+    operations: NDArray[np.int64],
+    places: NDArray[np.int64],
+    now: NDArray[np.float64],
+    back: int,
+    clock: NDArray[np.int64],
+    tick: float,
+    begun: NDArray[np.float64],
+    spent: NDArray[np.float64],
+    calls: NDArray[np.int64],
+    time: NDArray[np.float64],
+    h: float,
+    commands: NDArray[np.float64],
+    command: int,
+    rows: NDArray[np.float64],
+    recorded: NDArray[np.float64],
+    stop: int,
+    report: NDArray[np.int64],
+) -> int:
     """Work through the operations for the points from ``report[AT_POINT]`` to ``stop``.
 
     Returns DONE, or REPORTED if the call before operation ``report[AT_OPERATION]`` had a status

@@ -49,9 +49,10 @@ class Recorder:
     def signals(self) -> dict[str, NDArray[np.float64]]:
         """Return the columns by name."""
         names = [
-            f"{part.name}.{name}" for part in self.parts
+            f"{part.name}.{name}"
+            for part in self.parts
             for name in (*part.input_names, *part.output_names)
-        ]  # fmt: skip
+        ]
         return {name: self.rows[:, i] for i, name in enumerate(names)}
 
 

@@ -20,9 +20,12 @@ class Recorded:
     gives_derivatives = True
 
     def __init__(
-        self, names: tuple[Sequence[str], Sequence[str]], part: str, time: Array,
+        self,
+        names: tuple[Sequence[str], Sequence[str]],
+        part: str,
+        time: Array,
         signals: Mapping[str, Array],
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.input_names, self.output_names = (list(n) for n in names)
         self.calls, self.wall_time, self.instantiate_time, self.initialize_time = 0, 0.0, 0.0, 0.0
         rows = np.column_stack([signals[f"{part}.{name}"] for name in self.output_names])

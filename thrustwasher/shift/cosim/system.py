@@ -154,9 +154,13 @@ class System:
     """
 
     def __init__(
-        self, parts: Mapping[str, ConnectedPart], links: Sequence[Link], *,
-        hub: str = "transmission", carries_on: Sequence[str] = (),
-    ) -> None:  # fmt: skip
+        self,
+        parts: Mapping[str, ConnectedPart],
+        links: Sequence[Link],
+        *,
+        hub: str = "transmission",
+        carries_on: Sequence[str] = (),
+    ) -> None:
         self.parts = dict(parts)
         self.transmission = self.parts[hub]
         self.friction_parts = [p for n, p in self.parts.items() if n != hub]

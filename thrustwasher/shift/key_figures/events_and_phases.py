@@ -43,9 +43,11 @@ def turning(signals: Signals) -> NDArray[np.bool_]:
 
 def find_events(scene: Scene, time: Array, signals: Signals) -> list[Event]:
     """Return all events in the order of time."""
-    start, last = ("shift ramp starts", "shift ramp ends") if scene.kiss_end is None else (
-        "pressures begin to move", "pressures have settled"
-    )  # fmt: skip
+    start, last = (
+        ("shift ramp starts", "shift ramp ends")
+        if scene.kiss_end is None
+        else ("pressures begin to move", "pressures have settled")
+    )
     found = [Event(scene.shift_start, "ramp_start", start)]
     if scene.shift_duration > 0.0:
         found.append(Event(scene.shift_start + scene.shift_duration, "ramp_end", last))
@@ -150,8 +152,11 @@ def find_phases(scene: Scene, signals: Signals, found: list[Event]) -> list[Phas
     locks, held = locks_of(scene, found), lock_up(scene, found)
     lock = held if held is not None else min([*locks[:1], stop])
     release, free = min(first(f"{other}_released"), lock), lock
-    was = [e.kind for e in found if e.time <= start and e.kind in (f"{other}_locked",
-           f"{other}_released")]  # fmt: skip
+    was = [
+        e.kind
+        for e in found
+        if e.time <= start and e.kind in (f"{other}_locked", f"{other}_released")
+    ]
     if (was[-1] if was else "") == f"{other}_locked" or (
         not was and signals[f"transmission.{other}_locked"][0] > 0.5
     ):

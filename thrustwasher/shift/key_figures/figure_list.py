@@ -41,5 +41,6 @@ def assemble(found: Found, pack: str, other: str) -> list[KeyFigure]:
     words = {"pack": pack, "other": other, "film_speed": FILM_SPEED}
     return [
         KeyFigure(name, f.text.format(**words), f.unit, *found[name], f.difference)
-        for name, f in FIGURES.items() if name in found
-    ]  # fmt: skip
+        for name, f in FIGURES.items()
+        if name in found
+    ]

@@ -20,13 +20,17 @@ STEELS = ("aisi1020", "aisi4340")  # of the paper, with its heat
 SAFETIES = ("pitting_safety", "scuffing_safety")
 # Signal of a mesh -> figure: the greatest, or the least while the planets turn, of all meshes.
 GREATEST = {
-    "flash_rise": "peak_flash_rise", "bulk_temperature": "peak_gear_temperature",
-    "surface_temperature": "peak_mesh_temperature", "temperature": "peak_asperity_temperature",
-    "contact_stress": "peak_mesh_stress", "thermal_stress": "peak_mesh_thermal_stress",
-}  # fmt: skip
+    "flash_rise": "peak_flash_rise",
+    "bulk_temperature": "peak_gear_temperature",
+    "surface_temperature": "peak_mesh_temperature",
+    "temperature": "peak_asperity_temperature",
+    "contact_stress": "peak_mesh_stress",
+    "thermal_stress": "peak_mesh_thermal_stress",
+}
 LEAST_TURNING = {
-    "film_ratio": "least_mesh_film_ratio", "micropitting_safety": "least_micropitting_safety",
-}  # fmt: skip
+    "film_ratio": "least_mesh_film_ratio",
+    "micropitting_safety": "least_micropitting_safety",
+}
 
 
 def key_figures(
@@ -324,8 +328,11 @@ def mesh_figures(scene: Scene, time: Array, signals: Signals) -> Found:
 
     def of_all(name: str) -> list[Array]:
         """Return a signal of all meshes in which it has a value."""
-        rated = [p for p, m in zip(MESHES, meshes, strict=False)
-                 if name not in absent_outputs(m.spec, m.params)]  # fmt: skip
+        rated = [
+            p
+            for p, m in zip(MESHES, meshes, strict=False)
+            if name not in absent_outputs(m.spec, m.params)
+        ]
         return [signals[f"{p}.{name}"] for p in rated if f"{p}.{name}" in signals]
 
     found: Found = {"mesh_loss": (float(signals["transmission.mesh_heat"][-1]), None)}

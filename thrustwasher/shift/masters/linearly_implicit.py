@@ -54,9 +54,10 @@ class Correction:
     def __init__(self, system: System) -> None:
         self.hub = hub = system.transmission
         self.wires = [
-            _wire(slot, part, output) for slot, part, output in hub.sources
+            _wire(slot, part, output)
+            for slot, part, output in hub.sources
             if hub.input_names[slot] not in system.carries_on
-        ]  # fmt: skip
+        ]
         kinds = [signal.kind for signal in hub.spec.outputs]
         self._whole = [i for i, kind in enumerate(kinds) if kind in ("integer", "boolean")]
         self._probed: tuple[float, list[float]] | None = None  # for which step and modes
@@ -104,8 +105,9 @@ class Correction:
         """Say what a reader has to know of the corrections of a run."""
         messages = [
             f"{name}: no directional derivatives here (native FMUs have them); {NAME} took "
-            "differences of its outputs" for name in sorted(self.by_differences)
-        ]  # fmt: skip
+            "differences of its outputs"
+            for name in sorted(self.by_differences)
+        ]
         messages += [
             f"{name}: no derivative in {n} steps; there its torque was passed on as it came"
             for name, n in self.without.items()
@@ -113,8 +115,9 @@ class Correction:
         return messages + [
             f"{name}: friction falls with slip, H c/J down to {gain:.2g}: the driveline itself is "
             "unstable there and the step is long beside its growth; nothing was damped"
-            for name, gain in self.worst.items() if gain < -LONG
-        ]  # fmt: skip
+            for name, gain in self.worst.items()
+            if gain < -LONG
+        ]
 
     def _look_ahead(self, t: float, h: float) -> list[float]:
         """Return the outputs that a step with the present torques would end with; renew S."""

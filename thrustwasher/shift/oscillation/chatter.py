@@ -65,13 +65,23 @@ def find_chatter(scene: Scene, time: Array, signals: Signals, step: float) -> li
         smoothing = scene.parts[pack].params.speed_smoothing
         capacity = float(np.median(signals[f"{pack}.torque_capacity"][close]))
         m = planetary(
-            params.ratio, params.input_inertia, params.drum_inertia,
-            params.carrier_inertia, params.vehicle_inertia, pack,
-        )  # fmt: skip
-        found.append(Chatter(
-            pack=pack, start=float(time[close[0]]), turns=len(close), slope=capacity / smoothing,
-            inertia=1.0 / m.slip, smoothing=smoothing,
-            step=min(step, float(np.median(np.diff(time)[close - 1]))),  # where it chatters
-            limit=LIMITS.get(scene.master),
-        ))  # fmt: skip
+            params.ratio,
+            params.input_inertia,
+            params.drum_inertia,
+            params.carrier_inertia,
+            params.vehicle_inertia,
+            pack,
+        )
+        found.append(
+            Chatter(
+                pack=pack,
+                start=float(time[close[0]]),
+                turns=len(close),
+                slope=capacity / smoothing,
+                inertia=1.0 / m.slip,
+                smoothing=smoothing,
+                step=min(step, float(np.median(np.diff(time)[close - 1]))),  # where it chatters
+                limit=LIMITS.get(scene.master),
+            )
+        )
     return found

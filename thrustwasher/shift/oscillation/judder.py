@@ -222,7 +222,7 @@ def _modes(
 
 def _judged(
     scene: Scene, time: Array, signals: Signals, interval: _Interval, found: list[_Window]
-) -> Judder:  # fmt: skip
+) -> Judder:
     """Return the verdict's numbers: means over the windows in which the oscillation is small."""
     gearbox = scene.parts["transmission"].params
     highest = max(found, key=lambda w: w.fit.amplitude)
@@ -243,15 +243,22 @@ def _judged(
     half = 0.5 * PERIODS * 2.0 * math.pi / mode.imag
     locks, stuck_amplitude = _stick_slip(time, signals, pack, interval, 2.0 * math.pi / mode.imag)
     return Judder(
-        pack=pack, start=found[0].fit.middle - half, end=found[-1].fit.middle + half,
-        frequency=oscillation.imag / (2.0 * math.pi), growth=oscillation.real,
-        amplitude=max(highest.fit.amplitude, stuck_amplitude), locks=locks, slope=slopes[pack],
+        pack=pack,
+        start=found[0].fit.middle - half,
+        end=found[-1].fit.middle + half,
+        frequency=oscillation.imag / (2.0 * math.pi),
+        growth=oscillation.real,
+        amplitude=max(highest.fit.amplitude, stuck_amplitude),
+        locks=locks,
+        slope=slopes[pack],
         damping=gearbox.shaft_damping,
         limit_damping=damping_limit_of(gearbox, slopes, interval.held, vehicle),
-        mode_frequency=mode.imag / (2.0 * math.pi), mode_growth=mode.real,
-        step_growth=stepped.real - mode.real, step=float(np.mean([w.step for w in found])),
+        mode_frequency=mode.imag / (2.0 * math.pi),
+        mode_growth=mode.real,
+        step_growth=stepped.real - mode.real,
+        step=float(np.mean([w.step for w in found])),
         scatter=float(np.std([w.fit.growth - w.mode.real for w in found])),
-    )  # fmt: skip
+    )
 
 
 def _stick_slip(

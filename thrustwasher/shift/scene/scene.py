@@ -226,9 +226,11 @@ class Scene:
                 check_together(part.spec, part.params, part.fidelity)
         gearbox = self.parts["transmission"]
         params = _with(
-            gearbox.params, oil_temperature=self.oil_temperature,
-            torque_age=MASTERS[self.master].torque_age, ring_mesh="ring_mesh" in self.parts,
-        )  # fmt: skip
+            gearbox.params,
+            oil_temperature=self.oil_temperature,
+            torque_age=MASTERS[self.master].torque_age,
+            ring_mesh="ring_mesh" in self.parts,
+        )
         parts = {**self.parts, "transmission": replace(gearbox, params=params)}
         # The transmission looks ahead by itself: packs that say where they are now couple to it
         # with second order.
@@ -259,9 +261,11 @@ def shift_of_pressures(gearbox: Any) -> dict[str, Any]:
     begin = next((a[0] for a, b in pairwise(points) if b[1] > a[1]), points[0][0])
     ends = (0.0, 1.0) if engaging == "clutch" else (1.0, 0.0)
     return {
-        "shift_start": begin, "shift_duration": points[-1][0] - begin,
-        "shift_from": ends[0], "shift_to": ends[1],
-    }  # fmt: skip
+        "shift_start": begin,
+        "shift_duration": points[-1][0] - begin,
+        "shift_from": ends[0],
+        "shift_to": ends[1],
+    }
 
 
 def with_fidelities(scene: Scene, wishes: Sequence[str]) -> Scene:

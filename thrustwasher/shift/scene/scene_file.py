@@ -52,9 +52,16 @@ SHIFT = {
     "to": ("1", 0.0, 1.0),
 }
 TABLES = (
-    "shift", "sequence", "published", "oil", "engine", "vehicle", "pressure", *BEARING_TABLES,
+    "shift",
+    "sequence",
+    "published",
+    "oil",
+    "engine",
+    "vehicle",
+    "pressure",
+    *BEARING_TABLES,
     *PARTS,
-)  # fmt: skip
+)
 
 
 def builtin_scenes() -> list[str]:
@@ -219,8 +226,10 @@ def _parts(
             usual = _mates(parts["transmission"].params) if key in MESHES else {}
             parts[key], lost = _part(f"{where} [{key}]", PARTS[key], given, common, usual)
             if lost:
-                notes.append(f"{key}: {', '.join(lost)} of its part or preset give way to "
-                             "the scene's oil; named in the scene they stay")  # fmt: skip
+                notes.append(
+                    f"{key}: {', '.join(lost)} of its part or preset give way to "
+                    "the scene's oil; named in the scene they stay"
+                )
     if the_oil.density_15:
         notes.append(the_oil.words(*_specs(parts)))
     return parts, notes
@@ -310,9 +319,12 @@ RESERVED = {
 
 
 def _part(
-    where: str, spec: ModelSpec, table: dict[str, Any], common: dict[str, Any],
+    where: str,
+    spec: ModelSpec,
+    table: dict[str, Any],
+    common: dict[str, Any],
     usual: dict[str, Any],
-) -> tuple[Part, list[str]]:  # fmt: skip
+) -> tuple[Part, list[str]]:
     """Return a part, and what its file says of the oil in vain; ``common``: the scene's.
 
     ``usual`` are the scene's parameters where neither its table nor the part's file has its own.

@@ -16,9 +16,11 @@ PISTON = {
     for key in ("piston_area", "return_spring", "fill_volume", "fill_flow", "pressure_lag")
 }
 TURNING = {
-    "inner_radius": "piston_inner_radius", "outer_radius": "piston_outer_radius",
-    "supply_radius": "piston_supply_radius", "balance_share": "balance_share",
-}  # fmt: skip
+    "inner_radius": "piston_inner_radius",
+    "outer_radius": "piston_outer_radius",
+    "supply_radius": "piston_supply_radius",
+    "balance_share": "balance_share",
+}
 
 NEEDLES = 0.004  # friction of a needle thrust bearing at its mean radius: an estimate
 BEARING_TABLES = tuple(BEARINGS)

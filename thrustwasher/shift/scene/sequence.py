@@ -41,9 +41,13 @@ def shift_scene(whole: Scene, i: int) -> Scene:
     if params.actuation == "pressure":
         ramp = shift_of_pressures(params)
     return replace(
-        whole, sequence=None, start_time=start, stop_time=start + own.window, **ramp,
+        whole,
+        sequence=None,
+        start_time=start,
+        stop_time=start + own.window,
+        **ramp,
         parts={**whole.parts, "transmission": replace(gearbox, params=params)},
-    )  # fmt: skip
+    )
 
 
 def times(whole: Scene) -> Iterator[float]:
@@ -140,7 +144,8 @@ def read_sequence(where: str, scene: Scene, table: dict[str, Any]) -> ShiftSeque
             down |= points_of(place, key, name, {"points": down.pop(name)})
     return ShiftSequence(
         shifts=tuple((t + more, way) for more in later for t, way in first),
-        window=numbers["window"], pause_step=pause,
+        window=numbers["window"],
+        pause_step=pause,
         courses={"up": own, "down": down or own},
         ramp={f.name: getattr(scene, f.name) for f in fields(scene) if f.name.startswith("shift_")},
-    )  # fmt: skip
+    )

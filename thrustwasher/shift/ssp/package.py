@@ -26,9 +26,13 @@ def files(system: Structure, *, tool: str, date: str) -> dict[str, bytes]:
     units = {m["unit"] for found in used for m in found.values() if m["kind"] == "real"}
     units |= {s.unit for p in system.components for s in p.spec.outputs if s.kind == "real"}
     given = {
-        **system._asdict(), "tool": tool, "date": date, "places": BORDER["places"],
-        "values_of": values_of, "units": {name: exponents(name) for name in units},
-    }  # fmt: skip
+        **system._asdict(),
+        "tool": tool,
+        "date": date,
+        "places": BORDER["places"],
+        "values_of": values_of,
+        "units": {name: exponents(name) for name in units},
+    }
     return {
         "SystemStructure.ssd": filled(HERE / "system.ssd.jinja", plain=False, **given),
         "Parts.ssd": filled(HERE / "system.ssd.jinja", plain=True, **given),

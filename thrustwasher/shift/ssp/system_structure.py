@@ -96,9 +96,12 @@ def plan(scene: Scene, starts: Starts) -> Structure:
 def _source(scene: Scene) -> Part:
     """Return the source of the scene's shift command, one step ahead: it arrives a step late."""
     params = SOURCE_SPEC.params(
-        start=scene.shift_start, duration=scene.shift_duration, before=scene.shift_from,
-        after=scene.shift_to, lead=scene.step,
-    )  # fmt: skip
+        start=scene.shift_start,
+        duration=scene.shift_duration,
+        before=scene.shift_from,
+        after=scene.shift_to,
+        lead=scene.step,
+    )
     return Part(spec=SOURCE_SPEC, fidelity=SOURCE_SPEC.default_fidelity, params=params)
 
 

@@ -18,10 +18,13 @@ from .chart_text import staircase
 COLOURS = {"rungs": BLUE, "mesh of the package": SKY}
 RIVALS = (RED, ORANGE, PURPLE, GREEN, BLACK, GREY)
 WORDS = {
-    "friction_torque": "friction torque", "temperature": "mean temperature",
-    "slip_energy": "slip energy", "lock_time": "lock time", "peak_temperature": "peak temperature",
+    "friction_torque": "friction torque",
+    "temperature": "mean temperature",
+    "slip_energy": "slip energy",
+    "lock_time": "lock time",
+    "peak_temperature": "peak temperature",
     "end_temperature": "interface temperature at the end",
-}  # fmt: skip
+}
 SIDE_BY_SIDE = 3  # names in a row of the legend
 # Names of marks, in points:
 SIZE = 7.5  # points
@@ -54,9 +57,13 @@ def cost_figure(
 
 
 def _panels(
-    study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]], height: float, prefix: str,
-    across: str, crosses: bool = True,
-) -> tuple[Figure, list[Axes]]:  # fmt: skip
+    study: Mapping[str, Any],
+    fronts: Mapping[str, Sequence[int]],
+    height: float,
+    prefix: str,
+    across: str,
+    crosses: bool = True,
+) -> tuple[Figure, list[Axes]]:
     """Return a figure with room for its legend, and a panel of errors per quantity."""
     quantities, families = study["quantities"], {s["family"] for s in study["samples"]}
     foot = -(-(len(families) + 1) // SIDE_BY_SIDE)  # rows of the legend, a name for the front too
@@ -70,9 +77,14 @@ def _panels(
 
 
 def draw_samples(
-    axes: Axes, samples: Sequence[Sampled], quantity: Mapping[str, Any], front: Sequence[int],
-    cost: str = "call_median", spread: str | None = "call_iqr", crosses: bool = True,
-) -> None:  # fmt: skip
+    axes: Axes,
+    samples: Sequence[Sampled],
+    quantity: Mapping[str, Any],
+    front: Sequence[int],
+    cost: str = "call_median",
+    spread: str | None = "call_iqr",
+    crosses: bool = True,
+) -> None:
     """Draw worst (filled) and rms (hollow) of each sample, lines along the knob, the front."""
     name = quantity["name"]
     axes.set(xscale="log", yscale="log")
@@ -83,8 +95,9 @@ def draw_samples(
     decades = math.log10(max(costs) / min(costs))
     wide = max(0.5, decades)
     more = 0.5 * (wide - decades)  # and room for words beside the marks
-    axes.set_xlim(min(costs) / 10.0 ** (more + 0.06 * wide),
-                  max(costs) * 10.0 ** (more + 0.12 * wide))  # fmt: skip
+    axes.set_xlim(
+        min(costs) / 10.0 ** (more + 0.06 * wide), max(costs) * 10.0 ** (more + 0.12 * wide)
+    )
     labels: list[Label] = []
     if 0.8 < wide < 2.0:  # as many numbers as there is room for
         axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
@@ -98,9 +111,16 @@ def draw_samples(
         if members:
             labels += _draw_family(axes, family, members, name, cost, spread, colour, low)
     best = staircase(samples, front, name)
-    axes.step([s[cost] for s in best], [max(s["errors"][name]["worst"], low) for s in best],
-              where="post", color=BLACK, lw=0.9, ls=":", label="nothing beats these (worst case)",
-              zorder=1)  # fmt: skip
+    axes.step(
+        [s[cost] for s in best],
+        [max(s["errors"][name]["worst"], low) for s in best],
+        where="post",
+        color=BLACK,
+        lw=0.9,
+        ls=":",
+        label="nothing beats these (worst case)",
+        zorder=1,
+    )
     if crosses:
         _draw_failures(axes, samples, cost)
     kinds = ("worst", "rms")
@@ -122,9 +142,15 @@ def _draw_floor(axes: Axes, known: Sequence[Sampled], name: str, floor: float) -
 
 
 def _draw_family(
-    axes: Axes, family: str, members: Sequence[Sampled], name: str, cost: str, spread: str | None,
-    colour: str, low: float,
-) -> list[Label]:  # fmt: skip
+    axes: Axes,
+    family: str,
+    members: Sequence[Sampled],
+    name: str,
+    cost: str,
+    spread: str | None,
+    colour: str,
+    low: float,
+) -> list[Label]:
     """Draw one line in the order of its knob; return what is to be named.
 
     Rungs are no line. The marks of the worst case are found in the drawing by ``mark_of``.
@@ -134,13 +160,29 @@ def _draw_family(
     single = all(s["errors"][name]["rms"] == s["errors"][name]["worst"] for s in members)
     for kind, fill in (("worst", colour), ("rms", "white"))[: 1 if single else 2]:
         y = np.maximum([s["errors"][name][kind] for s in members], low)
-        axes.plot(x, y, ls=joined, marker="o" if family != "rungs" else "D", ms=5, color=colour,
-                  mfc=fill, lw=1.2 if kind == "worst" else 0.7, zorder=3,
-                  label=f"{family}: worst, hollow rms" if kind == "worst" else None,
-                  gid=mark_of(name, family) if kind == "worst" else None)  # fmt: skip
+        axes.plot(
+            x,
+            y,
+            ls=joined,
+            marker="o" if family != "rungs" else "D",
+            ms=5,
+            color=colour,
+            mfc=fill,
+            lw=1.2 if kind == "worst" else 0.7,
+            zorder=3,
+            label=f"{family}: worst, hollow rms" if kind == "worst" else None,
+            gid=mark_of(name, family) if kind == "worst" else None,
+        )
         if spread and kind == "worst":
-            axes.errorbar(x, y, xerr=[0.5 * (s[spread] or 0.0) for s in members], fmt="none",
-                          ecolor=colour, elinewidth=0.9, zorder=2)  # fmt: skip
+            axes.errorbar(
+                x,
+                y,
+                xerr=[0.5 * (s[spread] or 0.0) for s in members],
+                fmt="none",
+                ecolor=colour,
+                elinewidth=0.9,
+                zorder=2,
+            )
     shown = members if len(members) < 5 or not single else (members[0], members[-1])
     return [Label(s[cost], max(s["errors"][name]["worst"], low), s["value"], colour) for s in shown]
 
@@ -159,8 +201,15 @@ def _draw_failures(axes: Axes, samples: Sequence[Sampled], cost: str) -> None:
         where: Any = axes.get_xaxis_transform() if s[cost] else axes.transAxes
         x = s[cost] or 0.02
         axes.plot([x], [up], marker="x", ms=7, color=RED, mew=1.8, clip_on=False, transform=where)
-        axes.annotate(text, (x, up), (6, -3), xycoords=where, textcoords="offset points",
-                      fontsize=7.5, color=RED)  # fmt: skip
+        axes.annotate(
+            text,
+            (x, up),
+            (6, -3),
+            xycoords=where,
+            textcoords="offset points",
+            fontsize=7.5,
+            color=RED,
+        )
 
 
 @styled
@@ -214,9 +263,14 @@ def place_labels(axes: Axes, labels: Sequence[Label], marks: Sequence[tuple[floa
                 taken.append(box)
                 line: Any = {"arrowstyle": "-", "lw": 0.5, "color": one.colour, "shrinkB": 3.0}
                 axes.annotate(
-                    one.text, (one.x, one.y), corner, textcoords="offset points",
-                    fontsize=SIZE, color=one.colour, arrowprops=line if far > FAR[0] else None,
-                )  # fmt: skip
+                    one.text,
+                    (one.x, one.y),
+                    corner,
+                    textcoords="offset points",
+                    fontsize=SIZE,
+                    color=one.colour,
+                    arrowprops=line if far > FAR[0] else None,
+                )
                 break
 
 

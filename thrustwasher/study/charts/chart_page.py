@@ -21,15 +21,19 @@ from .chart_cost import cost_figure, count_figure, mark_of, steps_figure
 TITLE = "Speed against accuracy"
 SAME_EVERYWHERE = DATA / "same_everywhere.json"
 WORDS = {
-    "ok": "right", "slow": "right, but costs", "says": "fails and says so",
+    "ok": "right",
+    "slow": "right, but costs",
+    "says": "fails and says so",
     "LIES": "wrong without a word",
-}  # fmt: skip
+}
 SCRIPTS = ("chart/chart.css", "chart/chart.js")
 OF_PACKS = "--fidelity clutch={rung} --fidelity brake={rung}"
 OPTIONS = {  # of commands, by what changes along a series
-    "rung": "--fidelity {value}", "grid": "--grid {value}",
-    "step": '--fidelity {rung} --step "{value}"', "macro step": f'--step "{{value}}" {OF_PACKS}',
-}  # fmt: skip
+    "rung": "--fidelity {value}",
+    "grid": "--grid {value}",
+    "step": '--fidelity {rung} --step "{value}"',
+    "macro step": f'--step "{{value}}" {OF_PACKS}',
+}
 HOW = (
     "Errors are measured against converged values on a fixed list of operating points with the "
     "hard corners in it, times on warm calls one per cent away; filled marks are the worst case, "
@@ -63,8 +67,13 @@ def _stability_section(groups: Sequence[Mapping[str, Any]]) -> Section:
         f"Each cell was run: {lies} of {len(rows)} answers are wrong and come without a word. "
         "Most methods are small ones written for this map; the package's own are named so."
     )
-    return Section("stability", "Where methods fail", widgets=["map"], texts=[words],
-                   tables=[Table(heads, rows, title="All cells", folded=True)])  # fmt: skip
+    return Section(
+        "stability",
+        "Where methods fail",
+        widgets=["map"],
+        texts=[words],
+        tables=[Table(heads, rows, title="All cells", folded=True)],
+    )
 
 
 def _points(study: Mapping[str, Any], model: str) -> dict[str, list[list[str]]]:
@@ -124,14 +133,23 @@ def _data(record: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _steps_section(study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]) -> Section:
-    heads = ["way", "step", "per simulated second",
-             *(q["name"] for q in study["quantities"]), "what was wrong"]  # fmt: skip
+    heads = [
+        "way",
+        "step",
+        "per simulated second",
+        *(q["name"] for q in study["quantities"]),
+        "what was wrong",
+    ]
     rows = [
-        [s["family"], s["value"], text.seconds(s["call_median"]),
-         *(text.error_text(s["errors"][q["name"]]["worst"], q) for q in study["quantities"]),
-         "; ".join(s["failures"].values())]
+        [
+            s["family"],
+            s["value"],
+            text.seconds(s["call_median"]),
+            *(text.error_text(s["errors"][q["name"]]["worst"], q) for q in study["quantities"]),
+            "; ".join(s["failures"].values()),
+        ]
         for s in study["samples"]
-    ]  # fmt: skip
+    ]
     words = (
         f"The scene is {study['scene']}. Errors are those of quantities that a shift does not "
         "forget, against the limit that gauss-seidel and jacobi tend to. Where friction torques "
@@ -145,11 +163,12 @@ def _steps_section(study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]
         "but chatters or does not lock."
     )
     return Section(
-        "macro-steps", "A shift: error against cost over step, master, coupling and rung",
+        "macro-steps",
+        "A shift: error against cost over step, master, coupling and rung",
         texts=[words, *text.order_sentences(study)],
         plots=[Plot("chart-shift", steps_figure(study, fronts), caption)],
         tables=[Table(heads, rows, numbers=(2, 3, 4, 5), title="All runs", folded=True)],
-    )  # fmt: skip
+    )
 
 
 def _model_section(
@@ -162,7 +181,9 @@ def _model_section(
     cases = [[c["name"], ", ".join(f"{v:g}" for v in c["point"])] for c in survey["cases"]]
     count_caption = "The same errors over counts that need no machine."
     return Section(
-        model, f"{model}: error against cost", texts=[t for t in texts if t],
+        model,
+        f"{model}: error against cost",
+        texts=[t for t in texts if t],
         plots=[
             Plot(f"chart-{model}", cost_figure(model, survey, fronts), HOW),
             Plot(f"chart-{model}-count", count_figure(model, survey), count_caption),
@@ -172,15 +193,22 @@ def _model_section(
             Table(even_heads, even_rows, (1, 2, 3, 4), title="What set-up is worth"),
             Table(("case", "inputs"), cases, title="Cases", folded=True),
         ],
-    )  # fmt: skip
+    )
 
 
 def corrections_section(rows: Sequence[Mapping[str, Any]]) -> Section:
     """Return what the corrections of the physics moved, and by which factor."""
     table = [
-        [r["part"], r["figure"], r["unit"], f"{r['before']:.3g}{'*' if r['recorded'] else ''}",
-         f"{r['after']:.3g}", f"{r['after'] / r['before']:.2g}"] for r in rows
-    ]  # fmt: skip
+        [
+            r["part"],
+            r["figure"],
+            r["unit"],
+            f"{r['before']:.3g}{'*' if r['recorded'] else ''}",
+            f"{r['after']:.3g}",
+            f"{r['after'] / r['before']:.2g}",
+        ]
+        for r in rows
+    ]
     heads = ["correction", "figure", "unit", "before", "after", "times"]
     words = (
         'Before is the preset "paper" of a model or the former scene, computed now; * is what '
@@ -188,10 +216,12 @@ def corrections_section(rows: Sequence[Mapping[str, Any]]) -> Section:
     )
     caption = "After over before: bars to the right grew, bars to the left shrank."
     return Section(
-        "corrections", "What the corrections moved", texts=[words],
+        "corrections",
+        "What the corrections moved",
+        texts=[words],
         plots=[Plot("chart-corrections", corrections_figure(rows), caption)],
         tables=[Table(heads, table, numbers=(3, 4, 5))],
-    )  # fmt: skip
+    )
 
 
 @styled
@@ -244,7 +274,9 @@ def stability_markdown(record: Mapping[str, Any]) -> Any:
     """Return the page for a record with ``stability`` and ``limits``."""
     groups: Sequence[Mapping[str, Any]] = record["stability"]
     return template(Path(__file__).with_name("stability.md.jinja")).render(
-        words=WORDS, groups=groups, limits=record.get("limits", []),
+        words=WORDS,
+        groups=groups,
+        limits=record.get("limits", []),
         verdicts=[cell["verdict"] for g in groups for row in g["cells"] for cell in row],
         machine=text.machine_sentence(record),
-    )  # fmt: skip
+    )

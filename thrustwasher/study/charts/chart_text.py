@@ -23,13 +23,15 @@ def beats(a: Sampled, b: Sampled, quantity: str) -> bool:
 def front(samples: Sequence[Sampled], quantity: str) -> list[int]:
     """Return the indices of the samples that no other beats, by rising cost."""
     valid = [
-        i for i, s in enumerate(samples)
+        i
+        for i, s in enumerate(samples)
         if s["call_median"] is not None and s["errors"].get(quantity, {}).get("worst") is not None
-    ]  # fmt: skip
+    ]
     kept = [
-        i for i in valid
+        i
+        for i in valid
         if not any(beats(samples[j], samples[i], quantity) for j in valid if j != i)
-    ]  # fmt: skip
+    ]
     return sorted(kept, key=lambda i: samples[i]["call_median"])
 
 
@@ -74,14 +76,19 @@ def sample_rows(survey: Mapping[str, Any]) -> tuple[Row, list[Row]]:
         slowest = seconds(s["slowest_call_s"])
         slowest += f" ({s['slowest_case']})" if s["slowest_call_s"] is not None else ""
         row = [
-            s["label"], seconds(s["call_median"]),
+            s["label"],
+            seconds(s["call_median"]),
             "-" if spread is None else f"{100 * spread:.0f} %" + (" !" if spread > 0.1 else ""),
-            seconds(s["call_min"]), slowest, seconds(s["setup_s"]),
-        ]  # fmt: skip
+            seconds(s["call_min"]),
+            slowest,
+            seconds(s["setup_s"]),
+        ]
         for q in quantities:
             errors = s["errors"][q["name"]]
-            row += [f"{error_text(errors['worst'], q)} ({errors['case']})",
-                    error_text(errors["rms"], q)]  # fmt: skip
+            row += [
+                f"{error_text(errors['worst'], q)} ({errors['case']})",
+                error_text(errors["rms"], q),
+            ]
         rows.append([*row, f"{s['n_failed']} of {s['n_cases']}"])
     return [*heads, "failed"], rows
 
@@ -89,8 +96,13 @@ def sample_rows(survey: Mapping[str, Any]) -> tuple[Row, list[Row]]:
 def break_even_rows(survey: Mapping[str, Any], basis: str) -> tuple[Row, list[Row]]:
     """Return from how many calls on a way that is set up at some cost is cheaper than ``basis``."""
     base = next((s for s in survey["samples"] if s["label"] == basis), None)
-    heads = ["way", "built once", "set-up", "warm call",
-             f"calls from which it is cheaper than {basis}"]  # fmt: skip
+    heads = [
+        "way",
+        "built once",
+        "set-up",
+        "warm call",
+        f"calls from which it is cheaper than {basis}",
+    ]
     rows = []
     for s in survey["samples"]:
         if base is None or s["is_rival"] or not s["call_median"] or s is base:
@@ -150,8 +162,9 @@ def order_sentences(study: Mapping[str, Any]) -> list[str]:
             if (order := _order(members, q["name"])) is not None
         ]
         if wrong:
-            words = dict.fromkeys(re.sub(r"\d+", "many", w) for s in wrong
-                                  for w in s["failures"].values())  # fmt: skip
+            words = dict.fromkeys(
+                re.sub(r"\d+", "many", w) for s in wrong for w in s["failures"].values()
+            )
             found.append(f"{family}: wrong in {len(wrong)} of {len(members)} ({'; '.join(words)}).")
         elif orders:
             found.append(f"{family}: order {', '.join(orders)}.")

@@ -68,15 +68,22 @@ def _clutch(spec: ModelSpec, *, quick: bool = False) -> list[Configuration]:
         for name in spec.rungs
     ]
     steps = [
-        Configuration(f"{name} over the step", f"{name}, {1e3 * h:g} ms", "step", f"{1e3 * h:g} ms",
-                      partial(ClutchMethod, name, h), "steps")
+        Configuration(
+            f"{name} over the step",
+            f"{name}, {1e3 * h:g} ms",
+            "step",
+            f"{1e3 * h:g} ms",
+            partial(ClutchMethod, name, h),
+            "steps",
+        )
         for name in ("field", "fine")
         for h in (STEPS[::2] if quick else STEPS)
-    ]  # fmt: skip
+    ]
     return rungs + steps
 
 
 CLUTCH = Chart(
     (Quantity("slip_energy", True), Quantity("end_temperature", False, unit="K")),
-    "engagement of 0.6 s [s]", _clutch,
-)  # fmt: skip
+    "engagement of 0.6 s [s]",
+    _clutch,
+)

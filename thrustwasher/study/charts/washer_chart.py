@@ -27,10 +27,16 @@ class MeshMethod(KernelMethod):
 def _washer(spec: ModelSpec, *, quick: bool = False) -> list[Configuration]:
     """Return rungs, and meshes from coarse to fine."""
     meshes = [
-        Configuration("mesh of the package", f"{r} x {t}", "grid", f"{r}x{t}",
-                      partial(MeshMethod, spec, (r, t)), "Newton iterations x nodes")
+        Configuration(
+            "mesh of the package",
+            f"{r} x {t}",
+            "grid",
+            f"{r}x{t}",
+            partial(MeshMethod, spec, (r, t)),
+            "Newton iterations x nodes",
+        )
         for r, t in (GRIDS[::3] if quick else GRIDS)
-    ]  # fmt: skip
+    ]
     return [*rungs(spec), *meshes]
 
 

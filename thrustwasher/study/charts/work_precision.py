@@ -56,9 +56,13 @@ class Sample:
 
 
 def measure(
-    setting: Configuration, cases: Sequence[ChartCase], known: Sequence[ReferenceValues],
-    quantities: Sequence[Quantity], *, repeats: int = REPEATS,
-) -> Sample:  # fmt: skip
+    setting: Configuration,
+    cases: Sequence[ChartCase],
+    known: Sequence[ReferenceValues],
+    quantities: Sequence[Quantity],
+    *,
+    repeats: int = REPEATS,
+) -> Sample:
     """Return error and cost of a method at a setting over the cases."""
     began = time.perf_counter()
     method, missing = None, ""
@@ -85,13 +89,29 @@ def measure(
     slowest = max(timings, key=lambda name: timings[name].median, default=None)
     errors = {name: _errors(pairs) for name, pairs in found.items()}
     return Sample(
-        setting.family, setting.label, setting.knob, setting.value, digest(tuple(cases)), errors,
-        uncertainty_of(known, quantities), timing.median, timing.iqr, timing.least,
-        timing.repeats, timing.first, setup, statistics.fmean(counts) if counts else math.nan,
-        setting.count_of, len(cases), len(failures), failures, setting.is_rival,
-        timings[slowest].median if slowest else math.nan, slowest,
+        setting.family,
+        setting.label,
+        setting.knob,
+        setting.value,
+        digest(tuple(cases)),
+        errors,
+        uncertainty_of(known, quantities),
+        timing.median,
+        timing.iqr,
+        timing.least,
+        timing.repeats,
+        timing.first,
+        setup,
+        statistics.fmean(counts) if counts else math.nan,
+        setting.count_of,
+        len(cases),
+        len(failures),
+        failures,
+        setting.is_rival,
+        timings[slowest].median if slowest else math.nan,
+        slowest,
         float(getattr(method, "build_s", 0.0)),
-    )  # fmt: skip
+    )
 
 
 def _ask(method: Method, case: ChartCase) -> tuple[MethodAnswer | None, str]:
@@ -173,8 +193,9 @@ def work_precision(
         samples.append(measure(setting, cases, true, quantities, repeats=repeats).as_dict())
     return {
         "cases": [{"name": c.name, "point": c.point, "before": c.before} for c in cases],
-        "cases_digest": digest(cases), "cost_of": chart.cost_of,
+        "cases_digest": digest(cases),
+        "cost_of": chart.cost_of,
         "quantities": [q.as_dict() for q in quantities],
         "truths": [{q.name: t.values[q.name] for q in quantities} for t in known[""]],
         "samples": samples,
-    }  # fmt: skip
+    }

@@ -13,9 +13,14 @@ from ...numerics.status import BAD_INPUT, NOT_FINITE, OK
 
 PORTS = 6
 (
-    P_VOLUME, P_OIL_DENSITY, P_OIL_HEAT_CAPACITY, P_HOUSING_CAPACITY, P_CONDUCTANCE,
-    P_INITIAL_TEMPERATURE, P_FACTOR,
-) = range(7)  # fmt: skip
+    P_VOLUME,
+    P_OIL_DENSITY,
+    P_OIL_HEAT_CAPACITY,
+    P_HOUSING_CAPACITY,
+    P_CONDUCTANCE,
+    P_INITIAL_TEMPERATURE,
+    P_FACTOR,
+) = range(7)
 N_PARAM = P_FACTOR + PORTS + 1
 D_HEAT, D_CAPACITY = N_PARAM, N_PARAM + 1  # of a volume of oil [J/(m3 K)]; of the sump [J/K]
 NPAR = N_PARAM + 2
@@ -44,9 +49,15 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
 
 @kernel
 def step(
-    par: Array, inp: Array, state: Array, work: Array, out: Array, iout: NDArray[np.int32],
-    t: float, dt: float,
-) -> int:  # fmt: skip
+    par: Array,
+    inp: Array,
+    state: Array,
+    work: Array,
+    out: Array,
+    iout: NDArray[np.int32],
+    t: float,
+    dt: float,
+) -> int:
     """Advance the sump by ``dt`` and fill the outputs; return 0 or the status of a failure."""
     good = math.isfinite(dt) and dt >= 0.0 and inp[I_FLOW] >= 0.0
     for i in range(NINP):

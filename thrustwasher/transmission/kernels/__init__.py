@@ -5,7 +5,7 @@
 ``dynamics``                torques and accelerations for given modes of clutch and brake
 ``thrust_bearings``         what the bearings of sun and ring take from their shafts
 ``stick_slip``              which modes are consistent, and when they end
-``integrate_step``          stretches of smooth motion between the instants where something changes
+``integrate_step``          intervals of smooth motion between the instants where something changes
 ``piston``                  courses of pressure, filling, lag, centrifugal head
 ``directional_derivative``  how the outputs change with the inputs: exact, modes as they are
 ``step``                    one co-simulation step: received torques in, speeds and loads out

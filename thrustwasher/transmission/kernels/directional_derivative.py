@@ -41,9 +41,14 @@ def pack_change(
 
 @kernel
 def torque_changes(
-    par: Array, work: Array, clutch: tuple[float, float], brake: tuple[float, float], drag: float,
-    engine: float, load: float,
-) -> tuple[float, float]:  # fmt: skip
+    par: Array,
+    work: Array,
+    clutch: tuple[float, float],
+    brake: tuple[float, float],
+    drag: float,
+    engine: float,
+    load: float,
+) -> tuple[float, float]:
     """Return changes of X and T_brake for the modes in ``work``, as ``solve_torques`` finds them.
 
     ``clutch``, ``brake``: changes of torque given and capacity; ``drag``, ``engine`` and ``load``
@@ -87,9 +92,16 @@ def share_change(
 
 @kernel
 def balance_change(
-    par: Array, work: Array, clutch: tuple[float, float], brake: tuple[float, float], drag: float,
-    engine: float, load: float, capacity: float, teeth: float,
-) -> tuple[float, float, float, float, float]:  # fmt: skip
+    par: Array,
+    work: Array,
+    clutch: tuple[float, float],
+    brake: tuple[float, float],
+    drag: float,
+    engine: float,
+    load: float,
+    capacity: float,
+    teeth: float,
+) -> tuple[float, float, float, float, float]:
     """Return changes of tooth torque, clutch, brake, drag and the carrier's acceleration.
 
     ``teeth``: the change of the tooth torque's size as the bearings feel it; ``capacity``: that of

@@ -303,7 +303,7 @@ def broken_rule(par: Array) -> int:
     if par[L.P_PISTON_SUPPLY_RADIUS] > outer:
         return 8
     for which in range(3):
-        first = L.P_CLUTCH_COURSE + which * L.N_COURSE
+        first = L.P_CLUTCH_PROFILE + which * L.N_PROFILE
         for i in range(1, int(par[np.uintp(first)])):
             if not par[np.uintp(first + 1 + i)] > par[np.uintp(first + i)]:
                 return 9 + which

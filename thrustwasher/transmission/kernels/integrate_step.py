@@ -1,7 +1,7 @@
 # mypy: disable-error-code="no-any-return"
-"""The course of one step: stretches of smooth motion between the instants where something changes.
+"""One step: intervals of smooth motion between the instants where something changes.
 
-A stretch ends where the engine is turned on or its course has a point, where an extrapolated
+An interval ends where the engine is turned on or its profile has a point, where an extrapolated
 capacity reaches zero, or where a pack locks or breaks away; the instant is located on the local
 solution.
 """
@@ -13,7 +13,7 @@ from ...numerics.jit import Array, kernel
 from ...numerics.status import MAX_ITERATIONS, NO_EVENT, NOT_FINITE, OK
 from . import layout as L
 from .dynamics import trial_step
-from .piston import course, next_point
+from .piston import next_point, profile
 from .stick_slip import decide, dip, guard, locate, slip_of
 
 MAX_TRIALS = 20000
@@ -23,12 +23,12 @@ LEAST_SHARE = 1e-9  # of the step: shorter returns to zero slip are rounding
 
 @kernel
 def next_break(par: Array, work: Array, t: float, s: float, end: float) -> float:
-    """Return the end of the stretch that begins at ``s``: the next instant known beforehand."""
+    """Return the end of the interval that begins at ``s``: the next instant known beforehand."""
     found = end
     instant = par[L.P_ENGINE_START_TIME] - t
     if s < instant < found:
         found = instant
-    point = next_point(par, L.P_ENGINE_COURSE, t + s, t + end)
+    point = next_point(par, L.P_ENGINE_PROFILE, t + s, t + end)
     if point < t + end and s < point - t < found:
         found = point - t
     for k in range(2):
@@ -45,10 +45,10 @@ def next_break(par: Array, work: Array, t: float, s: float, end: float) -> float
 def begin_stretch(par: Array, work: Array, t: float, s: float, end: float) -> None:
     """Set what holds from ``s`` to ``end``: engine torque, which packs can hold, modes."""
     middle = 0.5 * (s + end)
-    if par[L.P_ENGINE_COURSE] > 0.0:
-        start, slope = course(par, L.P_ENGINE_COURSE, t + s), 0.0
+    if par[L.P_ENGINE_PROFILE] > 0.0:
+        start, slope = profile(par, L.P_ENGINE_PROFILE, t + s), 0.0
         if end > s:
-            slope = (course(par, L.P_ENGINE_COURSE, t + end) - start) / (end - s)
+            slope = (profile(par, L.P_ENGINE_PROFILE, t + end) - start) / (end - s)
         start -= slope * s
     else:
         on = t + middle >= par[L.P_ENGINE_START_TIME]

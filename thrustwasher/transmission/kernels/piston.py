@@ -21,7 +21,7 @@ HALVINGS = 60
 
 
 @kernel
-def course(par: Array, first: int, t: float) -> float:
+def profile(par: Array, first: int, t: float) -> float:
     """Return the value at ``t`` [s] of the points at ``par[first:]``: number, times, values.
 
     Straight between points, constant before the first and after the last; 0 without points.
@@ -42,7 +42,7 @@ def course(par: Array, first: int, t: float) -> float:
 
 @kernel
 def next_point(par: Array, first: int, t: float, end: float) -> float:
-    """Return the time [s] of the first point of a course between ``t`` and ``end``, or ``end``."""
+    """Return the time [s] of the first point of a profile between ``t`` and ``end``, or ``end``."""
     for i in range(int(par[np.uintp(first)])):
         time = par[np.uintp(first + 1 + i)]
         if t < time < end:
@@ -56,7 +56,7 @@ def commanded(
 ) -> float:
     """Return the pressure commanded at ``t`` [Pa]: by points, and by the input in a step."""
     given = before + (after - before) * ((t - begin) / dt) if dt > 0.0 else after
-    return course(par, L.P_CLUTCH_COURSE + pack * L.N_COURSE, t) + given
+    return profile(par, L.P_CLUTCH_PROFILE + pack * L.N_PROFILE, t) + given
 
 
 @kernel
@@ -123,7 +123,7 @@ def advance(
             work[np.uintp(at + L.PISTON_VOLUME)] = filling
             work[np.uintp(at + L.PISTON_FULL)] = 1.0 if full else 0.0
             return OK
-        stop = next_point(par, L.P_CLUTCH_COURSE + pack * L.N_COURSE, s, end)
+        stop = next_point(par, L.P_CLUTCH_PROFILE + pack * L.N_PROFILE, s, end)
         goal = commanded(par, pack, stop, t, dt, before, after)
         slope = (goal - start) / (stop - s)
         if (start - spring) * (goal - spring) < 0.0:

@@ -63,7 +63,7 @@ def first_guess(w: Workspace, pt: Point) -> float:
 
 @kernel
 def settle(w: Workspace, pt: Point, upper: float, lower: float) -> int:
-    """Solve for the load between two film thicknesses [m] that bracket it on a stable stretch.
+    """Solve for the load between two film thicknesses [m] that bracket it on a stable interval.
 
     ``upper`` carries less than the load, ``lower`` at least the load.
     """

@@ -243,9 +243,13 @@ def contact_pair(par: Array, body: int) -> ContactPair:
 def _tabulate(par: Array, pair: ContactPair, scatter: float, table: Array, scratch: Array) -> bool:
     """Fill the contact table of a pair of bodies; return True if it could be filled."""
     a = asperity_args(
-        pair.contact_modulus, pair.youngs_modulus, pair.poisson_ratio, pair.yield_strength,
-        par[L.P_YIELD_STRAIN_LAW] == L.CONTACT_YIELD, par[L.P_ASPERITY_RADIUS],
-    )  # fmt: skip
+        pair.contact_modulus,
+        pair.youngs_modulus,
+        pair.poisson_ratio,
+        pair.yield_strength,
+        par[L.P_YIELD_STRAIN_LAW] == L.CONTACT_YIELD,
+        par[L.P_ASPERITY_RADIUS],
+    )
     return contact_table(a, par[L.P_ASPERITY_DENSITY], scatter, table, scratch)
 
 

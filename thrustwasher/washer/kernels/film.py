@@ -84,9 +84,14 @@ def mark_film(m: WasherModel, f: Fields) -> tuple[float, float, int]:
             c_d = f.cr[down] * (here + f.fluidity[down])
             diagonal = c_n + c_b + c_u + c_d
             flow = (
-                diagonal * p[k] - c_n * p[kn] - c_b * p[kb] - c_u * p[up] - c_d * p[down]
-                + f.wedge[k] - f.wedge[kb]
-            ) / diagonal  # fmt: skip
+                diagonal * p[k]
+                - c_n * p[kn]
+                - c_b * p[kb]
+                - c_u * p[up]
+                - c_d * p[down]
+                + f.wedge[k]
+                - f.wedge[kb]
+            ) / diagonal
             before = f.wet[k]
             if p[k] > flow:
                 f.wet[k] = 1.0
@@ -173,16 +178,32 @@ def _right_sides(m: WasherModel, f: Fields) -> None:
             k, o = j * n_r + i, jn * n_r + i
             drop = p[k] - p[o]
             fluid = f.fluidity[k] + f.fluidity[o]
-            _face(f, k, o, f.ct[k], drop, f.dct[k] * fluid * drop + f.dwedge[k],
-                  m.r[i] * m.cos_face[j], m.r[i] * m.sin_face[j])  # fmt: skip
+            _face(
+                f,
+                k,
+                o,
+                f.ct[k],
+                drop,
+                f.dct[k] * fluid * drop + f.dwedge[k],
+                m.r[i] * m.cos_face[j],
+                m.r[i] * m.sin_face[j],
+            )
         if not used:
             continue
         for i in range(n_r - 1):
             k = j * n_r + i
             drop = p[k] - p[k + 1]
             fluid = f.fluidity[k] + f.fluidity[k + 1]
-            _face(f, k, k + 1, f.cr[k], drop, f.dcr[k] * fluid * drop,
-                  m.r_face[i] * m.cos[j], m.r_face[i] * m.sin[j])  # fmt: skip
+            _face(
+                f,
+                k,
+                k + 1,
+                f.cr[k],
+                drop,
+                f.dcr[k] * fluid * drop,
+                m.r_face[i] * m.cos[j],
+                m.r_face[i] * m.sin[j],
+            )
 
 
 @kernel

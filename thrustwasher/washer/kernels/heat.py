@@ -284,9 +284,15 @@ def let_film_follow(
 
 @kernel
 def heat_change(
-    m: WasherModel, pt: Point, change: Point, q: Array, dq: Array, dtemp: Array, f: Fields,
+    m: WasherModel,
+    pt: Point,
+    change: Point,
+    q: Array,
+    dq: Array,
+    dtemp: Array,
+    f: Fields,
     heat: Array,
-) -> float:  # fmt: skip
+) -> float:
     """Fill ``heat`` [W], the change of the heat residual; return that of what rims carry away [W].
 
     ``change`` is that of the operating point, ``dq`` (4,) of the positions, ``dtemp`` (n_temp,) of
@@ -334,10 +340,15 @@ def heat_change(
             part, dpart = 1.0, 0.0
             if m.only_liquid:
                 part, dpart = f.liquid[k], f.dliquid[k]
-            shear = w1 * v * per_gap * (
-                part * (dmu * v + 2.0 * f.mu[k] * dv - f.mu[k] * v * dht * per_gap)
-                + dpart * f.mu[k] * v
-            )  # fmt: skip
+            shear = (
+                w1
+                * v
+                * per_gap
+                * (
+                    part * (dmu * v + 2.0 * f.mu[k] * dv - f.mu[k] * v * dht * per_gap)
+                    + dpart * f.mu[k] * v
+                )
+            )
             if by_pressure:
                 shear += f.doutlet[k]
             shear *= m.film_heat_fraction

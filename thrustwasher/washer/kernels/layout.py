@@ -18,19 +18,43 @@ ON_WASHER, ON_GEAR, MOMENT_X, MOMENT_Y = range(4)
 # `par`: parameters in the order of WasherParams, then the fidelity. Behind a property of all
 # bodies come those of carrier, washer and gear, 0 where a body has the common one.
 (
-    P_INNER_RADIUS, P_OUTER_RADIUS, P_GEAR_INNER_RADIUS, P_CARRIER_THICKNESS, P_WASHER_THICKNESS,
-    P_GEAR_THICKNESS, P_ROUGHNESS, P_ROUGHNESS_CARRIER, P_ROUGHNESS_WASHER, P_ROUGHNESS_GEAR,
-) = range(10)  # fmt: skip
+    P_INNER_RADIUS,
+    P_OUTER_RADIUS,
+    P_GEAR_INNER_RADIUS,
+    P_CARRIER_THICKNESS,
+    P_WASHER_THICKNESS,
+    P_GEAR_THICKNESS,
+    P_ROUGHNESS,
+    P_ROUGHNESS_CARRIER,
+    P_ROUGHNESS_WASHER,
+    P_ROUGHNESS_GEAR,
+) = range(10)
 P_YOUNGS_MODULUS, P_POISSON_RATIO, P_YIELD_STRENGTH = 10, 14, 18
 P_YIELD_STRAIN_LAW, P_ASPERITY_RADIUS, P_ASPERITY_DENSITY, P_ASPERITY_HEIGHT_LAW = range(22, 26)
 P_CONDUCTIVITY = 26
 (
-    P_CONDUCTION, P_GEAR_FAR_FACE, P_OIL_CONDUCTIVITY, P_VISCOSITY_CONSTANT, P_VISCOSITY_EXPONENT,
-    P_VISCOSITY_SCALE, P_OIL_COOLING, P_OIL_DENSITY, P_OIL_HEAT_CAPACITY, P_SUPPLY_TEMPERATURE,
-    P_CAVITY_SHEAR, P_PRESSURE_FLOW_SHEAR, P_FRICTION_LAW, P_DRY_FRICTION, P_FRICTION_REFERENCE,
-    P_FRICTION_SLOPE, P_FRICTION_PRESSURE_MIN, P_FRICTION_PRESSURE_MAX, P_HEAT_SPLIT,
-    P_FILM_HEAT_FRACTION, P_THERMAL_MODE,
-) = range(30, 51)  # fmt: skip
+    P_CONDUCTION,
+    P_GEAR_FAR_FACE,
+    P_OIL_CONDUCTIVITY,
+    P_VISCOSITY_CONSTANT,
+    P_VISCOSITY_EXPONENT,
+    P_VISCOSITY_SCALE,
+    P_OIL_COOLING,
+    P_OIL_DENSITY,
+    P_OIL_HEAT_CAPACITY,
+    P_SUPPLY_TEMPERATURE,
+    P_CAVITY_SHEAR,
+    P_PRESSURE_FLOW_SHEAR,
+    P_FRICTION_LAW,
+    P_DRY_FRICTION,
+    P_FRICTION_REFERENCE,
+    P_FRICTION_SLOPE,
+    P_FRICTION_PRESSURE_MIN,
+    P_FRICTION_PRESSURE_MAX,
+    P_HEAT_SPLIT,
+    P_FILM_HEAT_FRACTION,
+    P_THERMAL_MODE,
+) = range(30, 51)
 P_DENSITY, P_SPECIFIC_HEAT = 51, 55
 P_BODY_STORAGE, P_THERMAL_START, P_FIDELITY, N_PARAM = range(59, 63)
 N_STEADY = P_THERMAL_MODE  # a steady solution depends on those before; what follows is of time
@@ -44,9 +68,19 @@ MAP, FIELD, FINE = 1, 3, 4  # fidelity; 2 was coarser and runs as FIELD
 # Behind them: nodes, and the radial one at the gear's inner radius; RMS roughness of film 1 and
 # gap 2 [m]; (carrier^2 - washer^2)/film 1^2; means and scatters of the summits [m].
 (
-    D_RADIAL, D_AROUND, D_GEAR_NODE, D_SIGMA1, D_SIGMA2, D_SHEAR, D_MEAN_SUMMIT1, D_MEAN_SUMMIT2,
-    D_SUMMIT_SIGMA1, D_SUMMIT_SIGMA2, D_PER_COLUMN, D_RINGS,
-) = range(N_PARAM, N_PARAM + 12)  # fmt: skip
+    D_RADIAL,
+    D_AROUND,
+    D_GEAR_NODE,
+    D_SIGMA1,
+    D_SIGMA2,
+    D_SHEAR,
+    D_MEAN_SUMMIT1,
+    D_MEAN_SUMMIT2,
+    D_SUMMIT_SIGMA1,
+    D_SUMMIT_SIGMA2,
+    D_PER_COLUMN,
+    D_RINGS,
+) = range(N_PARAM, N_PARAM + 12)
 D_TABLE1 = N_PARAM + 16  # contact tables of film 1 and gap 2
 D_TABLE2 = D_TABLE1 + N_TABLE
 D_MESH = D_TABLE2 + N_TABLE  # arrays over the radial nodes, then over the angles
@@ -59,10 +93,25 @@ NINP = 5
 
 # `out`, in the order of the model's list; behind them what only Python shows.
 (
-    O_TORQUE, O_MEAN, O_FILM, O_PEAK, O_RATIO, O_FLUID_SHARE, O_COEFFICIENT, O_POWER, O_OIL_FLOW,
-    O_THROUGHFLOW_HEAT, O_OIL_HEAT, O_OUTLET, O_FILM_TEMPERATURE, O_STICK_MARGIN, O_ENERGY,
-    O_STORED_HEAT, O_FLUID_LOAD, O_CONTACT_LOAD,
-) = range(18)  # fmt: skip
+    O_TORQUE,
+    O_MEAN,
+    O_FILM,
+    O_PEAK,
+    O_RATIO,
+    O_FLUID_SHARE,
+    O_COEFFICIENT,
+    O_POWER,
+    O_OIL_FLOW,
+    O_THROUGHFLOW_HEAT,
+    O_OIL_HEAT,
+    O_OUTLET,
+    O_FILM_TEMPERATURE,
+    O_STICK_MARGIN,
+    O_ENERGY,
+    O_STORED_HEAT,
+    O_FLUID_LOAD,
+    O_CONTACT_LOAD,
+) = range(18)
 NOUT, N_ALL = 16, 18
 IO_REGIME, IO_DISTRESS, IO_STATUS, NIOUT = range(4)
 HOT_LIMIT = 523.0  # [K] of the hottest spot; above it oil and washer are lost

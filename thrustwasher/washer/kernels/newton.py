@@ -255,9 +255,14 @@ def _take(f: Fields, share: float, q: Array) -> None:
 
 @kernel
 def newton(
-    w: Workspace, pt: Point, mode: float, target: float, floor: float, tolerance: float,
+    w: Workspace,
+    pt: Point,
+    mode: float,
+    target: float,
+    floor: float,
+    tolerance: float,
     max_iterations: float,
-) -> int:  # fmt: skip
+) -> int:
     """Solve for positions ``w.q`` and temperatures ``f.temp``; return a status.
 
     The pressure ``f.p`` is solved for at each of them. The heat factor and its slopes serve as

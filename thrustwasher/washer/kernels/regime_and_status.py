@@ -119,9 +119,11 @@ def change_of(par: Array, inp: Array, seed: Array) -> Point:
 def is_verified(pt: Point) -> bool:
     """Tell if the operating point is inside the range that the tests cover."""
     return (
-        pt.load <= 3000.0 and abs(pt.speed) <= 1500.0 and pt.tilt <= 0.004
+        pt.load <= 3000.0
+        and abs(pt.speed) <= 1500.0
+        and pt.tilt <= 0.004
         and 260.0 <= pt.oil_temperature <= 420.0
-    )  # fmt: skip
+    )
 
 
 @kernel

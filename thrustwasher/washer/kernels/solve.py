@@ -27,9 +27,11 @@ def _remembered(state: Array, n_temp: int, n: int) -> tuple[Array, Array, Array,
     ladder = factor + n_temp
     end = ladder + L.N_TERMS * n_temp
     return (
-        state[L.S_FIELDS : pressure], state[pressure:factor], state[factor:ladder],
+        state[L.S_FIELDS : pressure],
+        state[pressure:factor],
+        state[factor:ladder],
         state[ladder:end],
-    )  # fmt: skip
+    )
 
 
 @kernel

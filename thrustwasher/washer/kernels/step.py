@@ -36,15 +36,31 @@ MAP_WORK = L.N_HEAD + size_of_work(*FINE_GRID)  # behind the fields: scratch of 
 BY_MAP = MAP_WORK + N_MAP_WORK  # 1 if the last solution was looked up, then the map itself
 TABLE_AT = BY_MAP + 1
 TABLE = {
-    "AT": TABLE_AT, "ROOM": ROOM, "MAGIC": MAGIC, "SIZE": SIZE, "PARAMS": PARAMS,
-    "N_PARAMS": L.N_STEADY, "HEADER": DATA, "SWITCH": L.P_FIDELITY, "ON": L.MAP,
-}  # fmt: skip
+    "AT": TABLE_AT,
+    "ROOM": ROOM,
+    "MAGIC": MAGIC,
+    "SIZE": SIZE,
+    "PARAMS": PARAMS,
+    "N_PARAMS": L.N_STEADY,
+    "HEADER": DATA,
+    "SWITCH": L.P_FIDELITY,
+    "ON": L.MAP,
+}
 NWORK = TABLE_AT + ROOM
 
 __all__ = [
-    "NINP", "NIOUT", "NOUT", "NPAR", "NSTATE", "NWORK", "N_PARAM", "broken_rule", "derive", "sens",
+    "NINP",
+    "NIOUT",
+    "NOUT",
+    "NPAR",
+    "NSTATE",
+    "NWORK",
+    "N_PARAM",
+    "broken_rule",
+    "derive",
+    "sens",
     "step",
-]  # fmt: skip
+]
 
 
 @kernel
@@ -112,9 +128,17 @@ def step(
         w.info[L.ITERATIONS], w.info[L.FACTORED] = 0.0, 0.0
         work[BY_MAP] = 1.0
         status = map_step(
-            par, inp, wanted, state, w.outputs, work[MAP_WORK:BY_MAP], work[TABLE_AT:], out, iout,
+            par,
+            inp,
+            wanted,
+            state,
+            w.outputs,
+            work[MAP_WORK:BY_MAP],
+            work[TABLE_AT:],
+            out,
+            iout,
             dt,
-        )  # fmt: skip
+        )
         if status == OK:
             _book(out[L.O_POWER] * dt, 0.0, dt, state, out)
             if dt > 0.0:

@@ -175,9 +175,11 @@ def _solver(params: WasherParams) -> _Solver:
 
 
 def solve_by_map(
-    params: WasherParams, point: Inputs, wanted: float,
+    params: WasherParams,
+    point: Inputs,
+    wanted: float,
     start: WasherResult | None,
-) -> WasherResult | None:  # fmt: skip
+) -> WasherResult | None:
     """Return the state at a point by look-up, None where the map says nothing.
 
     ``wanted`` is 0, 1 (film) or 3 (contact); ``start`` an earlier result whose branch goes on.
@@ -202,16 +204,40 @@ def solve_by_map(
         return None
     if status != Status.OK:
         state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = before, ratio
-        return result_of(params, point, NOTHING, NOTHING, "film", False, Status(status), 0, "map",
-                         NO_MESH, BY_CARD, state)  # fmt: skip
+        return result_of(
+            params,
+            point,
+            NOTHING,
+            NOTHING,
+            "film",
+            False,
+            Status(status),
+            0,
+            "map",
+            NO_MESH,
+            BY_CARD,
+            state,
+        )
     solver.tilt()
     numbers, (branch, several) = solver.numbers.tolist(), solver.branch.tolist()
     tilts = tuple(point[2] * turn for turn in solver.tilts.tolist())
     state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = branch, numbers[L.O_RATIO]
     lost = numbers[L.O_MEAN] - point[3] > LARGEST_RISE
     lost = lost or (branch == L.CONTACT_BRANCH and several == 2.0)
-    return result_of(params, point, numbers, tilts, BRANCH_NAMES[branch], lost, Status.OK, 0, "map",
-                     NO_MESH, BY_CARD, state)  # fmt: skip
+    return result_of(
+        params,
+        point,
+        numbers,
+        tilts,
+        BRANCH_NAMES[branch],
+        lost,
+        Status.OK,
+        0,
+        "map",
+        NO_MESH,
+        BY_CARD,
+        state,
+    )
 
 
 def outside_text(params: WasherParams, points: Array, what: str, most: float = 0.0) -> str:
@@ -251,15 +277,27 @@ def map_for(params: WasherParams, path: str | os.PathLike[str] | None = None) ->
 
 
 def build_own(
-    params: WasherParams, box: Mapping[str, tuple[float, float]], tolerance: float,
-    workers: int, progress: Any,
-) -> None:  # fmt: skip
+    params: WasherParams,
+    box: Mapping[str, tuple[float, float]],
+    tolerance: float,
+    workers: int,
+    progress: Any,
+) -> None:
     """Build the map of one's own washer and keep it in the user's cache; as ``make_map``.
 
     The box is cut at what a map can cover.
     """
-    keep_own(params, partial(resolve(MAKER), params, box=coverable(box), tolerance=tolerance,
-                             workers=workers, progress=progress))  # fmt: skip
+    keep_own(
+        params,
+        partial(
+            resolve(MAKER),
+            params,
+            box=coverable(box),
+            tolerance=tolerance,
+            workers=workers,
+            progress=progress,
+        ),
+    )
 
 
 def keep_own(params: WasherParams, make: Callable[[Path], Any]) -> None:
@@ -278,7 +316,15 @@ def kept_maps() -> str:
 
 
 TABLES = Tables(
-    "map", map_file.map_paths, map_file.all_maps, map_for, lambda p: WasherMap(p).box,
-    map_file.plain, build_own, lambda p, box, tol: lines_about(p, coverable(box), tol), least_of,
-    TOLERANCES, kept_maps,
-)  # fmt: skip
+    "map",
+    map_file.map_paths,
+    map_file.all_maps,
+    map_for,
+    lambda p: WasherMap(p).box,
+    map_file.plain,
+    build_own,
+    lambda p, box, tol: lines_about(p, coverable(box), tol),
+    least_of,
+    TOLERANCES,
+    kept_maps,
+)

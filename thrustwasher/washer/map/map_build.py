@@ -37,10 +37,16 @@ BATCH = 19  # lines that a worker takes at a time, each from where the one befor
 
 
 def make_map(
-    params: WasherParams, out: Path, *, box: dict[str, tuple[float, float]] | None = None,
-    tolerance: float = TOLERANCE, fidelity: str | None = None, workers: int | None = None,
-    points: int = POINTS, progress: Callable[[str], Progress] | None = None,
-) -> dict[str, Any]:  # fmt: skip
+    params: WasherParams,
+    out: Path,
+    *,
+    box: dict[str, tuple[float, float]] | None = None,
+    tolerance: float = TOLERANCE,
+    fidelity: str | None = None,
+    workers: int | None = None,
+    points: int = POINTS,
+    progress: Callable[[str], Progress] | None = None,
+) -> dict[str, Any]:
     """Build a map, check it and write it; return its card.
 
     Parameters
@@ -64,8 +70,13 @@ def make_map(
     if fidelity not in (None, *FIDELITIES):
         raise ParameterError(f"fidelity = {fidelity!r}, allowed: {' or '.join(FIDELITIES)}")
     plan = plan_map(params, box, tolerance)
-    job = _Job(plan, out, workers or os.cpu_count() or 1, points,
-               progress or (lambda _label: lambda _done, _total: None))  # fmt: skip
+    job = _Job(
+        plan,
+        out,
+        workers or os.cpu_count() or 1,
+        points,
+        progress or (lambda _label: lambda _done, _total: None),
+    )
     usual = "field" if tolerance >= FIELD_FROM else "fine"
     raised = fidelity is None and usual == "field"
     try:
@@ -102,23 +113,30 @@ def _made(job: _Job, fidelity: str, *, raised: bool, lines: str = "lines") -> di
         with runner(job.workers) as run:
             reach = find_reach(plan)
             plan = survey(plan, reach, run=run, progress=show("survey"))
-            data = build_lines(plan, reach, fidelity=fidelity, run=run, progress=show(lines),
-                               journal=journal)  # fmt: skip
+            data = build_lines(
+                plan, reach, fidelity=fidelity, run=run, progress=show(lines), journal=journal
+            )
             change = None
             if raised:
                 change = change_of_mesh(
-                    plan, GRIDS[fidelity], GRIDS["fine"],
+                    plan,
+                    GRIDS[fidelity],
+                    GRIDS["fine"],
                     partial(_solved, plan, reach, plan.terms, run, show("finer mesh")),
-                )  # fmt: skip
+                )
                 numbers = data[L.DATA :].reshape(-1, plan.line)
                 numbers += np.round(change.lines / DIGIT) * DIGIT
                 data[L.IDENTITY] = identity_of(data)
             card = _card(plan, fidelity, change, time.perf_counter() - began, job.workers)
             _write(draft, data, card)
             verdict = check_map(
-                plan.params, str(draft), grid=mesh_of(card), run=run,
-                points=job.points, progress=show("held-out points"),
-            )  # fmt: skip
+                plan.params,
+                str(draft),
+                grid=mesh_of(card),
+                run=run,
+                points=job.points,
+                progress=show("held-out points"),
+            )
         card["held_out"] = asdict(verdict)
         _write(draft, data, card)
         draft.replace(out)
@@ -155,9 +173,14 @@ def survey(
 
 
 def _solved(
-    plan: MapPlan, reach: float, terms: tuple[int, ...], run: Run, progress: Progress | None,
-    rows: Sequence[Sequence[Place]], grid: tuple[int, int],
-) -> list[list[Curve]]:  # fmt: skip
+    plan: MapPlan,
+    reach: float,
+    terms: tuple[int, ...],
+    run: Run,
+    progress: Progress | None,
+    rows: Sequence[Sequence[Place]],
+    grid: tuple[int, int],
+) -> list[list[Curve]]:
     """Return the curves of rows of neighbours on a grid."""
     tasks = [[_task(plan, reach, grid, terms, *place) for place in row] for row in rows]
     curves: list[list[Curve]] = []
@@ -169,9 +192,14 @@ def _solved(
 
 
 def build_lines(
-    plan: MapPlan, reach: float, *, fidelity: str = "fine", run: Run = run_here,
-    progress: Progress | None = None, journal: Journal | None = None,
-) -> Array:  # fmt: skip
+    plan: MapPlan,
+    reach: float,
+    *,
+    fidelity: str = "fine",
+    run: Run = run_here,
+    progress: Progress | None = None,
+    journal: Journal | None = None,
+) -> Array:
     """Solve all lines of a plan; return the map as one array (see map_layout).
 
     ``journal`` keeps the lines: a build that was stopped goes on with them. SolveError if a node
@@ -212,9 +240,12 @@ def _neighbours(places: Sequence[Place], wanted: Sequence[int]) -> list[int]:
 def journal_for(path: Path, plan: MapPlan, fidelity: str) -> Journal:
     """Return the journal of a map; ParameterError if it is another one's, or another run has it."""
     identity = {
-        "parameters": params_digest(plan.params)[:16], "box": str(plan.box), "fidelity": fidelity,
-        "tolerance": f"{plan.tolerance:g}", "kernels": kernel_digest(),
-    }  # fmt: skip
+        "parameters": params_digest(plan.params)[:16],
+        "box": str(plan.box),
+        "fidelity": fidelity,
+        "tolerance": f"{plan.tolerance:g}",
+        "kernels": kernel_digest(),
+    }
     return Journal(path, identity, "map")
 
 
@@ -248,15 +279,27 @@ def find_reach(plan: MapPlan) -> float:
 
 
 def _task(
-    plan: MapPlan, reach: float, grid: tuple[int, int], terms: tuple[int, ...], speed: float,
-    tilt: float, oil: float,
-) -> LineTask:  # fmt: skip
+    plan: MapPlan,
+    reach: float,
+    grid: tuple[int, int],
+    terms: tuple[int, ...],
+    speed: float,
+    tilt: float,
+    oil: float,
+) -> LineTask:
     scale = plan.viscosity(oil) * speed
     return LineTask(
-        params=plan.params, speed=speed, tilt=tilt, oil_temperature=oil, scale=scale,
-        thickest=math.sqrt(L.LEAST_REACH**2 + reach * scale), marks=plan.marks, terms=terms,
-        grid=grid, accuracy=max(1e-7, 2e-2 * plan.tolerance),
-    )  # fmt: skip
+        params=plan.params,
+        speed=speed,
+        tilt=tilt,
+        oil_temperature=oil,
+        scale=scale,
+        thickest=math.sqrt(L.LEAST_REACH**2 + reach * scale),
+        marks=plan.marks,
+        terms=terms,
+        grid=grid,
+        accuracy=max(1e-7, 2e-2 * plan.tolerance),
+    )
 
 
 def _write(path: Path, data: Any, card: dict[str, Any]) -> None:
@@ -268,15 +311,31 @@ def _card(
     plan: MapPlan, fidelity: str, change: Change | None, took: float, workers: int
 ) -> dict[str, Any]:
     """Return a map's card; ``change`` is what a finer mesh added."""
-    mesh = {} if change is None else {
-        "finer_lines": change.solved, "mesh_made_good": change.raised, "mesh_left": change.left
-    }  # fmt: skip
+    mesh = (
+        {}
+        if change is None
+        else {
+            "finer_lines": change.solved,
+            "mesh_made_good": change.raised,
+            "mesh_left": change.left,
+        }
+    )
     return {
-        "kind": "washer map", "params": asdict(plan.params), "box": plan.box,
-        "tolerance": plan.tolerance, "patches": plan.patches, "lines": lines_of(*plan.patches),
-        "terms": plan.terms, "more_terms": plan.more_terms, "marks": plan.marks,
-        "built_from": fidelity, "checked_on": change.grid if change else GRIDS[fidelity], **mesh,
-        "kernels": kernel_digest(), "build_s": round(took, 1), "workers": workers,
+        "kind": "washer map",
+        "params": asdict(plan.params),
+        "box": plan.box,
+        "tolerance": plan.tolerance,
+        "patches": plan.patches,
+        "lines": lines_of(*plan.patches),
+        "terms": plan.terms,
+        "more_terms": plan.more_terms,
+        "marks": plan.marks,
+        "built_from": fidelity,
+        "checked_on": change.grid if change else GRIDS[fidelity],
+        **mesh,
+        "kernels": kernel_digest(),
+        "build_s": round(took, 1),
+        "workers": workers,
         "machine": f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores",
         "held_out": None,
-    }  # fmt: skip
+    }

@@ -51,9 +51,14 @@ class Verdict:
 
 
 def check_map(
-    params: WasherParams, path: str, *, points: int = 200, grid: tuple[int, int] = GRIDS["fine"],
-    run: Run = run_here, progress: Callable[[int, int], None] | None = None,
-) -> Verdict:  # fmt: skip
+    params: WasherParams,
+    path: str,
+    *,
+    points: int = 200,
+    grid: tuple[int, int] = GRIDS["fine"],
+    run: Run = run_here,
+    progress: Callable[[int, int], None] | None = None,
+) -> Verdict:
     """Compare a map file with solutions on a mesh at random points of its box, on both branches.
 
     ``points`` of them are spread evenly over the logarithms of load, speed and tilt; the map is
@@ -74,15 +79,20 @@ def check_map(
     away = [h for h in held if not h.near_fold]
     torques = np.array([h.torque for h in away] or [0.0])
     return Verdict(
-        points=len(held), torque=_largest(h.torque for h in away),
+        points=len(held),
+        torque=_largest(h.torque for h in away),
         torque_rms=float(np.sqrt(np.mean(torques**2))),
         torque_near_fold=_largest(h.torque for h in held if h.near_fold),
-        film_ratio=_largest(h.ratio for h in away), temperature=_largest(h.rise for h in away),
-        oil=_largest(h.oil for h in away), fold_load=_largest(folds), folds=len(folds),
+        film_ratio=_largest(h.ratio for h in away),
+        temperature=_largest(h.rise for h in away),
+        oil=_largest(h.oil for h in away),
+        fold_load=_largest(folds),
+        folds=len(folds),
         unanswered=unanswered,
         worst=dict(zip(INPUTS, max(away, key=lambda h: abs(h.torque)).point, strict=True))
-        if away else {},
-    )  # fmt: skip
+        if away
+        else {},
+    )
 
 
 def mesh_of(card: dict[str, Any]) -> tuple[int, int]:
@@ -111,9 +121,11 @@ def _points(washer: WasherMap, n: int) -> list[tuple[float, float, float, float]
 
 
 def _compare(
-    params: WasherParams, path: str, grid: tuple[int, int],
+    params: WasherParams,
+    path: str,
+    grid: tuple[int, int],
     task: tuple[str, tuple[float, float, float, float], bool],
-) -> tuple[Held | None, list[float], int]:  # fmt: skip
+) -> tuple[Held | None, list[float], int]:
     """Return the held-out point (None: no such branch), differences of folds, odd answers."""
     washer, (twin, point, with_folds) = WasherMap(params, path), task
     load, speed, tilt, oil = point
@@ -135,12 +147,13 @@ def _compare(
     if there is None or not there_is:
         return None, differences, int((there is not None or there_is) and not near)
     row = Held(
-        near_fold=near, point=point,
+        near_fold=near,
+        point=point,
         torque=float(here["friction_torque"]) / there.friction_torque - 1.0,
         ratio=float(here["film_ratio"]) - there.film_ratio,
         rise=float(here["temperature"]) - there.temperature,
         oil=_largest(_off_oil(here, there)),
-    )  # fmt: skip
+    )
     return row, differences, 0
 
 

@@ -110,9 +110,19 @@ def _read(path: str, _stamp: tuple[int, ...]) -> MapFile:
             data, card = unpack(archive.read(NUMBERS)), json.loads(archive.read(CARD))
         if not isinstance(card, dict):
             raise ValueError("its card is no JSON object")
-    except (OSError, zipfile.BadZipFile, zipfile.LargeZipFile, KeyError, ValueError, EOFError,
-            NotImplementedError, RuntimeError, OverflowError, struct.error,
-            zlib.error) as problem:  # fmt: skip
+    except (
+        OSError,
+        zipfile.BadZipFile,
+        zipfile.LargeZipFile,
+        KeyError,
+        ValueError,
+        EOFError,
+        NotImplementedError,
+        RuntimeError,
+        OverflowError,
+        struct.error,
+        zlib.error,
+    ) as problem:
         raise ParameterError(
             f"map = {path!r}: {problem}; allowed: a file written by `thrustwasher map build`"
         ) from None

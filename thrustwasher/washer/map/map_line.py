@@ -119,15 +119,20 @@ class Line:
         if self.task.params.oil_cooling:
             carried = math.log(max(out[L.O_THROUGHFLOW_HEAT], TINY) / (power * speed))
         return [
-            math.log(out[L.O_FLUID_LOAD] / self.task.scale), math.log(max(contact, TINY)),
+            math.log(out[L.O_FLUID_LOAD] / self.task.scale),
+            math.log(max(contact, TINY)),
             math.log(max(dry, TINY) / max(contact, TINY)),
             math.log(max(viscous, TINY) / self.task.scale),
-            *(math.log(max(out[k] - oil, TINY) / power)
-              for k in (L.O_MEAN, L.O_PEAK, L.O_FILM_TEMPERATURE)),
-            math.log(max(out[L.O_OIL_FLOW], TINY) / speed), carried, math.log(grip),
+            *(
+                math.log(max(out[k] - oil, TINY) / power)
+                for k in (L.O_MEAN, L.O_PEAK, L.O_FILM_TEMPERATURE)
+            ),
+            math.log(max(out[L.O_OIL_FLOW], TINY) / speed),
+            carried,
+            math.log(grip),
             float(self.at.w.q[L.TILT_X]) / self.task.tilt,
             float(self.at.w.q[L.TILT_Y]) / self.task.tilt,
-        ]  # fmt: skip
+        ]
 
 
 @dataclass(frozen=True)
@@ -175,9 +180,11 @@ def _entered(task: LineTask) -> tuple[Line, list[float]]:
 
 
 def _solved(
-    line: Line, guesses: list[float], kept: Sequence[list[Array]] = (),
+    line: Line,
+    guesses: list[float],
+    kept: Sequence[list[Array]] = (),
     task: LineTask | None = None,
-) -> tuple[Curve, list[list[Array]]]:  # fmt: skip
+) -> tuple[Curve, list[list[Array]]]:
     """Return a curve, and the solutions at onset and marks; ``kept`` are those of another task."""
     if task is not None:
         line.take_over(task, kept[0])
@@ -281,10 +288,13 @@ def _steepest(curve: Curve, sums: list[Array]) -> float:
     steepest = -np.inf
     for piece in range(1, M.N_PIECES - 1):
         fits = [sums[piece][:, k] for k in (M.GF, M.GC)]
-        loads = [factor * np.exp(chebyshev.chebval(u, c))
-                 for factor, c in zip((curve.task.scale, 1.0), fits, strict=True)]  # fmt: skip
-        slopes = [w * chebyshev.chebval(u, chebyshev.chebder(c))
-                  for w, c in zip(loads, fits, strict=True)]  # fmt: skip
+        loads = [
+            factor * np.exp(chebyshev.chebval(u, c))
+            for factor, c in zip((curve.task.scale, 1.0), fits, strict=True)
+        ]
+        slopes = [
+            w * chebyshev.chebval(u, chebyshev.chebder(c)) for w, c in zip(loads, fits, strict=True)
+        ]
         half = 0.5 * (curve.edges[piece] - curve.edges[piece + 1])
         steepest = max(steepest, float(np.max(sum(slopes) / sum(loads)) / half))
     return steepest

@@ -70,14 +70,20 @@ def change_of_mesh(plan: MapPlan, coarse: Grid, fine: Grid, solve: Solve) -> Cha
 
 
 def _nodes(plan: MapPlan, counts: tuple[int, ...]) -> list[list[float]]:
-    return [[float(x) for x in np.round(nodes_of(n), 9)] if patches else [0.0]
-            for n, patches in zip(counts, plan.patches, strict=True)]  # fmt: skip
+    return [
+        [float(x) for x in np.round(nodes_of(n), 9)] if patches else [0.0]
+        for n, patches in zip(counts, plan.patches, strict=True)
+    ]
 
 
 def _both(
-    plan: MapPlan, counts: tuple[int, ...], coarse: Grid, fine: Grid, solve: Solve,
+    plan: MapPlan,
+    counts: tuple[int, ...],
+    coarse: Grid,
+    fine: Grid,
+    solve: Solve,
     known: dict[Where, tuple[Curve, Curve]],
-) -> dict[Where, tuple[Curve, Curve]]:  # fmt: skip
+) -> dict[Where, tuple[Curve, Curve]]:
     """Return the curves on both meshes at all nodes; those known are not solved again."""
     speeds, tilts, oils = _nodes(plan, counts)
     rest = [where for where in product(speeds, tilts, oils) if where not in known]
@@ -116,8 +122,12 @@ def _between(
 ) -> Array:
     """Return the differences at all lines of the map: polynomials through those found."""
     nodes = _nodes(plan, counts)
-    values = np.array([packed(b, plan.more_terms) - packed(a, plan.more_terms)
-                       for a, b in (found[x, y, z] for x, y, z in product(*nodes))])  # fmt: skip
+    values = np.array(
+        [
+            packed(b, plan.more_terms) - packed(a, plan.more_terms)
+            for a, b in (found[x, y, z] for x, y, z in product(*nodes))
+        ]
+    )
     ends = np.array(plan.axes)
     at = np.array([plan.scaled(place) for place in plan.places()])
     width = np.where(ends[:, 1] > ends[:, 0], ends[:, 1] - ends[:, 0], 1.0)

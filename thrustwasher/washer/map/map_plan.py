@@ -20,9 +20,11 @@ from ..parameters import SPEC, WasherParams, face_of
 
 INPUTS = ("load", "speed", "tilt", "oil_temperature")
 DEFAULT_BOX = {
-    "load": (20.0, 1850.0), "speed": (0.0, 1400.0), "tilt": (1e-3, 3e-3),
+    "load": (20.0, 1850.0),
+    "speed": (0.0, 1400.0),
+    "tilt": (1e-3, 3e-3),
     "oil_temperature": (290.0, 400.0),
-}  # fmt: skip
+}
 TOLERANCE = 5e-3  # relative, of the torque
 TOLERANCES = (5e-4, 0.1)  # allowed
 FIELD_FROM = 6e-3  # a map of this tolerance stands for the mesh of "field", a finer one for "fine"
@@ -137,9 +139,10 @@ def pieces_at(terms: Sequence[float], more_terms: Sequence[float]) -> Array:
 
 
 def plan_map(
-    params: WasherParams, box: dict[str, tuple[float, float]] | None = None,
+    params: WasherParams,
+    box: dict[str, tuple[float, float]] | None = None,
     tolerance: float = TOLERANCE,
-) -> MapPlan:  # fmt: skip
+) -> MapPlan:
     """Return a plan with the fewest patches, or say what is wrong with box and tolerance.
 
     ``box`` holds (low, high) of load [N], speed [rad/s], tilt [rad], oil_temperature [K]; inputs
@@ -164,8 +167,10 @@ def plan_map(
         ends[name] = _checked(name, pair)
     marks = _marks(params, ends["load"][1])
     plan = MapPlan(params=params, box=ends, marks=marks, tolerance=tolerance)
-    moved = (plan.box["tilt"][1] / plan.box["tilt"][0] - 1.0,
-             plan.box["oil_temperature"][1] - plan.box["oil_temperature"][0])  # fmt: skip
+    moved = (
+        plan.box["tilt"][1] / plan.box["tilt"][0] - 1.0,
+        plan.box["oil_temperature"][1] - plan.box["oil_temperature"][0],
+    )
     low, high = plan.axes[0]
     first, second, third = (
         int(width >= LEAST_WIDTH[name])

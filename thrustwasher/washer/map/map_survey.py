@@ -51,8 +51,11 @@ def surveyed(plan: MapPlan, solve: Solve) -> MapPlan:
     """
     n = (FEW_TERMS if plan.tolerance >= FIELD_FROM else FINE_TERMS,) * M.N_PIECES
     moved = [axis for axis, patches in enumerate(plan.patches) if patches]
-    rows = [[_place(plan, axis, x, across) for x in ends_of(NODES[axis])[::-1]]
-            for axis in moved for across in ACROSS[axis]]  # fmt: skip
+    rows = [
+        [_place(plan, axis, x, across) for x in ends_of(NODES[axis])[::-1]]
+        for axis in moved
+        for across in ACROSS[axis]
+    ]
     curves = solve(rows or [[_place(plan, 0, MIDDLE, (MIDDLE, MIDDLE))]], n)
     terms, more = _terms(plan, curves)
     plan = dataclasses.replace(plan, terms=terms, more_terms=more)
@@ -140,8 +143,10 @@ def _weights(here: Array, change: Array, scale: Array, least: float) -> Weights:
 def _of_both(part: Array, lift: Array, drag: Array) -> tuple[Array, Array]:
     """Return changes of ln(load) and ln(torque) of those of the curves."""
     dry = part[..., M.GC] + part[..., M.DRY]
-    return (np.asarray(lift * part[..., M.GF] + (1.0 - lift) * part[..., M.GC]),
-            np.asarray(drag * part[..., M.VISCOUS] + (1.0 - drag) * dry))  # fmt: skip
+    return (
+        np.asarray(lift * part[..., M.GF] + (1.0 - lift) * part[..., M.GC]),
+        np.asarray(drag * part[..., M.VISCOUS] + (1.0 - drag) * dry),
+    )
 
 
 def _off(patches: int, cubic: bool, warp: Callable[[Array], Array], n: int) -> Array:
@@ -167,9 +172,12 @@ def _off(patches: int, cubic: bool, warp: Callable[[Array], Array], n: int) -> A
 
 
 def _errors(
-    lines: Sequence[Sequence[Curve]], least: float, most: int, warp: Callable[[Array], Array],
+    lines: Sequence[Sequence[Curve]],
+    least: float,
+    most: int,
+    warp: Callable[[Array], Array],
     speed: Callable[[Array], Array] | None = None,
-) -> tuple[list[float], list[float]]:  # fmt: skip
+) -> tuple[list[float], list[float]]:
     """Return errors for 1, 2, ... patches: along the axis, and of what tilt adds between them.
 
     What carries less than ``least`` [N] does not count. ``speed`` gives the speed along the axis if
@@ -205,8 +213,10 @@ def _worst(off: Array, weights: Sequence[Any]) -> tuple[float, float]:
     counts, lift, drag, steep = weights
     load, torque = _of_both(off, lift, drag)
     rest = [off[..., k] for k in (M.MEAN, M.FILM, M.FLOW, M.CARRIED, M.GRIP)]
-    main, others = (max(np.abs(x[counts]).max(initial=0.0) for x in part)
-                    for part in ((torque - steep * load,), rest))  # fmt: skip
+    main, others = (
+        max(np.abs(x[counts]).max(initial=0.0) for x in part)
+        for part in ((torque - steep * load,), rest)
+    )
     return float(main), float(others)
 
 
@@ -217,8 +227,10 @@ def _size(errors: tuple[float, float]) -> float:
 
 def _cheapest(plan: MapPlan, found: dict[int, list[list[Curve]]]) -> MapPlan:
     """Return the plan with the fewest lines whose errors, in root of squares, are allowed."""
-    choices = [range(1, most + 1) if n else range(1)
-               for n, most in zip(plan.patches, MOST_PATCHES, strict=True)]  # fmt: skip
+    choices = [
+        range(1, most + 1) if n else range(1)
+        for n, most in zip(plan.patches, MOST_PATCHES, strict=True)
+    ]
     least = LIGHT * plan.box["load"][0]
     speed = tilt = oil = ([0.0], [0.0])
     if 1 in found:

@@ -24,9 +24,14 @@ from .map_step import N_MAP_WORK, PLACE, place_without_memory
 
 @kernel
 def single_look_up(
-    data: Array, w: Array, load: float, speed: float, tilt: float, oil_temperature: float,
+    data: Array,
+    w: Array,
+    load: float,
+    speed: float,
+    tilt: float,
+    oil_temperature: float,
     wanted: float,
-) -> float:  # fmt: skip
+) -> float:
     """Return the friction torque [N m], nan if there is none; all outputs go to ``w[N_MAP_WORK:]``.
 
     ``w`` has N_MAP_WORK + L.N_ALL entries. Few arguments: each costs a call from Python 0.1 us.

@@ -59,9 +59,11 @@ def enter_map(data: Array, pt: Point, w: Array) -> float:
     speed = abs(pt.speed)
     tag = M.TAG
     if (
-        w[tag + 1] == speed and w[tag + 2] == pt.tilt and w[tag + 3] == pt.oil_temperature
+        w[tag + 1] == speed
+        and w[tag + 2] == pt.tilt
+        and w[tag + 3] == pt.oil_temperature
         and w[tag] == data[M.IDENTITY]
-    ):  # fmt: skip
+    ):
         return float(w[M.SCALE])
     w[tag], w[tag + 1] = data[M.IDENTITY], speed
     w[tag + 2], w[tag + 3] = pt.tilt, pt.oil_temperature
@@ -87,8 +89,19 @@ def enter_map(data: Array, pt: Point, w: Array) -> float:
 def read_lines(data: Array, w: Array, first: int, width: int, shares: int, to: int) -> None:
     """Interpolate numbers ``first ..`` of the lines around the cell into ``w[to:]``."""
     a, line = M.AXES, int(data[M.PIECE_AT + M.N_PIECES])
-    contract(data, M.DATA + first, line, int(data[a + 2]), int(data[a + 5]), int(data[a + 8]), w,
-             shares, width, w, to)  # fmt: skip
+    contract(
+        data,
+        M.DATA + first,
+        line,
+        int(data[a + 2]),
+        int(data[a + 5]),
+        int(data[a + 8]),
+        w,
+        shares,
+        width,
+        w,
+        to,
+    )
 
 
 @kernel
@@ -169,9 +182,15 @@ def u_at(w: Array, piece: int, ratio: float) -> float:
 
 @kernel
 def find_between(
-    w: Array, n: int, piece: int, scale: float, load: float, heavy: float, light: float,
+    w: Array,
+    n: int,
+    piece: int,
+    scale: float,
+    load: float,
+    heavy: float,
+    light: float,
     guess: float,
-) -> float:  # fmt: skip
+) -> float:
     """Return ``u`` between ``heavy`` and ``light`` with the wanted load: Newton kept in brackets.
 
     In ln(load), in which the curves are nearly straight; at ``heavy`` the load is greater.

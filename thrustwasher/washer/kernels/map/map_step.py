@@ -126,9 +126,17 @@ def look_up(
 
 @kernel
 def map_step(
-    par: Array, inp: Array, wanted: float, state: Array, numbers: Array, w: Array, data: Array,
-    out: Array, iout: Ints, dt: float,
-) -> int:  # fmt: skip
+    par: Array,
+    inp: Array,
+    wanted: float,
+    state: Array,
+    numbers: Array,
+    w: Array,
+    data: Array,
+    out: Array,
+    iout: Ints,
+    dt: float,
+) -> int:
     """Step by looking up: outputs, memory and verdict as of `washer_step.step`, or NOT_HERE.
 
     Parameters

@@ -59,7 +59,7 @@
     P_CONTACT_RISE,
     P_HEAT_TRANSFER,
     P_SPEED_SMOOTHING,
-    P_INPUT_PROFILE,
+    P_INPUT_COURSE,
     P_FIDELITY,
     N_PARAM,
 ) = range(60)
@@ -198,7 +198,7 @@ CLOSED, STRIBECK, FIELD, FINE = 1, 3, 4, 5  # fidelity; 2 had no heat and runs a
 CONSTANT_LAW, TABLE_LAW = 2, 3  # friction_law
 BOUNDARY_DATA = 2  # friction_data
 N_TABLE = 5  # points above standstill
-LINEAR_PROFILE = 2  # input_course
+LINEAR_COURSE = 2  # input_course
 HOT_LIMIT = 523.0  # K
 LEAST_RATIO = -3.0  # film ratio below which rough faces are pressed out of the models' reach
 OPEN_PRESSURE = 1e3  # Pa; a pack pressed less than this is open

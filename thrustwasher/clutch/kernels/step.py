@@ -42,7 +42,7 @@ def step(
         iout[L.IO_STATUS] = BAD_INPUT
         return BAD_INPUT
     started = state[L.S_STARTED] != 0.0
-    linear = par[L.P_INPUT_PROFILE] == L.LINEAR_PROFILE
+    linear = par[L.P_INPUT_COURSE] == L.LINEAR_COURSE
     work[L.W_SUBSTEPS] = work[L.W_REFUSED] = 0.0
     work[L.W_PROPOSED], work[L.W_DURATION] = state[L.S_SUBSTEP], dt
     status = load_memory(par, load, oil, state, work)

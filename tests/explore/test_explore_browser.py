@@ -78,7 +78,7 @@ VIEWS = {  # an address; what the command prints of the figures; the parameters 
         {"roughness": 4e-7, "conduction": "all", "oil_cooling": False},
     ),
     "gearmesh": (
-        "#power=20000&speed=200&oil_temperature=350&fidelity=closed&pinion_teeth=23",
+        "#power=20000&speed=200&oil_temperature=350&fidelity=field&pinion_teeth=23",
         ("friction_torque", "scuffing_safety", "surface_temperature"),
         {"pinion_teeth": 23},
     ),

@@ -11,8 +11,8 @@ from functools import cache, lru_cache
 from typing import Any
 
 from ..units import format_quantity
-from .part_file import find_part, preset_parts
-from .registry import find_model
+from .part_file import preset_parts
+from .registry import find_spec
 from .rungs import gone_rung
 
 
@@ -25,7 +25,7 @@ def idle_warnings(model: str, params: Any, fidelity: str = "") -> tuple[str, ...
     it is not known.
     """
     found: dict[str, list[str]] = {}
-    spec = find_model(model).spec
+    spec = find_spec(model)
     gone, fidelity = gone_rung(spec, fidelity), spec.successors.get(fidelity, fidelity)
     metadata = {f.name: f.metadata for f in fields(params) if "read_by" in f.metadata}
     for name, m in metadata.items():
@@ -40,8 +40,8 @@ def idle_warnings(model: str, params: Any, fidelity: str = "") -> tuple[str, ...
 @cache
 def _starts(model: str) -> tuple[Any, ...]:
     """Return the default parameters and those of each preset."""
-    spec = find_model(model).spec
-    return (find_part(model).params, *(part.params for part in preset_parts(spec).values()))
+    spec = find_spec(model)
+    return (spec.params(), *(part.params for part in preset_parts(spec).values()))
 
 
 def _is_read(metadata: Mapping[str, Any], params: Any, name: str, fidelity: str) -> bool:

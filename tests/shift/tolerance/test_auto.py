@@ -42,14 +42,14 @@ def auto(*wishes, stop=STOP):
 
 def test_a_scene_file_asks_for_all_parts_and_for_one(tmp_path):
     file = tmp_path / "s.toml"
-    file.write_text('base = "planetary-sun"\nfidelity = "auto:0.02"\n[mesh]\nfidelity = "closed"\n')
+    file.write_text('base = "planetary-sun"\nfidelity = "auto:0.02"\n[mesh]\nfidelity = "fine"\n')
     found = {n: (p.fidelity, p.tolerance) for n, p in load_scene(file).parts.items()}
     assert found == {
         "transmission": ("rigid", None),
         "clutch": ("field", 0.02),
         "brake": ("field", 0.02),
         "washer": ("field", 0.02),
-        "mesh": ("closed", None),
+        "mesh": ("fine", None),
     }
 
 
@@ -58,8 +58,8 @@ def test_auto_alone_is_one_percent():
 
 
 def test_later_wishes_overrule_earlier_ones():
-    parts = auto("auto:0.02", "mesh=closed", "clutch=auto:0.1").parts
-    assert parts["mesh"].fidelity == "closed" and parts["mesh"].tolerance is None
+    parts = auto("auto:0.02", "mesh=fine", "clutch=auto:0.1").parts
+    assert parts["mesh"].fidelity == "fine" and parts["mesh"].tolerance is None
     assert (parts["brake"].tolerance, parts["clutch"].tolerance) == (0.02, 0.1)
     assert (
         auto("auto", "field").parts

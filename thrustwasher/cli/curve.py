@@ -7,8 +7,8 @@ from typing import Any
 from ..errors import ParameterError
 from ..model.part_file import PartFile
 from ..model.point import point_of
-from ..model.registry import find_model
 from ..units import format_quantity, parse_quantity
+from ..washer.model import GRID
 from ..washer.parameters import SPEC
 from . import _options, _output
 
@@ -33,8 +33,6 @@ COLUMNS = {
     "stick_margin": "1",
     "branch": "",
 }
-COMMAND = find_model("washer").command
-GRID = [option for option in COMMAND.options if option.name == "grid"] if COMMAND else []
 TABLE = ("load", "film_ratio", "friction_torque", "friction_coefficient", "temperature", "branch")
 WIDTH = 22
 LOAD_MIN, LOAD_MAX = 20.0, 3000.0  # N
@@ -49,7 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="ends of the curve [N], 1 .. 10000; default 20:3000, wider if the part's [box] is",
     )
     _options.add_parameters(parser, SPEC)
-    _options.add_options(parser, GRID)
+    _options.add_options(parser, [GRID])
     _output.add_targets(parser, out="write the points as CSV", plot="draw the curve with its folds")
 
 
@@ -58,7 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
     part = _options.read_part(arguments, SPEC)
     there = point_of(part, _options.read_inputs(arguments, INPUTS), INPUTS)
     point, params = there.values, part.params
-    grid = _options.read_options(arguments, GRID)
+    grid = _options.read_options(arguments, [GRID])
     targets = _output.targets(arguments)
 
     from ..washer.load_curve import load_curve
@@ -73,7 +71,10 @@ def run(arguments: argparse.Namespace) -> int:
     _output.warn(warnings)
     series = {name: [getattr(p, name) for p in curve.points] for name in COLUMNS}
     targets.write(COLUMNS, series)
-    targets.draw("thrustwasher.report.model_plots.washer_plots:curve_figure", curve, point)
+    if targets.plot:
+        from ..report.model_plots.washer_plots import curve_figure
+
+        targets.draw(curve_figure(curve, point))
     if arguments.json:
         _output.print_json(
             {

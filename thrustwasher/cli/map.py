@@ -89,9 +89,9 @@ def _build(arguments: argparse.Namespace) -> int:
 
     from ..ladder.own_tables import serves
     from ..native.files import write
-    from ..washer.map.look_up import TABLES, keep_own
     from ..washer.map.map_build import make_map
     from ..washer.map.map_plan import DEFAULT_BOX, TOLERANCE
+    from ..washer.map.map_tables import TABLES, keep_own
 
     tolerance = TOLERANCE
     if arguments.tolerance is not None:

@@ -5,8 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..errors import ParameterError
-from ..model.idle import idle_warnings
-from ..model.kept import kept_warnings
+from ..model.idle import idle_warnings, kept_warnings
 from ..model.part_file import (
     PartFile,
     checked_name,

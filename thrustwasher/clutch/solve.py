@@ -11,7 +11,7 @@ from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.prepare import filled
-from ..model.registry import find_model
+from ..model.record import Sweep
 from ..model.rungs import rung_named
 from ..model.spec import REGIMES, ModelSpec
 from ..numerics.jit import Array
@@ -25,7 +25,6 @@ BEYOND_LAW = (
     "lining's modulus"
 )
 PRESSED = "film_ratio = {:.3g}: " + BEYOND_LAW
-LEAST = {"film_ratio": (k.LEAST_RATIO, BEYOND_LAW)}  # of a sweep's rows
 LEAST_PRESSURE = 2e4  # Pa, an estimate: lightest pressure that friction over slip is measured at
 __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
 
@@ -319,8 +318,7 @@ def walk_steady(
 ) -> None:
     """Fill the rows of a sweep's line with the steady state of a pack that slips."""
     regimes = {name: i for i, name in enumerate(REGIMES, 1)}
-    left_out = find_model(spec.key).sweep.not_shown
-    names = [name for name in spec.real_outputs if name not in left_out]
+    names = [name for name in spec.real_outputs if name not in SWEEP.not_shown]
     result = None
     for (load, speed, oil, drum), row, flag in zip(inputs.tolist(), numbers, flags, strict=True):
         result = solve_clutch(
@@ -337,3 +335,11 @@ def walk_steady(
         flag[0], flag[-1] = regimes[result.regime], result.status
         if result.status.is_failure:
             result = None
+
+
+SWEEP = Sweep(
+    walk=walk_steady,
+    # It slips for ever: its heat has no end.
+    not_shown=("energy", "heat_flux", "viscosity", "oil_heat", "stored_heat"),
+    least={"film_ratio": (k.LEAST_RATIO, BEYOND_LAW)},
+)

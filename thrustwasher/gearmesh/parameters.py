@@ -448,5 +448,11 @@ def absent_outputs(params: GearMeshParams) -> frozenset[str]:
     return frozenset(found)
 
 
-SPEC = spec_beside(__file__, GearMeshParams, RULES)
+def _counted() -> tuple[tuple[str, int], ...]:
+    from .kernels.layout import F_ITERATIONS
+
+    return (("viscosity iterations", F_ITERATIONS),)
+
+
+SPEC = spec_beside(__file__, GearMeshParams, RULES, counted=_counted, absent=absent_outputs)
 LOAD, SPEED, OIL = SPEC.inputs

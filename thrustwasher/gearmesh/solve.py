@@ -12,6 +12,7 @@ from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.prepare import filled
+from ..model.record import Sweep
 from ..model.rungs import rung_named
 from .kernels import layout as k
 from .kernels.constants import derive
@@ -26,7 +27,7 @@ SAFETIES = {
     "micropitting_safety": "the film is thinner than permissible_film_ratio allows, the flanks are "
     "expected to micropit; take cooler or thicker oil or smoother flanks",
 }
-LEAST = {name: (1.0, f"below 1: {fails}") for name, fails in SAFETIES.items()}  # of a sweep's rows
+SWEEP = Sweep(least={name: (1.0, f"below 1: {fails}") for name, fails in SAFETIES.items()})
 __all__ = ["GearMeshParams", "GearMeshResult", "solve_gearmesh"]
 
 

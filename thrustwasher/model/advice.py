@@ -5,7 +5,6 @@ from typing import Any
 
 from ..errors import Status
 from ..units import format_quantity
-from .record import resolve
 from .spec import ModelSpec, Signal
 
 
@@ -47,7 +46,7 @@ def warnings_of(
     hot = [
         f"{quantity_text(s, outputs[s.name])}: {Status.HOT.advice}"
         for s in spec.outputs
-        if s.limit and s.name in outputs and outputs[s.name] > resolve(s.limit)
+        if s.limit and s.name in outputs and outputs[s.name] > s.limit
     ]
     said = {Status.HOT: hot, Status.OUTSIDE_VERIFIED: [*outside, *more]}
     if not status.is_failure and status is not Status.OK and not said.get(status):

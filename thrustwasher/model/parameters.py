@@ -22,7 +22,7 @@ def quantity(default: float, unit: str, low: float, high: float, text: str, **ex
     """Return a real-valued field; ``low`` and ``high`` belong to the allowed range.
 
     ``tunable=True``: an FMU's host may change it between two steps. ``overrides``, ``belongs_to``,
-    ``when``: see ``model.kept``; ``read_by``: see ``model.idle``.
+    ``read_by``: see ``model.idle``.
     """
     meta = {"kind": "real", "unit": unit, "min": low, "max": high, "help": text, **extra}
     return field(default=default, metadata=meta)

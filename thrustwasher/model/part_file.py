@@ -38,8 +38,7 @@ from .parameters import (
     plainly_named,
     renewed_values,
 )
-from .point import command_inputs, own_inputs, point_of
-from .record import resolve
+from .point import point_of
 from .registry import find_model
 from .rungs import rung_named
 from .spec import ModelSpec, tailored
@@ -120,7 +119,7 @@ class PartFile:
     @property
     def starts(self) -> dict[str, float]:
         """Value [SI] of each of the model's inputs where none is given: its default in the box."""
-        return own_inputs(self, point_of(self, {}).values)
+        return find_model(self.spec.key).place(point_of(self, {}).values)
 
     def solve(self, **inputs: Any) -> Any:
         """Return the result at an operating point, with the part's rung unless another is given.
@@ -140,10 +139,10 @@ class PartFile:
         ParameterError, SolveError : as of ``solve_*``; ParameterError too where the model is not
             solved at points
         """
-        command = find_model(self.spec.key).command
-        if command is None:
+        model = find_model(self.spec.key)
+        if model.command is None:
             raise ParameterError(f"{self.spec.name}: is not solved at operating points")
-        known = {s.name: s for s in (*self.spec.inputs, *command_inputs(find_model(self.spec.key)))}
+        known = {s.name: s for s in (*self.spec.inputs, *model.inputs())}
         given = {
             name: check_number(name, value, known[name].unit, *known[name].range)
             for name, value in inputs.items()
@@ -151,9 +150,7 @@ class PartFile:
         }
         point = point_of(self, given)
         more = {name: value for name, value in inputs.items() if name not in known}
-        result = resolve(command.solve)(
-            self.params, **point.values, **{"fidelity": self.fidelity, **more}
-        )
+        result = model.solve(self.params, **point.values, **{"fidelity": self.fidelity, **more})
         return replace(result, warnings=(*point.warnings, *result.warnings))
 
     def inside(self, name: str, value: float) -> float:

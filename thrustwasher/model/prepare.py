@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, Status
 from .parameters import as_numbers, check_rules
-from .record import resolve
+from .registry import MODELS, find_model
 from .rungs import rung_named
 from .spec import ModelSpec, Tables
 
@@ -75,7 +75,7 @@ def fill_table(spec: ModelSpec, params: Any, par: Any, work: Any) -> None:
 
 def tables_of(spec: ModelSpec, rung: str | None = None) -> Tables | None:
     """Return where a model, or one rung of it, looks its answers up; None if it solves."""
-    tables: Tables | None = resolve(spec.table) if spec.table else None
+    tables = find_model(spec.key).tables() if spec.key in MODELS else None
     return tables if tables and rung in (None, tables.rung) else None
 
 

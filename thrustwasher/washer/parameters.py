@@ -372,4 +372,10 @@ class WasherParams:
         check_rules(self, RULES, broken_rule)
 
 
-SPEC = spec_beside(__file__, WasherParams, RULES)
+def _counted() -> tuple[tuple[str, int], ...]:
+    from .kernels.layout import FACTORED, ITERATIONS
+
+    return ("Newton iterations", ITERATIONS), ("heat factors made", FACTORED)
+
+
+SPEC = spec_beside(__file__, WasherParams, RULES, counted=_counted)

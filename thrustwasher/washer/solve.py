@@ -13,6 +13,7 @@ import numpy as np
 
 from ..errors import FIRST_FAILURE, BranchError, ParameterError, SolveError, Status
 from ..model.parameters import check_number
+from ..model.record import Sweep
 from ..model.rungs import gone_rung, rung_named
 from ..native.load import bound
 from ..numerics.jit import Array
@@ -22,7 +23,7 @@ from .kernels import step as kernel
 from .kernels.regime_and_status import LEAST_TEMPERATURE
 from .kernels.workspace import size_of_state, size_of_work
 from .parameters import SPEC, WasherParams
-from .washer_result import BRANCH_NAMES, BRANCHES, BY_CARD, Inputs, WasherResult, result_of
+from .washer_result import BRANCH_NAMES, BRANCHES, BY_CARD, OVERLAP, Inputs, WasherResult, result_of
 
 __all__ = ["WasherParams", "WasherResult", "solve_washer"]
 
@@ -244,6 +245,19 @@ def doubt_of_rows(params: WasherParams, fidelity: str, points: Array) -> str:
         with suppress(ParameterError):  # without a map nothing is solved
             return outside_text(params, points, "points")
     return ""
+
+
+SWEEP = Sweep(
+    not_shown=("energy", "stored_heat"),
+    doubt=doubt_of_rows,
+    least={
+        "stick_margin": (
+            1.0,
+            "gap 2 cannot hold the washer, which would slip on the gear; here both turn together",
+        ),
+        "film_thickness": (0.0, OVERLAP),
+    },
+)
 
 
 class _Prepared:

@@ -1,13 +1,13 @@
 """Wet clutch: coefficient of boundary friction, and a pack that slips at a constant speed."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SolveError, Status
-from ..model.advice import warnings_of
+from ..model.advice import Plain, warnings_of
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.prepare import filled
@@ -30,7 +30,7 @@ __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
 
 
 @dataclass(frozen=True, slots=True)
-class ClutchResult:
+class ClutchResult(Plain):
     """A pack slipping at constant load and speed: torque and steady temperatures, SI units."""
 
     friction_torque: float  # [N m] with the sign of the slip; 0 at slip 0
@@ -52,17 +52,13 @@ class ClutchResult:
     warnings: tuple[str, ...] = ()
     """What a reader must not miss, a line each."""
 
-    def as_dict(self) -> dict[str, Any]:
-        """Return the fields as a dictionary that JSON can hold; status by name."""
-        return asdict(self) | {"status": self.status.name}
-
 
 def _in_range(name: str, values: ArrayLike, low: float, high: float) -> Any:
     try:
         array = np.asarray(values, float)
     except (TypeError, ValueError):
         raise ParameterError(
-            f"{name} = {values!r}, numbers are wanted, allowed: {low:g} .. {high:g}"
+            f"{name} = {values!r}, numbers are required, allowed: {low:g} .. {high:g}"
         ) from None
     bad = ~((array >= low) & (array <= high))
     if bad.any():

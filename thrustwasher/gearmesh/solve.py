@@ -2,13 +2,13 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from ..errors import ParameterError, SolveError, Status
-from ..model.advice import warnings_of
+from ..model.advice import Plain, warnings_of
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.prepare import filled
@@ -32,7 +32,7 @@ __all__ = ["GearMeshParams", "GearMeshResult", "solve_gearmesh"]
 
 
 @dataclass(frozen=True, slots=True)
-class GearMeshResult:
+class GearMeshResult(Plain):
     """A pair of gears at one operating point, seen where its flanks are hottest; SI units.
 
     With ``film_heat`` "atan" that is where contact starts, but for the fidelity "fine". None stands
@@ -104,10 +104,6 @@ class GearMeshResult:
     fidelity: str
     warnings: tuple[str, ...] = ()
     """What a reader must not miss, a line each."""
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return the fields as a dictionary that JSON can hold; status by name."""
-        return asdict(self) | {"status": self.status.name}
 
 
 def prepare(params: GearMeshParams, fidelity: str) -> Any:
@@ -205,7 +201,7 @@ def solve_gearmesh(
         *doubts_of_point(params, par, field, torque, speed, oil),
     ]
     absent = dict.fromkeys(absent_outputs(params))
-    said = warnings_of(SPEC, status, {"oil_temperature": oil}, _shown(field.tolist()))
+    messages = warnings_of(SPEC, status, {"oil_temperature": oil}, _shown(field.tolist()))
     point = {
         "status": status,
         "fidelity": rung_named(SPEC, fidelity),
@@ -213,7 +209,7 @@ def solve_gearmesh(
         **_size(params, par),
     }
     result = _result(par, field.tolist(), torque, speed, absent | point)
-    return replace(result, warnings=(*said, *_failures(result), *doubts))
+    return replace(result, warnings=(*messages, *_failures(result), *doubts))
 
 
 def _size(p: GearMeshParams, par: Any) -> dict[str, float]:

@@ -102,12 +102,12 @@ def _value(params: Any, by: str, fidelity: str) -> Any:
 
 def _why(params: Any, pairs: Iterable[tuple[str, Any]], fidelity: str) -> str:
     """Say what would read a parameter, and what there is instead."""
-    wanted: dict[str, list[str]] = {}
+    required: dict[str, list[str]] = {}
     for by, value in pairs:
-        wanted.setdefault(by, []).append(f"{value:g}" if isinstance(value, float) else str(value))
-    read = " or ".join(f"{by} = {' or '.join(values)}" for by, values in wanted.items())
-    said = {by: _value(params, by, fidelity) for by in wanted}
-    here = ", ".join(f"{by} is {value}" for by, value in said.items() if value != "")
+        required.setdefault(by, []).append(f"{value:g}" if isinstance(value, float) else str(value))
+    read = " or ".join(f"{by} = {' or '.join(values)}" for by, values in required.items())
+    present = {by: _value(params, by, fidelity) for by in required}
+    here = ", ".join(f"{by} is {value}" for by, value in present.items() if value != "")
     return f"has no effect: read by {read} only; {here}"
 
 

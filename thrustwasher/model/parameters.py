@@ -189,7 +189,7 @@ def check_number(
             raise TypeError
         number = float(value)
     except (TypeError, ValueError):
-        raise ParameterError(f"{name} = {value!r}, a number in {unit} is wanted") from None
+        raise ParameterError(f"{name} = {value!r}, a number in {unit} is required") from None
     except OverflowError:
         number = math.inf
     if not low <= number <= high:

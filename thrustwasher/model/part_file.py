@@ -86,11 +86,11 @@ class PartFile:
             {**self.parameters, "fidelity": rung_named(self.spec, self.fidelity)},
             starts,
             course=course,
-            **self.told,
+            **self.about,
         )
 
     @property
-    def told(self) -> dict[str, Any]:
+    def about(self) -> dict[str, Any]:
         """What the FMU says of this part, beside its values: fields of the model's record."""
         text = self.description.rstrip(".") or self.spec.help
         return {
@@ -219,7 +219,7 @@ def preset_part(spec: ModelSpec, name: str) -> PartFile:
     return known[name]
 
 
-def made_of(spec: ModelSpec, preset: str | None, changes: Mapping[str, Any]) -> Any:
+def preset_params(spec: ModelSpec, preset: str | None, changes: Mapping[str, Any]) -> Any:
     """Return a model's parameters: its defaults, or those of a preset, some of them changed."""
     start = {} if preset is None else preset_part(spec, preset).parameters
     return spec.params(**{**start, **changes})

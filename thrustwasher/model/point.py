@@ -66,12 +66,12 @@ class Point:
 def taken_text(box: Values, default: Values, inputs: Sequence[Signal]) -> str:
     """Return a line that names what was taken from a box and by default; "" if nothing was."""
     default = {s.name: default[s.name] for s in inputs if s.name in default and not s.optional}
-    said = []
+    parts = []
     for words, values in {"from the part's box": box, "by default": default}.items():
         shown = [quantity_text(s, values[s.name]) for s in inputs if s.name in values]
         if shown:
-            said.append(f"{words}: {', '.join(shown)}")
-    return f"taken {'; '.join(said)}" if said else ""
+            parts.append(f"{words}: {', '.join(shown)}")
+    return f"taken {'; '.join(parts)}" if parts else ""
 
 
 def from_box(part: Boxed, name: str, value: float, usual: float) -> bool:

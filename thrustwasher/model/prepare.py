@@ -88,7 +88,7 @@ def rising(time: ArrayLike) -> Array:
     """Return points in time [s]; at least two, rising."""
     points = course_of("time", time, "s", -1e9, 1e9)
     if len(points) < 2 or not (np.diff(points) > 0.0).all():
-        raise ParameterError("time: at least two rising points [s] are wanted")
+        raise ParameterError("time: at least two rising points [s] are required")
     return points
 
 
@@ -100,7 +100,7 @@ def course_of(
     try:
         array = np.asarray(values, float)
     except (TypeError, ValueError):
-        raise ParameterError(f"{name}: numbers{unit and ' in'}{unit} are wanted") from None
+        raise ParameterError(f"{name}: numbers{unit and ' in'}{unit} are required") from None
     if n is not None and array.ndim == 0:
         array = np.full(n, float(array))
     if array.ndim != 1 or len(array) != (n or len(array) or 1):

@@ -41,7 +41,7 @@ class Variants:
     head: str  # what a row is; the parameter of this name holds the chosen one
     rows: Mapping[str, str]  # words -> ending of the fields' names
     columns: Mapping[str, str]  # field without its ending -> head
-    chosen: str  # said of the row that the parameters choose
+    chosen: str  # words beside the row that the parameters choose
 
     def name(self, column: str, row: str) -> str:
         """Return the name of a field."""

@@ -71,7 +71,7 @@ def output(
 
 @dataclass(frozen=True)
 class Rule:
-    """What is said when parameters contradict each other.
+    """The message when parameters contradict each other.
 
     ``text`` names parameters in braces and stands for itself wherever no Python runs; ``exact``,
     if given, makes the message from the parameters with figures that have to be computed.

@@ -107,7 +107,7 @@ def nothing_else(where: str, keys: Iterable[str], known: Collection[str]) -> Non
 def quantity(where: str, key: str, value: Any, unit: str) -> float:
     """Return a number in SI units."""
     if isinstance(value, bool) or not isinstance(value, str | int | float):
-        raise ParameterError(f"{where}: {key} = {value!r}, a number in {unit} is wanted")
+        raise ParameterError(f"{where}: {key} = {value!r}, a number in {unit} is required")
     with within(where):
         return parse_quantity(value, unit, key)
 
@@ -128,7 +128,7 @@ def read_value(where: str, key: str, value: Any, meta: Any) -> Any:
             with within(where):
                 check_value(key, found, meta, stated=True)
         return found
-    wanted = {"integer": int, "boolean": bool, "enumeration": str}[meta["kind"]]
-    if not isinstance(value, wanted) or (wanted is int and isinstance(value, bool)):
+    required = {"integer": int, "boolean": bool, "enumeration": str}[meta["kind"]]
+    if not isinstance(value, required) or (required is int and isinstance(value, bool)):
         raise ParameterError(f"{where}: {key} = {value!r}, allowed: {allowed(meta)}")
     return value

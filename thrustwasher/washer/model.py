@@ -30,7 +30,7 @@ GRID = Option(
 )
 BRANCH = Option(
     name="branch",
-    help="solution wanted where several exist; default: a washer loaded up from light load",
+    help="solution to take where several exist; default: a washer loaded up from light load",
     choices=("film", "contact"),
 )
 

@@ -6,12 +6,13 @@ the box, the rung is compared with the one above it at some points.
 
 import math
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, NamedTuple
 
 from ..errors import ParameterError, SolveError
-from ..model.parameters import params_of
+from ..model.parameters import check_number, params_of
 from ..model.prepare import tables_of
 from ..model.registry import ladder_of, spec_of
 from ..model.spec import ModelSpec
@@ -77,22 +78,14 @@ def rungs_of(spec: ModelSpec, params: Any) -> list[str]:
 
     ParameterError: none can be chosen of this model.
     """
-    ladder = ladder_of(spec.key)
-    return [
-        rung
-        for rung in ladder.kernels
-        if _has_table(spec, rung, params)
-        and all(getattr(params, n) == value for n, value in ladder.only.get(rung, {}).items())
-    ]
-
-
-def _has_table(spec: ModelSpec, rung: str, params: Any) -> bool:
-    """Tell if a rung needs no file to look its answers up in, or has one for these parameters."""
-    try:
-        tables = tables_of(spec, rung)
-        return tables is None or tables.find(params) is not None
-    except ParameterError:
-        return False
+    ladder, found = ladder_of(spec.key), []
+    for rung in ladder.kernels:
+        with suppress(ParameterError):  # there is no file for it to look its answers up in
+            if tables := tables_of(spec, rung):
+                tables.find(params)
+            if all(getattr(params, n) == value for n, value in ladder.only.get(rung, {}).items()):
+                found.append(rung)
+    return found
 
 
 def choose(
@@ -215,7 +208,8 @@ def _by_table(asked: _Request, known: dict[str, float], fresh: dict[str, RungErr
 def _by_comparison(asked: _Request, rungs: list[str], compared: Comparison) -> Choice:
     """Return the first rung that the one above confirms at the points, or the last."""
     coarse: list[str] = []
-    where = "there" if compared.size == 1 else f"at {compared.size} points"
+    n = len(compared.points)
+    where = "there" if n == 1 else f"at {n} points"
     for rung, above in pairwise(rungs):
         difference = compared.difference(rung, above)
         error = asked.safety * OF_DIFFERENCE * difference
@@ -244,33 +238,23 @@ def checked_box(spec: ModelSpec, box: Mapping[str, float | Interval]) -> dict[st
             raise ParameterError(f"box: {name!r} is no input; allowed: {', '.join(names)}")
     found: dict[str, Interval] = {}
     for signal in spec.inputs:
+        name, unit = f"box: {signal.name}", signal.unit
         if signal.name not in box and not signal.optional:
             raise ParameterError(
-                f"box: {signal.name} [{signal.unit}] is missing; every input is required: "
-                + ", ".join(names)
+                f"{name} [{unit}] is missing; every input is required: {', '.join(names)}"
             )
         given = box.get(signal.name, signal.start or 0.0)
-        low, high = found[signal.name] = _interval(signal.name, given, signal.unit)
-        least, largest = signal.range
-        if low < least or high > largest:
+        try:
+            low, high = (given, given) if isinstance(given, int | float) else given
+        except (TypeError, ValueError):
             raise ParameterError(
-                f"box: {signal.name} = {low:g} .. {high:g} {signal.unit}, "
-                f"allowed: {least:g} .. {largest:g} {signal.unit}"
-            )
+                f"{name} = {given!r}, allowed: a number or (low, high) in {unit}"
+            ) from None
+        low, high = (check_number(name, x, unit, *signal.range) for x in (low, high))
+        if low > high:
+            raise ParameterError(f"{name} = {given!r} {unit}, allowed: low <= high")
+        found[signal.name] = low, high
     return found
-
-
-def _interval(name: str, given: float | Interval, unit: str) -> Interval:
-    try:
-        ends = (given, given) if isinstance(given, int | float) else given
-        low, high = (float(x) for x in ends)
-    except (TypeError, ValueError):
-        raise ParameterError(
-            f"box: {name} = {given!r}, allowed: a number or (low, high) in {unit}"
-        ) from None
-    if not (math.isfinite(low) and math.isfinite(high) and low <= high):
-        raise ParameterError(f"box: {name} = {given!r} {unit}, allowed: low <= high, both finite")
-    return low, high
 
 
 def _above(name: str, value: float, low: float, belongs: bool = True) -> float:

@@ -38,13 +38,12 @@ class Pool:
             self._made[key] = self._make(name, part)
         return self._made[key]
 
-    def all_of(self, scene: Scene) -> dict[str, Stepping]:
-        """Return an instance for every part of a scene."""
-        return self.all_but(scene, {})
-
-    def all_but(self, scene: Scene, given: Mapping[str, Stepping]) -> dict[str, Stepping]:
+    def all_of(
+        self, scene: Scene, given: Mapping[str, Stepping] | None = None
+    ) -> dict[str, Stepping]:
         """Return an instance for every part of a scene, those that are given as they are."""
-        return {n: given.get(n) or self.take(n, part) for n, part in scene.parts.items()}
+        known = given or {}
+        return {n: known.get(n) or self.take(n, part) for n, part in scene.parts.items()}
 
 
 def run_auto(
@@ -80,7 +79,7 @@ def run_auto(
     def run(now: Scene) -> ShiftResult:
         return run_shift(now, pool.all_of(now), progress=progress, compiled=compiled)
 
-    second, given = partial(run_shift, compiled=compiled), pool.all_but
+    second, given = partial(run_shift, compiled=compiled), pool.all_of
 
     scene, remarks = _without_choice(scene)
     wanted = {n: p for n, p in scene.parts.items() if p.tolerance}

@@ -51,7 +51,7 @@ def check_part(
         result.time,
         inputs,
         places,
-        chosen.model in WITHOUT_PAST,
+        part.spec.key in WITHOUT_PAST,
     )
     worst = _farthest(chosen, part, result, solved)
     return Check(

@@ -63,7 +63,7 @@ def _selected(name: str, part: Part, first: ShiftResult, safety: float) -> Selec
     outputs = [o for _, o in QUANTITIES[spec.key] if o in [s.name for s in spec.outputs]]
     scales = tuple(_scale(name, output, first) for output in outputs)
     known = fitting[0] in errors
-    return Selected(name, spec.key, tuple(fitting), share, known, tuple(words), box, scales)
+    return Selected(name, tuple(fitting), share, known, tuple(words), box, scales)
 
 
 def _words(

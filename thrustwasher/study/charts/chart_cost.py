@@ -2,14 +2,16 @@
 
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.transforms import Bbox
 
 from ...report.palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY
 from ...report.style import label, legend_below, new_figure, note_at_right, styled
@@ -26,11 +28,10 @@ WORDS = {
     "end_temperature": "interface temperature at the end",
 }
 SIDE_BY_SIDE = 3  # names in a row of the legend
-# Names of marks, in points:
-SIZE = 7.5  # points
-WIDE, TALL = 0.62 * SIZE, 1.2 * SIZE  # of a letter and of a line, in points
-MARK = 3.5  # half of a mark, in points
-FAR = (4.0, 12.0, 22.0, 34.0)  # from the mark, in points; from the second on a line leads to it
+SIZE, MARK = 7.5, 3.5  # of letters; half of a mark, in points
+FAR = (4.0, 12.0, 22.0, 34.0)  # of a name from its mark, in points; from the second on with a line
+SIDES = ((1, 1), (1, -1), (-1, 1), (-1, -1), (0, 1), (0, -1))  # of the mark: right, above
+HORIZONTAL, VERTICAL = {1: "left", 0: "center", -1: "right"}, {1: "bottom", -1: "top"}
 Sampled = Mapping[str, Any]
 
 
@@ -82,7 +83,6 @@ def draw_samples(
     quantity: Mapping[str, Any],
     front: Sequence[int],
     cost: str = "call_median",
-    spread: str | None = "call_iqr",
     crosses: bool = True,
 ) -> None:
     """Draw worst (filled) and rms (hollow) of each sample, lines along the knob, the front."""
@@ -109,7 +109,7 @@ def draw_samples(
         members = [s for s in known if s["family"] == family]
         colour = COLOURS.get(family) or next(rivals)
         if members:
-            labels += _draw_family(axes, family, members, name, cost, spread, colour, low)
+            labels += _draw_family(axes, family, members, name, cost, colour, low)
     best = staircase(samples, front, name)
     axes.step(
         [s[cost] for s in best],
@@ -147,7 +147,6 @@ def _draw_family(
     members: Sequence[Sampled],
     name: str,
     cost: str,
-    spread: str | None,
     colour: str,
     low: float,
 ) -> list[Label]:
@@ -173,11 +172,11 @@ def _draw_family(
             label=f"{family}: worst, hollow rms" if kind == "worst" else None,
             gid=mark_of(name, family) if kind == "worst" else None,
         )
-        if spread and kind == "worst":
+        if cost == "call_median" and kind == "worst":
             axes.errorbar(
                 x,
                 y,
-                xerr=[0.5 * (s[spread] or 0.0) for s in members],
+                xerr=[0.5 * (s["call_iqr"] or 0.0) for s in members],
                 fmt="none",
                 ecolor=colour,
                 elinewidth=0.9,
@@ -236,7 +235,7 @@ def count_figure(model: str, survey: Mapping[str, Any]) -> Figure:
     figure, panels = new_figure(11.0, 3.8, 1, max(1, len(groups)))
     for axes, group in zip(panels, groups, strict=False):
         members = [s for s in survey["samples"] if s["count_of"] == group]
-        draw_samples(axes, members, quantity, (), "count", None)
+        draw_samples(axes, members, quantity, (), "count")
         words = WORDS.get(quantity["name"], quantity["name"])
         label(axes, f"{model}: {words}", f"{group} per case", "error")
     return figure
@@ -247,40 +246,28 @@ def place_labels(axes: Axes, labels: Sequence[Label], marks: Sequence[tuple[floa
 
     One that finds no place is left out: the page tells it of the point.
     """
-    scale = 72.0 / axes.figure.dpi
-    at = axes.transData.transform
-    frame = scale * np.array(axes.get_window_extent().extents)
-    around = np.array([-MARK, -MARK, MARK, MARK])
-    taken = [np.tile(scale * at(mark), 2) + around for mark in marks]
-    taken += [scale * np.array(words.get_window_extent().extents) for words in axes.texts]
-    for one in labels:
-        spot = scale * at((one.x, one.y))
-        size = np.array([WIDE * len(one.text), TALL])
-        for far, corner in _corners(size):
-            box = np.concatenate((spot + corner, spot + corner + size))
-            inside = np.all(box[:2] >= frame[:2]) and np.all(box[2:] <= frame[2:])
-            if inside and not any(_overlap(box, other) for other in taken):
+    frame, half = axes.get_window_extent(), MARK * axes.figure.dpi / 72.0
+    spots = [axes.transData.transform(mark) for mark in marks]
+    taken = [Bbox.from_extents(x - half, y - half, x + half, y + half) for x, y in spots]
+    taken += [words.get_window_extent() for words in axes.texts]
+    for x, y, text, colour in labels:
+        for far, (right, up) in product(FAR, SIDES):
+            line: Any = {"arrowstyle": "-", "lw": 0.5, "color": colour, "shrinkB": 3.0}
+            words = axes.annotate(
+                text,
+                (x, y),
+                (far * right, far * up),
+                textcoords="offset points",
+                ha=HORIZONTAL[right],
+                va=VERTICAL[up],
+                fontsize=SIZE,
+                color=colour,
+                arrowprops=line if far > FAR[0] else None,
+            )
+            words.get_window_extent()  # finds its place, and what there is with the line
+            box = Text.get_window_extent(words)
+            inside = frame.contains(box.x0, box.y0) and frame.contains(box.x1, box.y1)
+            if inside and not box.count_overlaps(taken):
                 taken.append(box)
-                line: Any = {"arrowstyle": "-", "lw": 0.5, "color": one.colour, "shrinkB": 3.0}
-                axes.annotate(
-                    one.text,
-                    (one.x, one.y),
-                    corner,
-                    textcoords="offset points",
-                    fontsize=SIZE,
-                    color=one.colour,
-                    arrowprops=line if far > FAR[0] else None,
-                )
                 break
-
-
-def _corners(size: Any) -> Iterator[tuple[float, Any]]:
-    """Yield distances and where a label's lower left corner may lie, near places first."""
-    wide, tall = size
-    for far, (right, up) in product(FAR, ((1, 1), (1, -1), (-1, 1), (-1, -1), (0, 1), (0, -1))):
-        across = far if right > 0 else -0.5 * wide if right == 0 else -far - wide
-        yield far, np.array([across, far if up > 0 else -far - tall])
-
-
-def _overlap(a: Any, b: Any) -> bool:
-    return bool(np.all(a[:2] < b[2:]) and np.all(b[:2] < a[2:]))
+            words.remove()

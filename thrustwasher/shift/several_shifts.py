@@ -91,7 +91,7 @@ class SequenceResult:
             ],
             "warnings": list(self.warnings),
             "step_error": self.step_error.relative if self.step_error else None,
-            "step_errors": {str(i): e.as_dict() for i, e in self.step_errors.items()},
+            "step_errors": {str(i): e._asdict() for i, e in self.step_errors.items()},
             "step_advice": min((e.advice for e in self.step_errors.values()), default=None),
             "wall_time": self.wall_time,
             "messages": self.messages,

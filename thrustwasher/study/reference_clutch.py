@@ -4,6 +4,7 @@ Chart `settled` is slip that lasts for ever, as ``solve_clutch`` takes it; chart
 pack that closes while its slip runs out, as in a shift, at points of time. The drum stands still.
 """
 
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -172,19 +173,14 @@ def _at_points(params: Any, point: Point) -> list[ReferencePoint]:
     Both are extrapolated over the number of rings. A chart on which the equations have no solution
     is left out, and slip that would burn the lining before it settles.
     """
-
-    def settled(params: Any, point: Any) -> tuple[Values, dict[str, float]]:
-        return reference_clutch(params, **point).of(QUANTITIES)
-
+    given: Any = point
     found = []
-    for chart, ask in (("settled", settled), ("engagement", _engagement)):
-        try:
-            values, uncertainty = ask(params, point)
-        except SolveError:
-            continue
-        if chart == "settled" and float(np.max(values["temperature"])) > k.HOT_LIMIT:
-            continue
-        found.append(ReferencePoint(point, chart, None, values, uncertainty))
+    with suppress(SolveError):
+        settled = reference_clutch(params, **given)
+        if settled.values["temperature"] <= k.HOT_LIMIT:
+            found.append(ReferencePoint(point, "settled", None, *settled.of(QUANTITIES)))
+    with suppress(SolveError):
+        found.append(ReferencePoint(point, "engagement", None, *_engagement(params, point)))
     return found
 
 

@@ -20,6 +20,10 @@ from .reference_values import OK, Answer, Point, ReferencePoint, ReferenceValues
 TOLERANCE = 1e-12
 SEARCHED = 200  # positions on each stretch from which the hottest is searched
 METHODS = ("adaptive quadrature", "search for the hottest position")
+OF_HOTTEST = (
+    *("temperature", "film_ratio", "film_thickness"),
+    *("flash_rise", "surface_temperature", "film_temperature"),
+)
 SHOWN = {
     "friction_coefficient": k.F_FRICTION,
     "mean_friction": k.F_MEAN_FRICTION,
@@ -86,12 +90,7 @@ def reference_gearmesh(
     values = {
         "friction_torque": loss,
         "friction_coefficient": friction,
-        "temperature": float(hottest[k.F_ASPERITY]),
-        "film_ratio": float(hottest[k.F_RATIO]),
-        "film_thickness": float(hottest[k.F_FILM]),
-        "flash_rise": float(hottest[k.F_FLASH]),
-        "surface_temperature": float(hottest[k.F_SURFACE]),
-        "film_temperature": float(hottest[k.F_FILM_TEMPERATURE]),
+        **{name: float(hottest[SHOWN[name]]) for name in OF_HOTTEST},
     }
     uncertainty = {name: ROUNDING * abs(value) for name, value in values.items()}
     uncertainty["friction_torque"] += abs(loss) * missed / max(friction, 1e-300)

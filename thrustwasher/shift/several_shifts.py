@@ -26,7 +26,7 @@ from .scene.scene import Scene
 from .scene.sequence import sequence_of, shift_scene, times
 from .shift_result import ShiftResult
 
-# Input of the transmission -> course that drives it.
+# Input of the transmission -> profile that drives it.
 DRIVEN = {
     "clutch_pressure": "clutch_pressure",
     "brake_pressure": "brake_pressure",
@@ -194,10 +194,10 @@ def _drives(system: System, shifts: list[Scene]) -> Drive:
     Pressures and the command are those of the step's end, the engine's torque is its mean.
     """
     names, inputs = system.transmission.input_names, system.transmission.inputs
-    courses = [
+    profiles = [
         {
-            name: np.array(course_points(s.parts["transmission"].params, course)).T
-            for name, course in DRIVEN.items()
+            name: np.array(course_points(s.parts["transmission"].params, profile)).T
+            for name, profile in DRIVEN.items()
         }
         for s in shifts
     ]
@@ -205,7 +205,7 @@ def _drives(system: System, shifts: list[Scene]) -> Drive:
     def drive(t: float, end: float) -> None:
         k = max(0, sum(s.start_time <= t + 1e-9 for s in shifts) - 1)
         inputs[names.index(COMMAND)] = shifts[k].command(end)
-        for name, points in courses[k].items():
+        for name, points in profiles[k].items():
             if len(points):
                 at = 0.5 * (t + end) if name == "engine_torque_input" else end
                 inputs[names.index(name)] = float(np.interp(at, *points))

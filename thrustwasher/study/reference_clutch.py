@@ -73,7 +73,7 @@ def reference_clutch(
 def reference_engagement(
     params: ClutchParams, *, time: Any, load: Any, speed: Any, oil_temperature: float = 297.15
 ) -> ReferenceValues:
-    """Return torque, temperature, film ratio and heat at the end of a course of load and slip.
+    """Return torque, temperature, film ratio and heat at the end of a profile of load and slip.
 
     Radau's method of order 5 at 1e-9 in place of the package's own integrator, on 2, 4 and 8 rings,
     extrapolated; for a pack with a moving film and without ``contact_rise``.
@@ -87,7 +87,7 @@ def reference_engagement(
     Raises
     ------
     ParameterError : the pack has ``contact_rise``, or no ``film_dynamics``
-    SolveError : the course could not be integrated
+    SolveError : the profile could not be integrated
     """
     if params.contact_rise or not params.film_dynamics:
         raise ParameterError(
@@ -103,7 +103,7 @@ def reference_engagement(
 def _by_radau(
     params: ClutchParams, n: int, t: Array, force: Array, slip: Array, oil: float
 ) -> dict[str, float]:
-    """Integrate film, rings and energy of a face over the course."""
+    """Integrate film, rings and energy of a face over the profile."""
     from scipy.integrate import solve_ivp
 
     par, work = prepare(params, "fine"), np.zeros(k.NWORK)
@@ -125,7 +125,7 @@ def _by_radau(
         return np.concatenate(([film, powers.sum()], heat))
 
     y = np.concatenate(([work[k.W_NOW + k.Y_FILM], 0.0], np.full(n, oil)))
-    for a in range(len(t) - 1):  # courses have corners at their points
+    for a in range(len(t) - 1):  # profiles have corners at their points
         found = solve_ivp(
             rates,
             (t[a], t[a + 1]),
@@ -138,7 +138,7 @@ def _by_radau(
         if status or not found.success:
             raise SolveError(
                 f"reference_engagement: not integrated beyond t = {t[a]:g} s; "
-                f"{Status(status).advice if status else found.message}; use shorter stretches"
+                f"{Status(status).advice if status else found.message}; use shorter intervals"
             )
         y = found.y[:, -1]
     out = np.zeros(k.NOUT)
@@ -185,7 +185,7 @@ def _at_points(params: Any, point: Point) -> list[ReferencePoint]:
 
 
 def _engagement(params: Any, point: Point) -> tuple[Values, dict[str, float]]:
-    """Return the quantities over the course, and what they may be off by at worst."""
+    """Return the quantities over the profile, and what they may be off by at worst."""
     time, load, slip = engagement_points(point["load"], point["speed"])
     rows = []
     for n in RINGS:

@@ -18,7 +18,7 @@ from ..ladder.error_table import QUANTITIES
 from .reference_values import OK, Answer, Point, ReferencePoint, ReferenceValues, Source, Values
 
 TOLERANCE = 1e-12
-SEARCHED = 200  # positions on each stretch from which the hottest is searched
+SEARCHED = 200  # positions on each interval from which the hottest is searched
 METHODS = ("adaptive quadrature", "search for the hottest position")
 OF_HOTTEST = (
     *("temperature", "film_ratio", "film_thickness"),
@@ -45,7 +45,7 @@ def reference_gearmesh(
 
     The same closed forms at every position as in the rung `fine`; they were derived a second time
     and agree to 1e-9 (docs/accuracy.md). The loss is integrated adaptively, the hottest position is
-    searched on each stretch between changes of the load.
+    searched on each interval between changes of the load.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ def _of_loss(params: GearMeshParams, torque: float, speed: float, oil: float) ->
     if not all(np.isfinite(list(best.values()))):
         raise SolveError("reference_gearmesh: the outputs are not finite")
     off = {n: abs(v - coarse[n]) + ROUNDING * abs(v) for n, v in best.items()}
-    return ReferenceValues(best, off, ("Lobatto's rule on ever shorter stretches",))
+    return ReferenceValues(best, off, ("Lobatto's rule on ever shorter intervals",))
 
 
 def share_at(par: Any, position: float) -> float:
@@ -129,7 +129,7 @@ def share_at(par: Any, position: float) -> float:
 
 
 def loss_factor(par: Any) -> float:
-    """Return H_v [-] as the sum of share x sliding over the stretches, on each a closed form."""
+    """Return H_v [-] as the sum of share x sliding over the intervals, on each a closed form."""
     total = 0.0
     for first in range(0, int(par[k.D_PLACES]), N_NODES):
         low, high = (float(par[k.D_POSITION + first + i]) for i in (0, N_NODES - 1))
@@ -141,7 +141,7 @@ def loss_factor(par: Any) -> float:
 
 
 def subdivide(par: Any, most: int) -> None:
-    """Cut the stretches of the line of action into equal parts, ``most`` positions in all."""
+    """Cut the intervals of the line of action into equal parts, ``most`` positions in all."""
     pieces = int(par[k.D_PLACES]) // N_NODES
     parts = most // N_NODES // pieces
     old = par[k.D_POSITION : k.D_POSITION + k.N_PATH].copy()
@@ -176,7 +176,7 @@ def _positions(
 
 
 def _hottest(at: Callable[[float], Any], low: float, high: float) -> Any:
-    """Return the numbers at the hottest position of a stretch."""
+    """Return the numbers at the hottest position of an interval."""
     from scipy.optimize import minimize_scalar
 
     grid = np.linspace(low, high, SEARCHED)

@@ -8,7 +8,7 @@ import numpy as np
 
 Point = dict[str, float]
 Values = dict[str, float | list[float]]
-MARGIN = 0.05  # of a fold's load: points nearer are told apart
+MARGIN = 0.05  # of a fold's load: points nearer are kept apart
 OK, FAILED, OUTSIDE, OTHER_SIDE = "ok", "failed", "outside", "other side"
 
 
@@ -35,7 +35,7 @@ class ReferencePoint:
     """What the reference says at a held-out point on one chart.
 
     ``values`` holds the quantities, numbers or a row over time; ``uncertainty`` is the reference's
-    own for each, in the same unit. ``by_mesh`` holds what a mesh said on the way.
+    own for each, in the same unit. ``by_mesh`` holds what a mesh gave on the way.
     """
 
     point: Point

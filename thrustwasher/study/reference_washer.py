@@ -81,7 +81,7 @@ def reference_washer(
 def _converged(
     base: WasherResult, grids: tuple[tuple[int, int], ...]
 ) -> tuple[ReferenceValues, dict[str, float]]:
-    """Return the values on a branch extrapolated over meshes, and what the first mesh said."""
+    """Return the values on a branch extrapolated over meshes, and what the first mesh gave."""
     result, rows = base, []
     for grid in grids:
         result = solve_on(result, grid)
@@ -102,11 +102,11 @@ def solve_on(result: WasherResult, grid: tuple[int, int]) -> WasherResult:
     """Return the solution on ``grid``, on the branch of ``result``, started from its fields.
 
     Where Newton's method does not arrive from there the solver finds the branch by itself, as from
-    nothing. A failure is told by the status; ``error_estimate`` is that of the named rung.
+    nothing. The status shows a failure; ``error_estimate`` is that of the named rung.
     """
-    wanted = BRANCHES.get(result.branch, 0.0)
+    branch = BRANCHES.get(result.branch, 0.0)
     return _solve(
-        result.params, result.point(), "field", grid, wanted, interpolate_to_mesh(result, grid)
+        result.params, result.point(), "field", grid, branch, interpolate_to_mesh(result, grid)
     )
 
 

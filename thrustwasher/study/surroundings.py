@@ -41,7 +41,7 @@ def surroundings(command: str) -> dict[str, Any]:
 
 
 def load() -> float | None:
-    """Return how many processes wanted to run during the last minute."""
+    """Return how many processes were ready to run during the last minute."""
     return round(os.getloadavg()[0], 2) if hasattr(os, "getloadavg") else None
 
 

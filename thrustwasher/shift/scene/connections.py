@@ -1,4 +1,4 @@
-"""The parts of a shift, who passes what to whom, and all else that is told part by part."""
+"""The parts of a shift, who passes what to whom, and what else differs from part to part."""
 
 from collections.abc import Mapping
 from typing import Any, NamedTuple

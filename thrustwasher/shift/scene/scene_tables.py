@@ -28,8 +28,8 @@ BEARING_TABLES = tuple(BEARINGS)
 USELESS = {
     "engine_torque": ("engine", "its points"),
     "engine_start_time": ("engine", "its points"),
-    "clutch_force": ("pressure", "courses of pressure"),
-    "brake_force": ("pressure", "courses of pressure"),
+    "clutch_force": ("pressure", "profiles of pressure"),
+    "brake_force": ("pressure", "profiles of pressure"),
 }
 
 
@@ -115,7 +115,7 @@ def vehicle_of(where: str, table: dict[str, Any] | None) -> Vehicle | None:
 
 
 def points_of(where: str, name: str, what: str, table: dict[str, Any]) -> dict[str, Any]:
-    """Return the parameters of a course from the table's ``points``, pairs of time and value."""
+    """Return the parameters of a profile from the table's ``points``, pairs of time and value."""
     points = pairs(
         where, "points", table.pop("points", None), ("time", "s"), COURSES[name][0], what
     )

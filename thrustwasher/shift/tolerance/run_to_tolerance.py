@@ -82,12 +82,12 @@ def run_auto(
     second, given = partial(run_shift, compiled=compiled), pool.all_of
 
     scene, remarks = _without_choice(scene)
-    wanted = {n: p for n, p in scene.parts.items() if p.tolerance}
-    if not wanted:
+    asking = {n: p for n, p in scene.parts.items() if p.tolerance}
+    if not asking:
         result = run(scene)
         result = replace(result, messages=[*result.messages, *remarks])
         return guarded(result, given, second) if guard else result
-    result = run(with_rungs(scene, {n: first_rung(p, guard) for n, p in wanted.items()}))
+    result = run(with_rungs(scene, {n: first_rung(p, guard) for n, p in asking.items()}))
     chosen = select(scene, result, guard)
     rungs = {c.part: c.rung for c in chosen}
     if any(result.scene.parts[name].fidelity != rung for name, rung in rungs.items()):
@@ -95,7 +95,7 @@ def run_auto(
     if guard:
         result = _checked(result, chosen, pool, run)
         result = _followed(scene, guarded(result, given, second), run, given, second)
-        remarks += _step_remarks(result, min(p.tolerance or 1.0 for p in wanted.values()))
+        remarks += _step_remarks(result, min(p.tolerance or 1.0 for p in asking.values()))
     return replace(result, selection=Selection(chosen), messages=[*result.messages, *remarks])
 
 

@@ -44,7 +44,7 @@ class Sample:
     count_of: str
     n_cases: int
     n_failed: int
-    failures: dict[str, str] = field(default_factory=dict)  # case -> what it said
+    failures: dict[str, str] = field(default_factory=dict)  # case -> its message
     is_rival: bool = False
     slowest_call_s: float = math.nan
     slowest_case: str | None = None

@@ -163,7 +163,9 @@ def choose(
     else:
         compared = Comparison(spec, params, points or points_of(whole), quantity)
         found = _by_comparison(asked, rungs, compared)
-    return replace(found, reasons=(*found.reasons, *_stale(spec, params, rungs)))
+    tables = ((r, t.stale(r)) for t in load_tables(spec.key, params) for r in t.rungs)
+    stale = [f"not asked: {r.fidelity}: {why}" for r, why in tables if why and r.fidelity in rungs]
+    return replace(found, reasons=(*found.reasons, *stale))
 
 
 class _Request(NamedTuple):
@@ -222,12 +224,6 @@ def _by_comparison(asked: _Request, rungs: list[str], compared: Comparison) -> C
         coarse.append(f"too coarse: {rung}, {asked.shown(difference)} from {above}")
     words = f"{asked.model}: {rungs[-1]}, the last rung; no table of errors speaks here"
     return Choice(rungs[-1], math.inf, math.nan, (words, *coarse), False)
-
-
-def _stale(spec: ModelSpec, params: Any, rungs: list[str]) -> list[str]:
-    """Say why errors of rungs in the tables of these parameters do not count."""
-    found = ((r, t.stale(r)) for t in load_tables(spec.key, params) for r in t.rungs)
-    return [f"not asked: {r.fidelity}: {why}" for r, why in found if why and r.fidelity in rungs]
 
 
 def checked_box(spec: ModelSpec, box: Mapping[str, float | Interval]) -> dict[str, Interval]:

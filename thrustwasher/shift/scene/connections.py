@@ -58,18 +58,14 @@ SOURCE_SPEC = command_params.SPEC  # its model
 
 
 def wired(parts: Mapping[str, Any]) -> list[Link]:
-    """Return the links between the parts of a scene."""
-    far_face = parts["washer"].params.gear_far_face if "washer" in parts else ""
-    return links(parts["transmission"].params.coupling, set(parts), far_face)
+    """Return the links between the parts of a scene.
 
-
-def links(coupling: str, present: set[str], far_face: str = "") -> list[Link]:
-    """Return the links between the parts present.
-
-    ``coupling`` says what the packs send, ``far_face`` what the gear behind a washer borders on.
+    They depend on what the packs send, and on what the gear behind a washer borders on.
     """
+    coupling, present = parts["transmission"].params.coupling, set(parts)
+    bulk = "washer" in parts and parts["washer"].params.gear_far_face == "bulk"
     found = []
-    for table in ("signals", coupling, "more", *(["bulk"] if far_face == "bulk" else [])):
+    for table in ("signals", coupling, "more", *(["bulk"] if bulk else [])):
         for given, taken in _TABLE[table].items():
             link = Link(*taken.split("."), *given.split("."))
             if link.input == "oil_temperature" and "sump" in present:

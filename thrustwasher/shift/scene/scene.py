@@ -274,15 +274,15 @@ def with_fidelities(scene: Scene, choices: Sequence[str]) -> Scene:
     Later choices overrule earlier ones; parts with one rung keep it.
     """
     parts = dict(scene.parts)
-    for choice in choices:
-        name, given, text = choice.partition("=")
+    for asked in choices:
+        name, given, text = asked.partition("=")
         if not given:
             text, names = name, [n for n, p in parts.items() if len(p.spec.fidelities) > 1]
         elif name in parts:
             names = [name]
         else:
             raise ParameterError(
-                f"fidelity = {choice!r}: no part {name!r} here, allowed: {', '.join(parts)}"
+                f"fidelity = {asked!r}: there is no part {name!r} here, allowed: {', '.join(parts)}"
             )
         for n in names:
             parts[n] = parts[n].asked_for(f"part {n!r}", text)

@@ -223,7 +223,9 @@ def _parts(
             if key == "sump":
                 gearbox = replace(parts["transmission"].params, ring_mesh="ring_mesh" in table)
                 given = _sump(f"{where} [sump]", given, gearbox, temperature)
-            usual = _mates(parts["transmission"].params) if key in MESHES else {}
+            usual: dict[str, Any] = {}
+            if key in MESHES:  # with how many gears a planet meshes, and sun or ring
+                usual = {"mates_pinion": 2, "mates_gear": parts["transmission"].params.planets}
             parts[key], lost = _part(f"{where} [{key}]", PARTS[key], given, common, usual)
             if lost:
                 notes.append(
@@ -283,11 +285,6 @@ def _sump(where: str, table: dict[str, Any], gearbox: Any, oil: float) -> dict[s
             "sets it: all parts and the report start from it"
         )
     return {"initial_temperature": oil, **alike, **table}
-
-
-def _mates(gearbox: Any) -> dict[str, int]:
-    """Return with how many gears a planet meshes, and sun or ring: parameters of their meshes."""
-    return {"mates_pinion": 2, "mates_gear": gearbox.planets}
 
 
 def _shift(where: str, table: dict[str, Any]) -> dict[str, Any]:

@@ -46,35 +46,23 @@ class Label(NamedTuple):
 
 @styled
 def cost_figure(
-    model: str, survey: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]
+    title: str, study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]], across: str
 ) -> Figure:
-    """Return error over seconds per call, a panel per quantity.
+    """Return error over cost, a panel per quantity; lines follow the knob of a series.
 
-    ``survey`` is as in the JSON file, ``fronts`` the indices of the samples that nothing beats.
+    ``study`` is as in the JSON file, ``fronts`` the indices of the samples that nothing beats,
+    ``across`` what a cost is.
     """
-    figure, panels = _panels(survey, fronts, 5.0, f"{model}: ", survey["cost_of"])
-    legend_below(figure, *panels[0].get_legend_handles_labels(), columns=SIDE_BY_SIDE)
-    return figure
-
-
-def _panels(
-    study: Mapping[str, Any],
-    fronts: Mapping[str, Sequence[int]],
-    height: float,
-    prefix: str,
-    across: str,
-    crosses: bool = True,
-) -> tuple[Figure, list[Axes]]:
-    """Return a figure with room for its legend, and a panel of errors per quantity."""
     quantities, families = study["quantities"], {s["family"] for s in study["samples"]}
     foot = -(-(len(families) + 1) // SIDE_BY_SIDE)  # rows of the legend, a name for the front too
-    figure, panels = new_figure(11.0, height, 1, len(quantities), foot=foot)
+    figure, panels = new_figure(11.0, 5.0, 1, len(quantities), foot=foot)
     for axes, quantity in zip(panels, quantities, strict=True):
         name = quantity["name"]
-        draw_samples(axes, study["samples"], quantity, fronts[name], crosses=crosses)
+        draw_samples(axes, study["samples"], quantity, fronts[name])
         unit = "relative" if quantity["kind"] == "relative" else quantity["unit"]
-        label(axes, f"{prefix}{WORDS.get(name, name)}", across, f"error [{unit}]")
-    return figure, panels
+        label(axes, f"{title}{WORDS.get(name, name)}", across, f"error [{unit}]")
+    legend_below(figure, *panels[0].get_legend_handles_labels(), columns=SIDE_BY_SIDE)
+    return figure
 
 
 def draw_samples(
@@ -83,7 +71,6 @@ def draw_samples(
     quantity: Mapping[str, Any],
     front: Sequence[int],
     cost: str = "call_median",
-    crosses: bool = True,
 ) -> None:
     """Draw worst (filled) and rms (hollow) of each sample, lines along the knob, the front."""
     name = quantity["name"]
@@ -121,8 +108,7 @@ def draw_samples(
         label="nothing beats these (worst case)",
         zorder=1,
     )
-    if crosses:
-        _draw_failures(axes, samples, cost)
+    _draw_failures(axes, samples, cost, name)
     kinds = ("worst", "rms")
     place_labels(
         axes, labels, [(s[cost], max(s["errors"][name][k], low)) for s in known for k in kinds]
@@ -169,7 +155,7 @@ def _draw_family(
             mfc=fill,
             lw=1.2 if kind == "worst" else 0.7,
             zorder=3,
-            label=f"{family}: worst, hollow rms" if kind == "worst" else None,
+            label=None if kind == "rms" else family if single else f"{family}: worst, hollow rms",
             gid=mark_of(name, family) if kind == "worst" else None,
         )
         if cost == "call_median" and kind == "worst":
@@ -191,10 +177,12 @@ def mark_of(quantity: str, family: str) -> str:
     return re.sub(r"\W+", "-", f"{quantity} {family}")
 
 
-def _draw_failures(axes: Axes, samples: Sequence[Sampled], cost: str) -> None:
-    """Mark failed samples by a cross at the top, with their number."""
+def _draw_failures(axes: Axes, samples: Sequence[Sampled], cost: str, name: str) -> None:
+    """Mark failed samples by a cross: of many cases at the top, with their number."""
     failed = [s for s in samples if s["n_failed"]]
-    for rank, s in enumerate(failed):
+    for s in (s for s in failed if s["n_cases"] == 1 and s[cost] and s["errors"][name]["worst"]):
+        axes.plot([s[cost]], [s["errors"][name]["worst"]], marker="x", ms=9, color=RED, mew=1.6)
+    for rank, s in enumerate(s for s in failed if s["n_cases"] > 1):
         up = 0.98 - 0.045 * rank
         text = f"{s['label']}: {s['n_failed']} of {s['n_cases']} fail"
         where: Any = axes.get_xaxis_transform() if s[cost] else axes.transAxes
@@ -209,22 +197,6 @@ def _draw_failures(axes: Axes, samples: Sequence[Sampled], cost: str) -> None:
             fontsize=7.5,
             color=RED,
         )
-
-
-@styled
-def steps_figure(study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]) -> Figure:
-    """Return the errors of a shift over its cost, a panel per quantity; lines follow the step."""
-    across = "wall time per simulated second"
-    figure, panels = _panels(study, fronts, 5.6, "", across, crosses=False)
-    for axes, quantity in zip(panels, study["quantities"], strict=True):
-        for s in study["samples"]:
-            error = s["errors"][quantity["name"]]["worst"]
-            if s["n_failed"] and error and s["call_median"]:
-                axes.plot([s["call_median"]], [error], marker="x", ms=9, color=RED, mew=1.6)
-    handles, names = panels[0].get_legend_handles_labels()
-    names = [n.replace(": worst, hollow rms", "") for n in names]
-    legend_below(figure, handles, names, columns=SIDE_BY_SIDE)
-    return figure
 
 
 @styled

@@ -35,7 +35,7 @@ class ReferencePoint:
     """What the reference says at a held-out point on one chart.
 
     ``values`` holds the quantities, numbers or a row over time; ``uncertainty`` is the reference's
-    own for each, in the same unit. ``by_mesh`` holds what a mesh gave on the way.
+    own for each, in the same unit.
     """
 
     point: Point
@@ -44,7 +44,6 @@ class ReferencePoint:
     values: Values
     uncertainty: dict[str, float]
     beside_fold: bool = False
-    by_mesh: dict[str, Values] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -63,7 +62,6 @@ class Source:
     answer: Callable[[Any, str, ReferencePoint], Answer]  # of parameters, rung; on the branch
     at_case: Callable[..., ReferenceValues]  # of a chart: its point, those before it, a preset
     kernels: tuple[str, ...]  # whose change makes kept values worthless
-    grid: tuple[int, ...] | None
     routes: tuple[str, ...]
     branches: Mapping[str, float] = field(default_factory=dict)
     """What asks the kernel for a branch, behind its inputs."""

@@ -196,8 +196,9 @@ def _by_table(asked: _Request, known: dict[str, float], fresh: dict[str, RungErr
         f"{asked.model}: {chosen}, {asked.quantity} within {asked.shown(known[chosen])} "
         f"(asked {asked.shown(asked.tol)}), {say(rung.call, 's', digits=2)} per call"
     ]
-    if rung.beside_folds and asked.quantity == "friction_torque":
-        promise = asked.shown(asked.safety * rung.beside_folds)
+    beside = max(chart.beside_fold for chart in rung.charts)
+    if beside and asked.quantity == "friction_torque":
+        promise = asked.shown(asked.safety * beside)
         lines.append(f"within 5 % of a fold's load: {promise}, if the branch is the same")
     for other, error in known.items():
         if other != chosen:

@@ -45,11 +45,11 @@ PACK_INPUTS = ("clutch_torque", "brake_torque")  # of the transmission
 DIRECT = ("washer",)  # parts whose own torque is judged, beside what it does to the shift
 # Models whose outputs follow from the inputs of the moment; a pack has a past: film, temperature.
 WITHOUT_PAST = ("washer", "gearmesh")
-# What a part is judged by: quantity of its cards, output that the check compares.
-QUANTITIES: Mapping[str, tuple[tuple[str, str], ...]] = {
-    "washer": (("friction_torque", "friction_torque"),),
-    "clutch": (("friction_torque", "torque_capacity"), ("temperature", "temperature")),
-    "gearmesh": (("friction_torque", "friction_torque"),),
+# The outputs that a part is judged by.
+JUDGED: Mapping[str, tuple[str, ...]] = {
+    "washer": ("friction_torque",),
+    "clutch": ("torque_capacity", "temperature"),
+    "gearmesh": ("friction_torque",),
 }
 
 # In a package for other tools.

@@ -20,6 +20,7 @@ from .chart_series import Configuration, Quantity, cases_of, chart_of, digest, s
 from .methods import ChartCase, Method, MethodAnswer
 
 Progress = Callable[[str], None]
+OF_SETTING = ("family", "label", "knob", "value", "count_of", "is_rival")
 GOOD = (Status.OK, Status.DISTRESS, Status.HOT)
 
 
@@ -87,30 +88,24 @@ def measure(
     timings = _time(method, solved, repeats) if method else {}
     timing = _typical(list(timings.values()))
     slowest = max(timings, key=lambda name: timings[name].median, default=None)
-    errors = {name: _errors(pairs) for name, pairs in found.items()}
     return Sample(
-        setting.family,
-        setting.label,
-        setting.knob,
-        setting.value,
-        digest(tuple(cases)),
-        errors,
-        uncertainty_of(known, quantities),
-        timing.median,
-        timing.iqr,
-        timing.least,
-        timing.repeats,
-        timing.first,
-        setup,
-        statistics.fmean(counts) if counts else math.nan,
-        setting.count_of,
-        len(cases),
-        len(failures),
-        failures,
-        setting.is_rival,
-        timings[slowest].median if slowest else math.nan,
-        slowest,
-        float(getattr(method, "build_s", 0.0)),
+        **{name: getattr(setting, name) for name in OF_SETTING},
+        cases=digest(tuple(cases)),
+        errors={name: _errors(pairs) for name, pairs in found.items()},
+        ref_uncertainty=uncertainty_of(known, quantities),
+        call_median=timing.median,
+        call_iqr=timing.iqr,
+        call_min=timing.least,
+        repeats=timing.repeats,
+        first_call_s=timing.first,
+        setup_s=setup,
+        count=statistics.fmean(counts) if counts else math.nan,
+        n_cases=len(cases),
+        n_failed=len(failures),
+        failures=failures,
+        slowest_call_s=timings[slowest].median if slowest else math.nan,
+        slowest_case=slowest,
+        build_s=float(getattr(method, "build_s", 0.0)),
     )
 
 

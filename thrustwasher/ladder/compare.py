@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -60,7 +59,11 @@ class Comparison:
         self, spec: ModelSpec, params: Any, points: Sequence[Point], quantity: str
     ) -> None:
         self.points, self._params, self._quantity = points, params, quantity
-        self._model = find_model(spec.key)
+        command = find_model(spec.key).command
+        assert command is not None
+        self._solve = resolve(command.solve)
+        # the way from the model's own inputs to those that this takes
+        self._place = resolve(command.back) if command.back else dict
         self._known: dict[str, list[float]] = {}
 
     def difference(self, rung: str, above: str) -> float:
@@ -83,16 +86,9 @@ class Comparison:
         return self._known[rung]
 
     def _value(self, rung: str, point: Point) -> float:
-        solve, place = self._ways
+        place = self._place(dict(point))
         try:
-            result = solve(self._params, **place(dict(point)), fidelity=rung, throw=False)
+            result = self._solve(self._params, **place, fidelity=rung, throw=False)
         except (ParameterError, SolveError):
             return math.nan
         return math.nan if result.status.is_failure else float(getattr(result, self._quantity))
-
-    @cached_property
-    def _ways(self) -> Any:
-        """What solves, and the way from the model's own inputs to those that this takes."""
-        command = self._model.command
-        assert command is not None
-        return resolve(command.solve), resolve(command.back) if command.back else dict

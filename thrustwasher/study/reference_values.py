@@ -1,6 +1,6 @@
 """Reference values: what they are, at held-out points too, and what a rung says beside them."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -24,9 +24,8 @@ class ReferenceValues:
     uncertainty: dict[str, float]
     routes: tuple[str, ...] = ()
 
-    def of(self, names: Iterable[str]) -> tuple[Values, dict[str, float]]:
+    def of(self, names: Collection[str]) -> tuple[Values, dict[str, float]]:
         """Return some of the values, and what they may be off by."""
-        names = tuple(names)
         return {q: self.values[q] for q in names}, {q: self.uncertainty[q] for q in names}
 
 

@@ -130,7 +130,13 @@ def follow_recorded(
 
     def over(values: Array, at: NDArray[np.intp]) -> Array:
         """Return differences over their limits, a column for each of ``COMPARED``."""
-        return _over(steady[at], values, greatest, turning[at])
+        known = steady[at]
+        larger = np.maximum(np.abs(values), np.abs(known))
+        least = np.minimum(values[:, 1], known[:, 1])
+        torque = np.maximum(SHARE * larger[:, 0], OF_GREATEST * greatest)
+        film = np.where((least < THIN) & turning[at], SHARE * larger[:, 1], np.inf)
+        limits = np.column_stack((torque, film, np.full(len(known), WARMER)))
+        return np.asarray(np.abs(values - known) / np.maximum(limits, 1e-300))
 
     places, values, stopped = _walk(
         Follower(params, grid),
@@ -157,16 +163,6 @@ def follow_recorded(
         [d for d in found if d is not None and d.lasts > shortest],
         float(share.max()),
     )
-
-
-def _over(steady: Array, values: Array, greatest: float, turning: NDArray[np.bool_]) -> Array:
-    off = np.abs(values - steady)
-    larger = np.maximum(np.abs(values), np.abs(steady))
-    least = np.minimum(values[:, 1], steady[:, 1])
-    torque = np.maximum(SHARE * larger[:, 0], OF_GREATEST * greatest)
-    film = np.where((least < THIN) & turning, SHARE * larger[:, 1], np.inf)
-    limits = np.column_stack((torque, film, np.full(len(off), WARMER)))
-    return np.asarray(off / np.maximum(limits, 1e-300))
 
 
 def _instants(time: Array, inputs: Array, steady: Array) -> list[int]:

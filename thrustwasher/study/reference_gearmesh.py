@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -196,12 +197,11 @@ def _hottest(at: Callable[[float], Any], low: float, high: float) -> Any:
 
 def _at_points(params: Any, point: Point) -> list[ReferencePoint]:
     """Return the reference's answer at a held-out point; none where there is none."""
-    try:
-        power, oil = point["load"] * point["speed"], point["oil_temperature"]
+    power, oil = point["load"] * point["speed"], point["oil_temperature"]
+    with suppress(SolveError):
         known = reference_gearmesh(params, power=power, speed=point["speed"], oil_temperature=oil)
         return [ReferencePoint(point, None, None, *known.of(QUANTITIES))]
-    except SolveError:
-        return []
+    return []
 
 
 def _at_case(point: tuple[float, ...], _before: object = ()) -> ReferenceValues:

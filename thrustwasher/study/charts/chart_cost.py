@@ -3,7 +3,7 @@
 import re
 from collections.abc import Mapping, Sequence
 from itertools import product
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -32,15 +32,7 @@ FAR = (4.0, 12.0, 22.0, 34.0)  # of a name from its mark, in points; from the se
 SIDES = ((1, 1), (1, -1), (-1, 1), (-1, -1), (0, 1), (0, -1))  # of the mark: right, above
 HORIZONTAL, VERTICAL = {1: "left", 0: "center", -1: "right"}, {1: "bottom", -1: "top"}
 Sampled = Mapping[str, Any]
-
-
-class Label(NamedTuple):
-    """A name, its place in data, its colour."""
-
-    x: float
-    y: float
-    text: str
-    colour: str
+Label = tuple[float, float, str, str]  # place in data, a name, its colour
 
 
 @styled
@@ -163,7 +155,7 @@ def _draw_family(
                 zorder=2,
             )
     shown = members if len(members) < 5 or not single else (members[0], members[-1])
-    return [Label(s[cost], max(s["errors"][name]["worst"], low), s["value"], colour) for s in shown]
+    return [(s[cost], max(s["errors"][name]["worst"], low), s["value"], colour) for s in shown]
 
 
 def mark_of(quantity: str, family: str) -> str:

@@ -92,7 +92,12 @@ def measure(
         **{name: getattr(setting, name) for name in OF_SETTING},
         cases=digest(tuple(cases)),
         errors={name: _errors(pairs) for name, pairs in found.items()},
-        ref_uncertainty=uncertainty_of(known, quantities),
+        ref_uncertainty={
+            q.name: max(
+                q.error(t.values[q.name] + t.uncertainty[q.name], t.values[q.name]) for t in known
+            )
+            for q in quantities
+        },
         call_median=timing.median,
         call_iqr=timing.iqr,
         call_min=timing.least,
@@ -152,18 +157,6 @@ def _errors(pairs: list[tuple[float, str]]) -> dict[str, Any]:
     worst, case = max(pairs)
     rms = math.sqrt(statistics.fmean(e * e for e, _ in pairs))
     return {"worst": worst, "rms": rms, "case": case}
-
-
-def uncertainty_of(
-    known: Sequence[ReferenceValues], quantities: Sequence[Quantity]
-) -> dict[str, float]:
-    """Return the largest uncertainty of reference values, as an error of each quantity."""
-    return {
-        q.name: max(
-            q.error(t.values[q.name] + t.uncertainty[q.name], t.values[q.name]) for t in known
-        )
-        for q in quantities
-    }
 
 
 def work_precision(

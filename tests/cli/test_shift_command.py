@@ -129,7 +129,7 @@ def test_numbers_alone_leave_no_file_and_load_no_tables(tmp_path):
             "[pressure.clutch]\npoints = [[0.2, -1.0]]",
             "clutch_pressure_1 = -1.0 Pa, allowed: 0 .. ",
         ),
-        ("[shift]\nstart = 0.1", "[shift] beside [pressure], allowed: a ramp or courses"),
+        ("[shift]\nstart = 0.1", "[shift] beside [pressure], allowed: a ramp or profiles"),
         ("[transmission]\ncarrier_inertia = 8.0", "carrier_inertia = 8.0 beside a table"),
         (
             '[oil]\nviscosity = [["40 degC", "5 mPa.s"], ["100 degC", "15 mPa.s"]]',

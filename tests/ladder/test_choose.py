@@ -114,7 +114,7 @@ def compared(monkeypatch, differences):
     asked = []
 
     def difference(self, one, above):
-        asked.append((one, above, self.size))
+        asked.append((one, above, len(self.points)))
         return differences[one]
 
     monkeypatch.setattr(Comparison, "difference", difference)

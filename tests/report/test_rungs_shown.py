@@ -14,7 +14,7 @@ from thrustwasher.shift.tolerance.selection_record import (
 )
 
 WORDS = ("washer: map, friction_torque within 0.01 % (asked 0.6 %), 2 µs per call",)
-CHOSEN = Selection([Selected("washer", "washer", ("map", "field"), 0.006, True, WORDS, {}, ())])
+CHOSEN = Selection([Selected("washer", ("map", "field"), 0.006, True, WORDS, {}, ())])
 CHECKS = [
     Check(1, "washer", "map", "field", 0.006, 30, (), Difference(0.0123), "", 2.5e-3),
     Check(

@@ -6,12 +6,13 @@ the box, the rung is compared with the one above it at some points.
 
 import math
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, NamedTuple
 
 from ..errors import ParameterError, SolveError
-from ..model.parameters import params_of
+from ..model.parameters import check_number, params_of
 from ..model.prepare import tables_of
 from ..model.registry import ladder_of, spec_of
 from ..model.spec import ModelSpec
@@ -77,22 +78,14 @@ def rungs_of(spec: ModelSpec, params: Any) -> list[str]:
 
     ParameterError: none can be chosen of this model.
     """
-    ladder = ladder_of(spec.key)
-    return [
-        rung
-        for rung in ladder.kernels
-        if _has_table(spec, rung, params)
-        and all(getattr(params, n) == value for n, value in ladder.only.get(rung, {}).items())
-    ]
-
-
-def _has_table(spec: ModelSpec, rung: str, params: Any) -> bool:
-    """Tell if a rung needs no file to look its answers up in, or has one for these parameters."""
-    try:
-        tables = tables_of(spec, rung)
-        return tables is None or tables.find(params) is not None
-    except ParameterError:
-        return False
+    ladder, found = ladder_of(spec.key), []
+    for rung in ladder.kernels:
+        with suppress(ParameterError):  # there is no file for it to look its answers up in
+            if tables := tables_of(spec, rung):
+                tables.find(params)
+            if all(getattr(params, n) == value for n, value in ladder.only.get(rung, {}).items()):
+                found.append(rung)
+    return found
 
 
 def choose(
@@ -170,7 +163,9 @@ def choose(
     else:
         compared = Comparison(spec, params, points or points_of(whole), quantity)
         found = _by_comparison(asked, rungs, compared)
-    return replace(found, reasons=(*found.reasons, *_stale(spec, params, rungs)))
+    tables = ((r, t.stale(r)) for t in load_tables(spec.key, params) for r in t.rungs)
+    stale = [f"not asked: {r.fidelity}: {why}" for r, why in tables if why and r.fidelity in rungs]
+    return replace(found, reasons=(*found.reasons, *stale))
 
 
 class _Request(NamedTuple):
@@ -201,8 +196,9 @@ def _by_table(asked: _Request, known: dict[str, float], fresh: dict[str, RungErr
         f"{asked.model}: {chosen}, {asked.quantity} within {asked.shown(known[chosen])} "
         f"(asked {asked.shown(asked.tol)}), {say(rung.call, 's', digits=2)} per call"
     ]
-    if rung.beside_folds and asked.quantity == "friction_torque":
-        promise = asked.shown(asked.safety * rung.beside_folds)
+    beside = max(chart.beside_fold for chart in rung.charts)
+    if beside and asked.quantity == "friction_torque":
+        promise = asked.shown(asked.safety * beside)
         lines.append(f"within 5 % of a fold's load: {promise}, if the branch is the same")
     for other, error in known.items():
         if other != chosen:
@@ -215,7 +211,8 @@ def _by_table(asked: _Request, known: dict[str, float], fresh: dict[str, RungErr
 def _by_comparison(asked: _Request, rungs: list[str], compared: Comparison) -> Choice:
     """Return the first rung that the one above confirms at the points, or the last."""
     coarse: list[str] = []
-    where = "there" if compared.size == 1 else f"at {compared.size} points"
+    n = len(compared.points)
+    where = "there" if n == 1 else f"at {n} points"
     for rung, above in pairwise(rungs):
         difference = compared.difference(rung, above)
         error = asked.safety * OF_DIFFERENCE * difference
@@ -230,12 +227,6 @@ def _by_comparison(asked: _Request, rungs: list[str], compared: Comparison) -> C
     return Choice(rungs[-1], math.inf, math.nan, (words, *coarse), False)
 
 
-def _stale(spec: ModelSpec, params: Any, rungs: list[str]) -> list[str]:
-    """Say why errors of rungs in the tables of these parameters do not count."""
-    found = ((r, t.stale(r)) for t in load_tables(spec.key, params) for r in t.rungs)
-    return [f"not asked: {r.fidelity}: {why}" for r, why in found if why and r.fidelity in rungs]
-
-
 def checked_box(spec: ModelSpec, box: Mapping[str, float | Interval]) -> dict[str, Interval]:
     """Return a box with an interval for every input, also of numbers, or say what is wrong."""
     names = [s.name for s in spec.inputs]
@@ -244,33 +235,23 @@ def checked_box(spec: ModelSpec, box: Mapping[str, float | Interval]) -> dict[st
             raise ParameterError(f"box: {name!r} is no input; allowed: {', '.join(names)}")
     found: dict[str, Interval] = {}
     for signal in spec.inputs:
+        name, unit = f"box: {signal.name}", signal.unit
         if signal.name not in box and not signal.optional:
             raise ParameterError(
-                f"box: {signal.name} [{signal.unit}] is missing; every input is required: "
-                + ", ".join(names)
+                f"{name} [{unit}] is missing; every input is required: {', '.join(names)}"
             )
         given = box.get(signal.name, signal.start or 0.0)
-        low, high = found[signal.name] = _interval(signal.name, given, signal.unit)
-        least, largest = signal.range
-        if low < least or high > largest:
+        try:
+            low, high = (given, given) if isinstance(given, int | float) else given
+        except (TypeError, ValueError):
             raise ParameterError(
-                f"box: {signal.name} = {low:g} .. {high:g} {signal.unit}, "
-                f"allowed: {least:g} .. {largest:g} {signal.unit}"
-            )
+                f"{name} = {given!r}, allowed: a number or (low, high) in {unit}"
+            ) from None
+        low, high = (check_number(name, x, unit, *signal.range) for x in (low, high))
+        if low > high:
+            raise ParameterError(f"{name} = {given!r} {unit}, allowed: low <= high")
+        found[signal.name] = low, high
     return found
-
-
-def _interval(name: str, given: float | Interval, unit: str) -> Interval:
-    try:
-        ends = (given, given) if isinstance(given, int | float) else given
-        low, high = (float(x) for x in ends)
-    except (TypeError, ValueError):
-        raise ParameterError(
-            f"box: {name} = {given!r}, allowed: a number or (low, high) in {unit}"
-        ) from None
-    if not (math.isfinite(low) and math.isfinite(high) and low <= high):
-        raise ParameterError(f"box: {name} = {given!r} {unit}, allowed: low <= high, both finite")
-    return low, high
 
 
 def _above(name: str, value: float, low: float, belongs: bool = True) -> float:

@@ -57,14 +57,9 @@ class Comparison:
     def __init__(
         self, spec: ModelSpec, params: Any, points: Sequence[Point], quantity: str
     ) -> None:
-        self._params, self._points, self._quantity = params, points, quantity
+        self.points, self._params, self._quantity = points, params, quantity
         self._model = find_model(spec.key)
         self._known: dict[str, list[float]] = {}
-
-    @property
-    def size(self) -> int:
-        """How many points there are."""
-        return len(self._points)
 
     def difference(self, rung: str, above: str) -> float:
         """Return the largest difference of two rungs, as errors are measured.
@@ -82,7 +77,7 @@ class Comparison:
 
     def _solved(self, rung: str) -> list[float]:
         if rung not in self._known:
-            self._known[rung] = [self._value(rung, point) for point in self._points]
+            self._known[rung] = [self._value(rung, point) for point in self.points]
         return self._known[rung]
 
     def _value(self, rung: str, point: Point) -> float:

@@ -124,11 +124,6 @@ class RungErrors:
         """Return the largest error of a chart."""
         return chart.worst(quantity, {n: (a.min, a.max) for n, a in self.box.items()})
 
-    @property
-    def beside_folds(self) -> float:
-        """The largest error of the torque beside folds, if the branch is the same."""
-        return max(c.beside_fold for c in self.charts)
-
 
 def _sizes(interval: Interval, axis: Axis) -> Interval:
     low, high = interval

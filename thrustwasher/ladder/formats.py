@@ -7,14 +7,8 @@ def shown_error(error: float, unit: str | None) -> str:
     """Return "0.8 %" for a relative error (unit None), "0.03 K" for an absolute one."""
     if not error < UNKNOWN:
         return "not known"
-    if unit is None:
-        return f"{plain(100.0 * error)} %"
-    return f"{plain(error)} {unit}" if unit != "1" else plain(error)
-
-
-def plain(value: float) -> str:
-    """Return two significant digits, without an exponent where that is short."""
+    value = 100.0 * error if unit is None else error
     text = f"{value:.2g}"
-    if "e" in text and 1e-3 <= abs(value) < 1e5:
-        return f"{float(text):.0f}"
-    return text
+    if "e" in text and 1e-3 <= abs(value) < 1e5:  # short without an exponent
+        text = f"{float(text):.0f}"
+    return f"{text} {unit or '%'}" if unit != "1" else text

@@ -21,7 +21,7 @@ from .masters.master import MASTERS
 from .oscillation.chatter import find_chatter
 from .oscillation.judder import find_judder
 from .scene.connections import PACK_INPUTS, wired
-from .scene.scene import Part, Scene
+from .scene.scene import Scene
 from .shift_result import Cost, ShiftResult
 
 Progress = Callable[[int, int], None]
@@ -224,7 +224,9 @@ def check_instances(scene: Scene, instances: Mapping[str, Stepping]) -> None:
         instance = instances[name]
         if not hasattr(instance, "get"):
             continue
-        expected = _numbers(part)
+        names = [n for n in part.parameters() if n != "fidelity"]
+        expected = dict(zip(names, as_numbers(part.params), strict=True))
+        expected["fidelity"] = list(part.spec.fidelities).index(part.fidelity) + 1.0  # from 1 on
         found = capable(instance).get(list(expected))
         for key, has in zip(expected, found, strict=True):
             if has != expected[key]:
@@ -233,13 +235,6 @@ def check_instances(scene: Scene, instances: Mapping[str, Stepping]) -> None:
                     f"{scene.name!r} has {expected[key]:.9g}; make it with "
                     f"scene.parts[{name!r}].parameters()"
                 )
-
-
-def _numbers(part: Part) -> dict[str, float]:
-    """Return all parameters of a part as an instance holds them: enumerations count from 1."""
-    names = [n for n in part.parameters() if n != "fidelity"]
-    rung = list(part.spec.fidelities).index(part.fidelity) + 1.0
-    return {**dict(zip(names, as_numbers(part.params), strict=True)), "fidelity": rung}
 
 
 def _remarks(scene: Scene) -> list[str]:

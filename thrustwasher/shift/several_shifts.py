@@ -1,7 +1,8 @@
 """Run several shifts in one: fine steps in each shift's window, long ones between them."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from itertools import count
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -16,8 +17,7 @@ from .checks.step_error import by_step, parts_of_a_step, recorded_parts
 from .checks.step_estimate import StepError, excess
 from .checks.washer_in_time import InTime
 from .checks.windows import Windows
-from .cosim.loop import Recorder, Run
-from .cosim.schedule import carry_out, gauss_seidel
+from .cosim.loop import Drive, Recorder, Run, driven
 from .cosim.system import Stepping, System
 from .run import Progress, check_instances, connected, result_of
 from .scene.connections import COMMAND
@@ -25,7 +25,7 @@ from .scene.scene import Scene
 from .scene.sequence import sequence_of, shift_scene, times
 from .shift_result import ShiftResult
 
-# Input of the transmission -> course that drives it.
+# Input of the transmission -> profile that drives it.
 DRIVEN = {
     "clutch_pressure": "clutch_pressure",
     "brake_pressure": "brake_pressure",
@@ -91,7 +91,7 @@ class SequenceResult:
             ],
             "warnings": list(self.warnings),
             "step_error": self.step_error.relative if self.step_error else None,
-            "step_errors": {str(i): e.as_dict() for i, e in self.step_errors.items()},
+            "step_errors": {str(i): e._asdict() for i, e in self.step_errors.items()},
             "step_advice": min((e.advice for e in self.step_errors.values()), default=None),
             "wall_time": self.wall_time,
             "messages": self.messages,
@@ -130,17 +130,17 @@ def run_sequence(
     system.initialize(scene.start_time)
     check_instances(scene, instances)
     time = np.array(list(times(scene)))
-    recorder, schedule = Recorder(system, len(time)), gauss_seidel(system)
-    recorder.keep(0)
-    windows = Windows(system, shifts if guard else ())
-    begin = perf_counter()
-    for i, (t, end) in enumerate(zip(time[:-1].tolist(), time[1:].tolist(), strict=True), 1):
+    windows, steps = Windows(system, shifts if guard else ()), count()
+
+    def one_step(t: float, end: float) -> None:
+        done = next(steps)
+        if progress is not None and done and done % 100 == 0:
+            progress(done, len(time) - 1)
         windows.pass_by(t)
         drive(t, end)
-        carry_out(schedule, t, end - t)
-        recorder.keep(i)
-        if progress is not None and i % 100 == 0:
-            progress(i, len(time) - 1)
+
+    begin = perf_counter()
+    recorder = driven(system, time, one_step)
     wall = perf_counter() - begin
     found = [_one(shift, system, time, recorder) for shift in shifts]
     result = SequenceResult(
@@ -154,9 +154,7 @@ def run_sequence(
     return _guarded(result, windows, drive) if guard else result
 
 
-def _guarded(
-    result: SequenceResult, windows: Windows, drive: Callable[[float, float], None]
-) -> SequenceResult:
+def _guarded(result: SequenceResult, windows: Windows, drive: Drive) -> SequenceResult:
     """Return a finished sequence with what the checks after it have found."""
     found: list[str] = []
     errors: dict[int, StepError] = {}
@@ -179,9 +177,7 @@ def _guarded(
     return replace(result, found=tuple(found), step_errors=errors, in_time=followed)
 
 
-def _finer(
-    result: SequenceResult, i: int, windows: Windows, drive: Callable[[float, float], None]
-) -> ShiftResult:
+def _finer(result: SequenceResult, i: int, windows: Windows, drive: Drive) -> ShiftResult:
     """Run one shift once more from where it began, with shorter steps."""
     shift = result.shifts[i].scene
     n = result.shifts[i].steps
@@ -192,16 +188,16 @@ def _finer(
     return _one(replace(shift, step=window / steps), windows.system, time, recorder)
 
 
-def _drives(system: System, shifts: list[Scene]) -> Callable[[float, float], None]:
+def _drives(system: System, shifts: list[Scene]) -> Drive:
     """Return what sets the transmission's inputs for a step: each shift's until the next begins.
 
     Pressures and the command are those of the step's end, the engine's torque is its mean.
     """
     names, inputs = system.transmission.input_names, system.transmission.inputs
-    courses = [
+    profiles = [
         {
-            name: np.array(course_points(s.parts["transmission"].params, course)).T
-            for name, course in DRIVEN.items()
+            name: np.array(course_points(s.parts["transmission"].params, profile)).T
+            for name, profile in DRIVEN.items()
         }
         for s in shifts
     ]
@@ -209,7 +205,7 @@ def _drives(system: System, shifts: list[Scene]) -> Callable[[float, float], Non
     def drive(t: float, end: float) -> None:
         k = max(0, sum(s.start_time <= t + 1e-9 for s in shifts) - 1)
         inputs[names.index(COMMAND)] = shifts[k].command(end)
-        for name, points in courses[k].items():
+        for name, points in profiles[k].items():
             if len(points):
                 at = 0.5 * (t + end) if name == "engine_torque_input" else end
                 inputs[names.index(name)] = float(np.interp(at, *points))

@@ -98,10 +98,7 @@ class ShiftResult:
         run = {figure.name: figure for figure in self.key_figures}
         return [
             {
-                "name": name,
-                "text": run[name].text,
-                "unit": run[name].unit,
-                "difference": run[name].difference,
+                **{key: getattr(run[name], key) for key in ("name", "text", "unit", "difference")},
                 "published": value,
                 "run": run[name].value,
             }
@@ -141,7 +138,7 @@ class ShiftResult:
             "real_time_factor": self.real_time_factor,
             "warnings": list(self.warnings),
             "step_error": self.step_error.relative if self.step_error else None,
-            "step_errors": self.step_error.as_dict() if self.step_error else None,
+            "step_errors": self.step_error._asdict() if self.step_error else None,
             "step_advice": self.step_error.advice if self.step_error else None,
             "messages": self.messages,
             "guard": self.guard.as_dict() if self.guard else None,

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import ParameterError
 from ..ladder.error_table import OWN, Axis, Box
+from ..model.parameters import check_number
 from ..model.prepare import tables_of
 from ..model.registry import ladder_of, spec_of
 from ..model.spec import ModelSpec
@@ -73,11 +74,8 @@ def own_case(spec: ModelSpec, params: Any, box: Box, n: int) -> Case:
         if s.name not in usual:
             continue
         low, high = box.get(s.name, usual[s.name][:2])
-        if not (s.low or 0.0) <= low <= high <= (s.high or 0.0):
-            raise ParameterError(
-                f"box: {s.name} = {low:g} .. {high:g} {s.unit}, allowed: {s.low:g} .. {s.high:g} "
-                f"{s.unit}, low not above high"
-            )
+        for end, least in ((low, s.low or 0.0), (high, low)):
+            check_number(f"box: {s.name}", end, s.unit, least, s.high or 0.0)
         scale = usual[s.name][2]
         if scale == "log":
             low = max(low, LEAST_SHARE * high, tables.least(s.name) if tables else 0.0)

@@ -26,7 +26,7 @@ from .reference_values import ReferencePoint
 
 BATCH = 10e-3  # [s] least time between two looks at the clock
 REPEATS = 9
-# What the thread itself takes, where that is told finely: others on the machine do not count.
+# What the thread itself takes, where that is known finely: others on the machine do not count.
 CLOCK = time.thread_time if sys.platform == "linux" else time.perf_counter
 LEAST = 5e-8  # [s] a call is never taken for less
 WALK = 0.003  # load and speed move by so much from call to call

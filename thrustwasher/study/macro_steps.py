@@ -50,11 +50,8 @@ class Way:
     @property
     def name(self) -> str:
         """What the line is called."""
-        what = (
-            "friction torque"
-            if self.coupling == "torque"
-            else ("capacity, extrapolated" if self.extrapolation else "capacity, held")
-        )
+        what = "capacity, extrapolated" if self.extrapolation else "capacity, held"
+        what = "friction torque" if self.coupling == "torque" else what
         rung = "" if self.rung == "field" else f", packs {self.rung}"
         return f"{self.master}, {what}{rung}"
 
@@ -196,10 +193,10 @@ def sample(
     except (ParameterError, SolveError) as error:
         why = f"{type(error).__name__}: {error}"
     failures = {"shift": why} if why else {}
-    apart = {q.name: q.error(found.get(q.name, math.nan), truth[q.name]) for q in QUANTITIES}
-    errors: dict[str, dict[str, Any]] = {
-        name: {"worst": error, "rms": error, "case": "shift"} for name, error in apart.items()
-    }
+    errors: dict[str, dict[str, Any]] = {}
+    for q in QUANTITIES:
+        off = q.error(found.get(q.name, math.nan), truth[q.name])
+        errors[q.name] = {"worst": off, "rms": off, "case": "shift"}
     value = f"{1e3 * step:g} ms"
     quartiles = statistics.quantiles(wall, n=4) if len(wall) > 1 else [0.0, 0.0, 0.0]
     return Sample(

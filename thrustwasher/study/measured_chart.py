@@ -53,7 +53,9 @@ def chart_of(name: str | None, pairs: Sequence[Pair], box: Mapping[str, Axis]) -
     divisions = [_division(AXES, _finest(inputs, box), inputs, errors)]
     if away and not any(isinstance(t.values["film_ratio"], list) for t, _ in away):
         ratios = [(float(t.values["film_ratio"]),) for t, _ in away]  # type: ignore[arg-type]
-        divisions.append(_division(("film_ratio",), (_classes(ratios),), ratios, errors))
+        parts = min(max(len(ratios) // FEW, 1), CLASSES)
+        classes = _edges((-OPEN, OPEN), [x for (x,) in ratios], parts, digits=3)
+        divisions.append(_division(("film_ratio",), (classes,), ratios, errors))
     beside = [_errors(t, a, floor)[0] for t, a in pairs if t.beside_fold and a.verdict == OK]
     return Chart(name, len(away), floor, rounded_up(max(beside, default=0.0)), tuple(divisions))
 
@@ -103,11 +105,6 @@ def _finest(places: Sequence[tuple[float, ...]], box: Mapping[str, Axis]) -> tup
         if len(held) == many and min(held.values()) >= FEW:
             return edges
     return edges
-
-
-def _classes(ratios: Sequence[tuple[float]]) -> Edges:
-    parts = min(max(len(ratios) // FEW, 1), CLASSES)
-    return _edges((-OPEN, OPEN), [x for (x,) in ratios], parts, digits=3)
 
 
 def _edges(

@@ -4,6 +4,7 @@ Chart `settled` is slip that lasts for ever, as ``solve_clutch`` takes it; chart
 pack that closes while its slip runs out, as in a shift, at points of time. The drum stands still.
 """
 
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -72,7 +73,7 @@ def reference_clutch(
 def reference_engagement(
     params: ClutchParams, *, time: Any, load: Any, speed: Any, oil_temperature: float = 297.15
 ) -> ReferenceValues:
-    """Return torque, temperature, film ratio and heat at the end of a course of load and slip.
+    """Return torque, temperature, film ratio and heat at the end of a profile of load and slip.
 
     Radau's method of order 5 at 1e-9 in place of the package's own integrator, on 2, 4 and 8 rings,
     extrapolated; for a pack with a moving film and without ``contact_rise``.
@@ -86,7 +87,7 @@ def reference_engagement(
     Raises
     ------
     ParameterError : the pack has ``contact_rise``, or no ``film_dynamics``
-    SolveError : the course could not be integrated
+    SolveError : the profile could not be integrated
     """
     if params.contact_rise or not params.film_dynamics:
         raise ParameterError(
@@ -102,7 +103,7 @@ def reference_engagement(
 def _by_radau(
     params: ClutchParams, n: int, t: Array, force: Array, slip: Array, oil: float
 ) -> dict[str, float]:
-    """Integrate film, rings and energy of a face over the course."""
+    """Integrate film, rings and energy of a face over the profile."""
     from scipy.integrate import solve_ivp
 
     par, work = prepare(params, "fine"), np.zeros(k.NWORK)
@@ -124,7 +125,7 @@ def _by_radau(
         return np.concatenate(([film, powers.sum()], heat))
 
     y = np.concatenate(([work[k.W_NOW + k.Y_FILM], 0.0], np.full(n, oil)))
-    for a in range(len(t) - 1):  # courses have corners at their points
+    for a in range(len(t) - 1):  # profiles have corners at their points
         found = solve_ivp(
             rates,
             (t[a], t[a + 1]),
@@ -137,7 +138,7 @@ def _by_radau(
         if status or not found.success:
             raise SolveError(
                 f"reference_engagement: not integrated beyond t = {t[a]:g} s; "
-                f"{Status(status).advice if status else found.message}; use shorter stretches"
+                f"{Status(status).advice if status else found.message}; use shorter intervals"
             )
         y = found.y[:, -1]
     out = np.zeros(k.NOUT)
@@ -172,24 +173,19 @@ def _at_points(params: Any, point: Point) -> list[ReferencePoint]:
     Both are extrapolated over the number of rings. A chart on which the equations have no solution
     is left out, and slip that would burn the lining before it settles.
     """
-
-    def settled(params: Any, point: Any) -> tuple[Values, dict[str, float]]:
-        return reference_clutch(params, **point).of(QUANTITIES)
-
+    given: Any = point
     found = []
-    for chart, ask in (("settled", settled), ("engagement", _engagement)):
-        try:
-            values, uncertainty = ask(params, point)
-        except SolveError:
-            continue
-        if chart == "settled" and float(np.max(values["temperature"])) > k.HOT_LIMIT:
-            continue
-        found.append(ReferencePoint(point, chart, None, values, uncertainty))
+    with suppress(SolveError):
+        settled = reference_clutch(params, **given)
+        if settled.values["temperature"] <= k.HOT_LIMIT:
+            found.append(ReferencePoint(point, "settled", None, *settled.of(QUANTITIES)))
+    with suppress(SolveError):
+        found.append(ReferencePoint(point, "engagement", None, *_engagement(params, point)))
     return found
 
 
 def _engagement(params: Any, point: Point) -> tuple[Values, dict[str, float]]:
-    """Return the quantities over the course, and what they may be off by at worst."""
+    """Return the quantities over the profile, and what they may be off by at worst."""
     time, load, slip = engagement_points(point["load"], point["speed"])
     rows = []
     for n in RINGS:
@@ -236,6 +232,5 @@ SOURCE = Source(
     _answer,
     _at_case,
     tuple(f"thrustwasher.clutch.kernels.{name}" for name in ("advance", "pack_outputs", "steady")),
-    None,
     (f"{', '.join(map(str, RINGS))} rings, order 2; settled below {k.HOT_LIMIT:g} K",),
 )

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -18,8 +19,12 @@ from ..ladder.error_table import QUANTITIES
 from .reference_values import OK, Answer, Point, ReferencePoint, ReferenceValues, Source, Values
 
 TOLERANCE = 1e-12
-SEARCHED = 200  # positions on each stretch from which the hottest is searched
+SEARCHED = 200  # positions on each interval from which the hottest is searched
 METHODS = ("adaptive quadrature", "search for the hottest position")
+OF_HOTTEST = (
+    *("temperature", "film_ratio", "film_thickness"),
+    *("flash_rise", "surface_temperature", "film_temperature"),
+)
 SHOWN = {
     "friction_coefficient": k.F_FRICTION,
     "mean_friction": k.F_MEAN_FRICTION,
@@ -41,7 +46,7 @@ def reference_gearmesh(
 
     The same closed forms at every position as in the rung `fine`; they were derived a second time
     and agree to 1e-9 (docs/accuracy.md). The loss is integrated adaptively, the hottest position is
-    searched on each stretch between changes of the load.
+    searched on each interval between changes of the load.
 
     Parameters
     ----------
@@ -86,12 +91,7 @@ def reference_gearmesh(
     values = {
         "friction_torque": loss,
         "friction_coefficient": friction,
-        "temperature": float(hottest[k.F_ASPERITY]),
-        "film_ratio": float(hottest[k.F_RATIO]),
-        "film_thickness": float(hottest[k.F_FILM]),
-        "flash_rise": float(hottest[k.F_FLASH]),
-        "surface_temperature": float(hottest[k.F_SURFACE]),
-        "film_temperature": float(hottest[k.F_FILM_TEMPERATURE]),
+        **{name: float(hottest[SHOWN[name]]) for name in OF_HOTTEST},
     }
     uncertainty = {name: ROUNDING * abs(value) for name, value in values.items()}
     uncertainty["friction_torque"] += abs(loss) * missed / max(friction, 1e-300)
@@ -118,7 +118,7 @@ def _of_loss(params: GearMeshParams, torque: float, speed: float, oil: float) ->
     if not all(np.isfinite(list(best.values()))):
         raise SolveError("reference_gearmesh: the outputs are not finite")
     off = {n: abs(v - coarse[n]) + ROUNDING * abs(v) for n, v in best.items()}
-    return ReferenceValues(best, off, ("Lobatto's rule on ever shorter stretches",))
+    return ReferenceValues(best, off, ("Lobatto's rule on ever shorter intervals",))
 
 
 def share_at(par: Any, position: float) -> float:
@@ -130,7 +130,7 @@ def share_at(par: Any, position: float) -> float:
 
 
 def loss_factor(par: Any) -> float:
-    """Return H_v [-] as the sum of share x sliding over the stretches, on each a closed form."""
+    """Return H_v [-] as the sum of share x sliding over the intervals, on each a closed form."""
     total = 0.0
     for first in range(0, int(par[k.D_PLACES]), N_NODES):
         low, high = (float(par[k.D_POSITION + first + i]) for i in (0, N_NODES - 1))
@@ -142,7 +142,7 @@ def loss_factor(par: Any) -> float:
 
 
 def subdivide(par: Any, most: int) -> None:
-    """Cut the stretches of the line of action into equal parts, ``most`` positions in all."""
+    """Cut the intervals of the line of action into equal parts, ``most`` positions in all."""
     pieces = int(par[k.D_PLACES]) // N_NODES
     parts = most // N_NODES // pieces
     old = par[k.D_POSITION : k.D_POSITION + k.N_PATH].copy()
@@ -177,7 +177,7 @@ def _positions(
 
 
 def _hottest(at: Callable[[float], Any], low: float, high: float) -> Any:
-    """Return the numbers at the hottest position of a stretch."""
+    """Return the numbers at the hottest position of an interval."""
     from scipy.optimize import minimize_scalar
 
     grid = np.linspace(low, high, SEARCHED)
@@ -197,12 +197,11 @@ def _hottest(at: Callable[[float], Any], low: float, high: float) -> Any:
 
 def _at_points(params: Any, point: Point) -> list[ReferencePoint]:
     """Return the reference's answer at a held-out point; none where there is none."""
-    try:
-        power, oil = point["load"] * point["speed"], point["oil_temperature"]
+    power, oil = point["load"] * point["speed"], point["oil_temperature"]
+    with suppress(SolveError):
         known = reference_gearmesh(params, power=power, speed=point["speed"], oil_temperature=oil)
         return [ReferencePoint(point, None, None, *known.of(QUANTITIES))]
-    except SolveError:
-        return []
+    return []
 
 
 def _at_case(point: tuple[float, ...], _before: object = ()) -> ReferenceValues:
@@ -238,6 +237,5 @@ SOURCE = Source(
         f"thrustwasher.gearmesh.kernels.{name}"
         for name in ("line_of_action", "constants", "operating_point")
     ),
-    None,
     ("adaptive quadrature over the line of action", "search for the hottest position"),
 )

@@ -1,6 +1,6 @@
 """Reference values: what they are, at held-out points too, and what a rung says beside them."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -8,7 +8,7 @@ import numpy as np
 
 Point = dict[str, float]
 Values = dict[str, float | list[float]]
-MARGIN = 0.05  # of a fold's load: points nearer are told apart
+MARGIN = 0.05  # of a fold's load: points nearer are kept apart
 OK, FAILED, OUTSIDE, OTHER_SIDE = "ok", "failed", "outside", "other side"
 
 
@@ -24,9 +24,8 @@ class ReferenceValues:
     uncertainty: dict[str, float]
     routes: tuple[str, ...] = ()
 
-    def of(self, names: Iterable[str]) -> tuple[Values, dict[str, float]]:
+    def of(self, names: Collection[str]) -> tuple[Values, dict[str, float]]:
         """Return some of the values, and what they may be off by."""
-        names = tuple(names)
         return {q: self.values[q] for q in names}, {q: self.uncertainty[q] for q in names}
 
 
@@ -35,7 +34,7 @@ class ReferencePoint:
     """What the reference says at a held-out point on one chart.
 
     ``values`` holds the quantities, numbers or a row over time; ``uncertainty`` is the reference's
-    own for each, in the same unit. ``by_mesh`` holds what a mesh said on the way.
+    own for each, in the same unit.
     """
 
     point: Point
@@ -44,7 +43,6 @@ class ReferencePoint:
     values: Values
     uncertainty: dict[str, float]
     beside_fold: bool = False
-    by_mesh: dict[str, Values] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -63,7 +61,6 @@ class Source:
     answer: Callable[[Any, str, ReferencePoint], Answer]  # of parameters, rung; on the branch
     at_case: Callable[..., ReferenceValues]  # of a chart: its point, those before it, a preset
     kernels: tuple[str, ...]  # whose change makes kept values worthless
-    grid: tuple[int, ...] | None
     routes: tuple[str, ...]
     branches: Mapping[str, float] = field(default_factory=dict)
     """What asks the kernel for a branch, behind its inputs."""

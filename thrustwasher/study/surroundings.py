@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 SCHEMA = 1
+LOOP = "for i in range(200_000): x += i * 0.5"  # its seconds say what one is worth here
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 
 
@@ -33,21 +34,11 @@ def surroundings(command: str) -> dict[str, Any]:
             "numba": metadata.version("numba"),
             "compiled": not os.environ.get("NUMBA_DISABLE_JIT"),
             "threads": {name: os.environ.get(name) for name in THREADS},
-            "load": load(),
+            "load": round(os.getloadavg()[0], 2) if hasattr(os, "getloadavg") else None,
         },
         "package": {"version": made_by, "kernels": kernel_digest(), **_commit()},
-        "calibration_s": calibration(),
+        "calibration_s": min(timeit.repeat(LOOP, "x = 0.0", number=1)),
     }
-
-
-def load() -> float | None:
-    """Return how many processes wanted to run during the last minute."""
-    return round(os.getloadavg()[0], 2) if hasattr(os, "getloadavg") else None
-
-
-def calibration() -> float:
-    """Return the least seconds of a fixed loop of additions: what a second is worth here."""
-    return min(timeit.repeat("for i in range(200_000): x += i * 0.5", "x = 0.0", number=1))
 
 
 def pin_threads() -> None:

@@ -25,10 +25,10 @@ def test_a_step_adapted_by_more_than_a_percent_is_told():
 
 def test_inputs_that_leave_the_box_of_a_part_file_are_told():
     scene = load_scene("msl").with_options(stop_time=0.05)
-    narrow = replace(scene.parts["brake"], told={"box": {"load": (0.0, 10.0)}})
+    narrow = replace(scene.parts["brake"], labels={"box": {"load": (0.0, 10.0)}})
     words = said(stop_time=0.05, parts={**scene.parts, "brake": narrow})
     assert "brake: load of 100 N .. 100 N in this run leaves the 0 N .. 10 N" in words
-    wide = replace(narrow, told={"box": {"load": (0.0, 100.0)}})
+    wide = replace(narrow, labels={"box": {"load": (0.0, 100.0)}})
     assert "[box]" not in said(stop_time=0.05, parts={**scene.parts, "brake": wide})
 
 

@@ -113,7 +113,7 @@ def _at_the_end(scene: Scene, time: Array, signals: Signals, events: list[Event]
         yield (
             f"At the end no pack holds: the {scene.engaging}, locked at {held:.4g} s, lets go at "
             f"{gone[-1]:.4g} s, where its pressure falls from {scene.wanted_until:.4g} s on; let "
-            "its course end at the pressure that holds"
+            "its profile end at the pressure that holds"
         )
 
 

@@ -61,7 +61,7 @@ def _of_solvers(scene: Scene, time: Array, signals: Signals) -> Iterator[str]:
             for code in np.unique(values[values > 0.0]):
                 i, status = int(np.argmax(values == code)), Status(int(code))
                 part = name.partition(".")[0]
-                if status == Status.DISTRESS:  # the film's loss is told with its time
+                if status == Status.DISTRESS:  # the film's loss has an event of its own
                     continue
                 spec = scene.parts[part].spec
                 now = {s.name: float(signals[f"{part}.{s.name}"][i]) for s in spec.inputs}
@@ -73,7 +73,7 @@ def _of_solvers(scene: Scene, time: Array, signals: Signals) -> Iterator[str]:
 def _of_boxes(scene: Scene, signals: Signals) -> Iterator[str]:
     """Yield the inputs that left what a part's file is meant for."""
     for name, part in scene.parts.items():
-        for key, (low, high) in part.told.get("box", {}).items():
+        for key, (low, high) in part.labels.get("box", {}).items():
             values, room = signals.get(f"{name}.{key}"), ROOM * max(high - low, abs(high), abs(low))
             if values is None:
                 continue

@@ -48,12 +48,7 @@ def step_error(result: ShiftResult, make: Make, run: Run) -> StepError:
 def recorded_parts(scene: Scene, time: Array, signals: Mapping[str, Array]) -> dict[str, Recorded]:
     """Return stand-ins for the washers of a run."""
     return {
-        name: Recorded(
-            ([s.name for s in part.spec.inputs], [s.name for s in part.spec.outputs]),
-            name,
-            time,
-            signals,
-        )
+        name: Recorded(part.spec, name, time, signals)
         for name, part in scene.parts.items()
         if name in DIRECT
     }

@@ -1,7 +1,7 @@
 """What the communication step of a run errs by, estimated: plain data."""
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from ...units import format_quantity as say
 
@@ -33,10 +33,6 @@ class StepError(NamedTuple):
     def suffices(self) -> bool:
         """Whether all errors are below their limits."""
         return excess(self.errors()) <= 1.0
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return it as JSON can hold it."""
-        return self._asdict()
 
     def errors(self) -> dict[str, float]:
         """Return the errors there are."""

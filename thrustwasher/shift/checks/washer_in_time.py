@@ -67,9 +67,9 @@ class InTime(NamedTuple):
         """Return what must not be missed."""
         found = []
         if self.differences:
-            said = _words(self.differences)
+            shown = _words(self.differences)
             found.append(
-                f"{part}: its steady temperatures do not hold in this run: {said}; {remedy}"
+                f"{part}: its steady temperatures do not hold in this run: {shown}; {remedy}"
             )
         if self.stopped:
             found.append(
@@ -130,7 +130,13 @@ def follow_recorded(
 
     def over(values: Array, at: NDArray[np.intp]) -> Array:
         """Return differences over their limits, a column for each of ``COMPARED``."""
-        return _over(steady[at], values, greatest, turning[at])
+        known = steady[at]
+        larger = np.maximum(np.abs(values), np.abs(known))
+        least = np.minimum(values[:, 1], known[:, 1])
+        torque = np.maximum(SHARE * larger[:, 0], OF_GREATEST * greatest)
+        film = np.where((least < THIN) & turning[at], SHARE * larger[:, 1], np.inf)
+        limits = np.column_stack((torque, film, np.full(len(known), WARMER)))
+        return np.asarray(np.abs(values - known) / np.maximum(limits, 1e-300))
 
     places, values, stopped = _walk(
         Follower(params, grid),
@@ -142,12 +148,12 @@ def follow_recorded(
     )
     off = values - steady[places]
     after = slice(0, places[-1] + 1)
-    course = steady[after] + np.column_stack(
+    followed = steady[after] + np.column_stack(
         [np.interp(time[after], time[places], column) for column in off.T]
     )
-    share = over(course, np.arange(places[-1] + 1))
+    share = over(followed, np.arange(places[-1] + 1))
     found = [
-        _longest(name, time, steady[:, k], course[:, k], share[:, k] > 1.0)
+        _longest(name, time, steady[:, k], followed[:, k], share[:, k] > 1.0)
         for k, name in enumerate(COMPARED)
     ]
     return InTime(
@@ -157,16 +163,6 @@ def follow_recorded(
         [d for d in found if d is not None and d.lasts > shortest],
         float(share.max()),
     )
-
-
-def _over(steady: Array, values: Array, greatest: float, turning: NDArray[np.bool_]) -> Array:
-    off = np.abs(values - steady)
-    larger = np.maximum(np.abs(values), np.abs(steady))
-    least = np.minimum(values[:, 1], steady[:, 1])
-    torque = np.maximum(SHARE * larger[:, 0], OF_GREATEST * greatest)
-    film = np.where((least < THIN) & turning, SHARE * larger[:, 1], np.inf)
-    limits = np.column_stack((torque, film, np.full(len(off), WARMER)))
-    return np.asarray(off / np.maximum(limits, 1e-300))
 
 
 def _instants(time: Array, inputs: Array, steady: Array) -> list[int]:
@@ -229,13 +225,13 @@ def _walk(
 
 
 def _longest(
-    name: str, time: Array, steady: Array, course: Array, beyond: NDArray[np.bool_]
+    name: str, time: Array, steady: Array, followed: Array, beyond: NDArray[np.bool_]
 ) -> Difference | None:
-    """Return the longest stretch of points beyond a limit, at its greatest difference."""
+    """Return the longest interval of points beyond a limit, at its greatest difference."""
     edges = np.flatnonzero(np.diff(np.concatenate(([False], beyond, [False])).astype(int)))
-    stretches = [(float(time[b - 1] - time[a]), a, b) for a, b in edges.reshape(-1, 2).tolist()]
-    if not stretches:
+    intervals = [(float(time[b - 1] - time[a]), a, b) for a, b in edges.reshape(-1, 2).tolist()]
+    if not intervals:
         return None
-    lasts, a, b = max(stretches)
-    k = a + int(np.abs(course[a:b] - steady[a:b]).argmax())
-    return Difference(name, float(time[k]), float(steady[k]), float(course[k]), lasts)
+    lasts, a, b = max(intervals)
+    k = a + int(np.abs(followed[a:b] - steady[a:b]).argmax())
+    return Difference(name, float(time[k]), float(steady[k]), float(followed[k]), lasts)

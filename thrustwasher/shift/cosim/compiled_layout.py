@@ -76,11 +76,15 @@ class CompiledLoop:
         """List the operations of one communication step."""
         self._places: list[int] = []
         self._operations: list[list[int]] = []
-        self._played = 0  # columns of what is recorded
+        self._played, recorder = 0, self.run.recorder  # columns of what is recorded
         for action in self.run.schedule:
             number = self.parts.index(action.part)
             if isinstance(action, Pull):
-                self._pull(number)
+                sources, first = action.part.sources, len(self._places)
+                for slot, source, output in sources:
+                    self._places.append(recorder.input_place(action.part, slot))
+                    self._places.append(recorder.output_place(source, output))
+                self._add(self.codes.PULL, number, count=len(sources), first=first)
             else:
                 self._step(number)
 
@@ -91,16 +95,6 @@ class CompiledLoop:
         for name, value in columns.items():
             row[getattr(c, name.upper())] = value
         self._operations.append(row)
-
-    def _pull(self, number: int) -> None:
-        part, recorder = self.parts[number], self.run.recorder
-        first = len(self._places)
-        for slot, source, output in part.sources:
-            self._places += [
-                recorder.input_place(part, slot),
-                recorder.output_place(source, output),
-            ]
-        self._add(self.codes.PULL, number, count=len(part.sources), first=first)
 
     def _step(self, number: int) -> None:
         c, part, recorder = self.codes, self.parts[number], self.run.recorder

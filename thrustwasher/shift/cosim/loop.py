@@ -1,12 +1,16 @@
 """The loop over communication points, in Python; any instance can be stepped so."""
 
+from collections.abc import Callable
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .schedule import Schedule, carry_out
+from .schedule import Schedule, carry_out, gauss_seidel
 from .system import ConnectedPart, System
+
+Drive = Callable[[float, float], None]  # sets the transmission's inputs for a step: its two ends
 
 
 class Recorder:
@@ -75,3 +79,14 @@ def advance_in_python(run: Run, i: int, stop: int) -> None:
         system.set_command(float(commands[k + 1]))
         carry_out(schedule, t, h)
         recorder.keep(k + 1)
+
+
+def driven(system: System, time: NDArray[np.float64], drive: Drive) -> Recorder:
+    """Step the parts in turn over times any distance apart; return the record of every point."""
+    recorder, schedule = Recorder(system, len(time)), gauss_seidel(system)
+    recorder.keep(0)
+    for k, (t, end) in enumerate(pairwise(time.tolist()), 1):
+        drive(t, end)
+        carry_out(schedule, t, end - t)
+        recorder.keep(k)
+    return recorder

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from ...model.spec import ModelSpec
 from ...numerics.jit import Array
 from ..scene.connections import SPEED
 
@@ -20,13 +21,11 @@ class Recorded:
     gives_derivatives = True
 
     def __init__(
-        self,
-        names: tuple[Sequence[str], Sequence[str]],
-        part: str,
-        time: Array,
-        signals: Mapping[str, Array],
+        self, spec: ModelSpec, part: str, time: Array, signals: Mapping[str, Array]
     ) -> None:
-        self.input_names, self.output_names = (list(n) for n in names)
+        self.input_names, self.output_names = (
+            [signal.name for signal in signals] for signals in (spec.inputs, spec.outputs)
+        )
         self.calls, self.wall_time, self.instantiate_time, self.initialize_time = 0, 0.0, 0.0, 0.0
         rows = np.column_stack([signals[f"{part}.{name}"] for name in self.output_names])
         moving = signals[f"{part}.{SPEED}"] != 0.0

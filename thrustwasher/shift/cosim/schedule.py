@@ -1,6 +1,6 @@
 """What a master does in a communication step: a list of actions, the same in every step."""
 
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 from .system import ConnectedPart, System
 
@@ -11,21 +11,15 @@ class Pull(NamedTuple):
     part: ConnectedPart
 
 
-class Change(Protocol):
-    """Changes the present inputs of a part before it steps."""
-
-    def __call__(self, t: float, h: float) -> None:
-        """Change them for the step from ``t`` to ``t + h``."""
-
-    def words(self) -> list[str]:
-        """Say what a reader of the run has to know."""
-
-
 class Correct(NamedTuple):
-    """The inputs of a part are changed before it steps."""
+    """The inputs of a part are changed before it steps.
+
+    ``change`` is called with start ``t`` and length ``h`` of a step; its ``words()`` are what a
+    reader of the run has to know.
+    """
 
     part: ConnectedPart
-    change: Change
+    change: Any
 
 
 class Step(NamedTuple):

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ...numerics.jit import Array
 from ..oscillation.judder import Judder, judder_figures
-from ..scene.connections import MESHES, PACKS
+from ..scene.connections import MESHES, PACKS, SPEED
 from ..scene.scene import Scene
 from .comfort import comfort_figures, phase_figures
 from .events_and_phases import Event, Signals, lock_up, turning
@@ -15,21 +15,6 @@ from .figure_list import FIGURES, FILM_SPEED, Found, KeyFigure, assemble
 
 FULL = 0.999  # of the friction at lock-up: a little slip above the plateau is still full friction
 TIE_UP_SHARE = 0.1  # of the torque held before: less is a handover that overlaps a little
-STEELS = ("aisi1020", "aisi4340")  # of the paper, with its heat
-SAFETIES = ("pitting_safety", "scuffing_safety")
-# Signal of a mesh -> figure: the greatest, or the least while the planets turn, of all meshes.
-GREATEST = {
-    "flash_rise": "peak_flash_rise",
-    "bulk_temperature": "peak_gear_temperature",
-    "surface_temperature": "peak_mesh_temperature",
-    "temperature": "peak_asperity_temperature",
-    "contact_stress": "peak_mesh_stress",
-    "thermal_stress": "peak_mesh_thermal_stress",
-}
-LEAST_TURNING = {
-    "film_ratio": "least_mesh_film_ratio",
-    "micropitting_safety": "least_micropitting_safety",
-}
 
 
 def key_figures(
@@ -56,10 +41,10 @@ def key_figures(
         **phase_figures(scene, signals, events, lock),
         **comfort_figures(scene, time, signals, lock, None if end is None else float(time[end])),
         **judder_figures(judder),
-        **washer_figures(time, signals),
-        **mesh_figures(scene, time, signals),
-        **bearing_figures(scene, time, signals),
     }
+    if "washer.friction_torque" in signals:
+        lost = (signals["washer.distress"] > 0.5) & turning(signals)
+        found["washer_distress_time"] = (float(np.sum(np.diff(time)[lost[1:]])), None)
     if not scene.alone:
         found["lock_speed"] = (_engine_speed(scene, time, signals, lock), None)
     return assemble(found, pack, other)
@@ -80,14 +65,40 @@ def _engine_speed(scene: Scene, time: Array, signals: Signals, lock: float | Non
 
 
 def read_off(scene: Scene, time: Array, signals: Signals) -> Found:
-    """Return the figures that are read off one signal each; of a pack not in use none."""
+    """Return the figures that are read off one signal each; of what is not in use none."""
     packs = {"pack": scene.engaging, "other": scene.releasing}
+    there = {part for part in scene.parts if part not in PACKS or in_use(part, signals)}
+    if any(scene.bearings.values()):
+        there.add("bearings")
+    if "mesh" in there:
+        paper = getattr(scene.parts["mesh"].params, "film_heat", "atan") == "atan"
+        there |= {"meshes"} if paper else {"meshes", "bodies"}
     found: Found = {}
     for name, figure in FIGURES.items():
-        reading, _, signal = figure.reading.format(**packs).partition(" ")
-        part = signal.partition(".")[0]
-        if signal in signals and (part not in PACKS or in_use(part, signals)):
-            found[name] = READINGS[reading](signals[signal], time)
+        if not figure.reading:
+            continue
+        reading, signal, *condition = figure.reading.format(**packs).split()
+        part, _, quantity = signal.partition(".")
+        if not {part, *condition[1:]} <= there:
+            continue
+        of_one = {part: signals[signal]} if signal in signals else {}
+        known = of_all(scene, signals, quantity) if part == "meshes" else of_one
+        if known:
+            extreme = np.min if reading in ("least", "turning") else np.max
+            speed = signals.get(f"{next(iter(known))}.{SPEED}", time)
+            values = extreme(list(known.values()), axis=0)
+            found[name] = READINGS[reading](values, time, speed)
+    return found
+
+
+def of_all(scene: Scene, signals: Signals, quantity: str) -> Signals:
+    """Return a signal, or the sum of two ("a+b"), of all meshes in which it has a value."""
+    found: Signals = {}
+    for name in (name for name in MESHES if name in scene.parts):
+        mesh, own = scene.parts[name], quantity.split("+")
+        known = all(f"{name}.{one}" in signals for one in own)
+        if known and mesh.spec.absent(mesh.params).isdisjoint(own):
+            found[name] = np.sum([signals[f"{name}.{one}"] for one in own], axis=0)
     return found
 
 
@@ -98,7 +109,6 @@ def _slip(scene: Scene, time: Array, signals: Signals, lock: float | None) -> Fo
     greatest = float(np.max(np.abs(signals[f"transmission.{pack}_speed"])))
     area = scene.parts[pack].params.lining_area
     found: Found = {
-        "slip_energy": (heat, None),
         "slip_energy_per_area": (heat / area, None),
         "peak_power": peak(np.abs(signals[f"{pack}.friction_power"]), time),
     }
@@ -173,15 +183,6 @@ def least(values: Array, time: Array) -> tuple[float | None, float | None]:
     """Return the least value and its time."""
     i = int(np.argmin(values))
     return (float(values[i]), float(time[i])) if np.isfinite(values[i]) else (None, None)
-
-
-# What a figure is of a signal.
-READINGS: dict[str, Callable[[Array, Array], tuple[float | None, float | None]]] = {
-    "greatest": peak,
-    "least": least,
-    "size": lambda values, time: peak(np.abs(values), time),
-    "last": lambda values, _: (float(values[-1]), None),
-}
 
 
 def in_use(pack: str, signals: Signals) -> bool:
@@ -298,70 +299,7 @@ def tie_up_figures(scene: Scene, time: Array, signals: Signals) -> Found:
     }
 
 
-def washer_figures(time: Array, signals: Signals) -> Found:
-    """Return load and film of the washer; nothing without one."""
-    if "washer.friction_torque" not in signals:
-        return {}
-    moving = turning(signals)
-    distress = (signals["washer.distress"] > 0.5) & moving
-    lost = float(np.sum(np.diff(time)[distress[1:]]))
-    return {
-        "peak_washer_load": peak(signals["transmission.washer_load"], time),
-        "least_washer_film_ratio": least_turning(
-            signals["washer.film_ratio"], signals["washer.speed"], time
-        ),
-        "washer_distress_time": (lost, None),
-    }
-
-
-def mesh_figures(scene: Scene, time: Array, signals: Signals) -> Found:
-    """Return heat, temperatures, film and safety of the meshes; nothing without one.
-
-    All are the greatest or least of sun and ring mesh. Safeties count with the heat of the loss,
-    stress margins with that of the paper: 1 - utilisation of its steels, 0 at the endurance limit.
-    """
-    if "mesh.friction_torque" not in signals:
-        return {}
-    meshes = [scene.parts[name] for name in MESHES if name in scene.parts]
-    paper = getattr(meshes[0].params, "film_heat", "atan") == "atan"
-
-    def of_all(name: str) -> list[Array]:
-        """Return a signal of all meshes in which it has a value."""
-        rated = [
-            p for p, m in zip(MESHES, meshes, strict=False) if name not in m.spec.absent(m.params)
-        ]
-        return [signals[f"{p}.{name}"] for p in rated if f"{p}.{name}" in signals]
-
-    found: Found = {"mesh_loss": (float(signals["transmission.mesh_heat"][-1]), None)}
-    for name, figure in GREATEST.items():
-        own = [] if paper and name == "bulk_temperature" else of_all(name)  # there are no bodies
-        if own:
-            found[figure] = peak(np.max(own, axis=0), time)
-    if hot := [a + b for a, b in zip(of_all("bulk_temperature"), of_all("flash_max"), strict=True)]:
-        found["peak_flash_temperature"] = peak(np.max(hot, axis=0), time)
-    for name, figure in LEAST_TURNING.items():
-        if own := of_all(name):
-            found[figure] = least_turning(np.min(own, axis=0), signals["mesh.speed"], time)
-    for name in ("allowable_ratio",) if paper else SAFETIES:
-        if own := of_all(name):
-            found[f"least_{name}"] = least(np.min(own, axis=0), time)
-    for steel in STEELS if paper else ():
-        if own := of_all(f"stress_utilization_{steel}"):
-            found[f"stress_margin_{steel}"] = least(1.0 - np.max(own, axis=0), time)
-    return found
-
-
-def bearing_figures(scene: Scene, time: Array, signals: Signals) -> Found:
-    """Return heat and greatest power of the thrust bearings; nothing without one."""
-    if not any(scene.bearings.values()):
-        return {}
-    return {
-        "bearing_loss": (float(signals["transmission.bearing_heat"][-1]), None),
-        "peak_bearing_power": peak(signals["transmission.bearing_power"], time),
-    }
-
-
-def least_turning(values: Array, speed: Array, time: Array) -> tuple[float | None, float | None]:
+def least_turning(values: Array, time: Array, speed: Array) -> tuple[float | None, float | None]:
     """Return the least value above FILM_SPEED, and its time.
 
     Where the speed passes FILM_SPEED between two samples the value is interpolated to that speed:
@@ -376,3 +314,14 @@ def least_turning(values: Array, speed: Array, time: Array) -> tuple[float | Non
         np.concatenate((v[fast], v[i] + done * (v[i + 1] - v[i]))) for v in (values, time)
     )
     return least(found, times) if len(found) else (None, None)
+
+
+# What a figure is of a signal, its time and the part's speed.
+READINGS: dict[str, Callable[[Array, Array, Array], tuple[float | None, float | None]]] = {
+    "greatest": lambda values, time, _: peak(values, time),
+    "least": lambda values, time, _: least(values, time),
+    "turning": least_turning,
+    "margin": lambda values, time, _: least(1.0 - values, time),
+    "size": lambda values, time, _: peak(np.abs(values), time),
+    "last": lambda values, *_: (float(values[-1]), None),
+}

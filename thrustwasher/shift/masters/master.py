@@ -29,7 +29,7 @@ MASTERS: dict[str, Master] = {
     # As gauss-seidel, torques corrected to the end of the step by their derivatives.
     linearly_implicit.NAME: Master(linearly_implicit.schedule, 0, in_python=True),
 }
-# What is said to who asks for the master step-doubling or its tolerance.
+# The message to whoever asks for the master step-doubling or its tolerance.
 FIXED_STEPS = (
     "there is no step-doubling any more; every run estimates the error of its step (step_error) "
     "and names a step that would do"

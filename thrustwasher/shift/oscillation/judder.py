@@ -86,8 +86,8 @@ class Judder:
     @property
     def good_step(self) -> float:
         """Step [s] that would add half the tolerance; what it adds falls with its square."""
-        wanted = 0.5 * self.tolerance / max(abs(self.step_growth), 1e-300)
-        return float(self.step * min(1.0, wanted**0.5))
+        share = 0.5 * self.tolerance / max(abs(self.step_growth), 1e-300)
+        return float(self.step * min(1.0, share**0.5))
 
 
 def judder_figures(found: Judder | None) -> Found:

@@ -1,4 +1,4 @@
-"""The parts of a shift, who passes what to whom, and all else that is told part by part."""
+"""The parts of a shift, who passes what to whom, and what else differs from part to part."""
 
 from collections.abc import Mapping
 from typing import Any, NamedTuple
@@ -45,11 +45,11 @@ PACK_INPUTS = ("clutch_torque", "brake_torque")  # of the transmission
 DIRECT = ("washer",)  # parts whose own torque is judged, beside what it does to the shift
 # Models whose outputs follow from the inputs of the moment; a pack has a past: film, temperature.
 WITHOUT_PAST = ("washer", "gearmesh")
-# What a part is judged by: quantity of its cards, output that the check compares.
-QUANTITIES: Mapping[str, tuple[tuple[str, str], ...]] = {
-    "washer": (("friction_torque", "friction_torque"),),
-    "clutch": (("friction_torque", "torque_capacity"), ("temperature", "temperature")),
-    "gearmesh": (("friction_torque", "friction_torque"),),
+# The outputs that a part is judged by.
+JUDGED: Mapping[str, tuple[str, ...]] = {
+    "washer": ("friction_torque",),
+    "clutch": ("torque_capacity", "temperature"),
+    "gearmesh": ("friction_torque",),
 }
 
 # In a package for other tools.
@@ -58,18 +58,14 @@ SOURCE_SPEC = command_params.SPEC  # its model
 
 
 def wired(parts: Mapping[str, Any]) -> list[Link]:
-    """Return the links between the parts of a scene."""
-    far_face = parts["washer"].params.gear_far_face if "washer" in parts else ""
-    return links(parts["transmission"].params.coupling, set(parts), far_face)
+    """Return the links between the parts of a scene.
 
-
-def links(coupling: str, present: set[str], far_face: str = "") -> list[Link]:
-    """Return the links between the parts present.
-
-    ``coupling`` says what the packs send, ``far_face`` what the gear behind a washer borders on.
+    They depend on what the packs send, and on what the gear behind a washer borders on.
     """
+    coupling, present = parts["transmission"].params.coupling, set(parts)
+    bulk = "washer" in parts and parts["washer"].params.gear_far_face == "bulk"
     found = []
-    for table in ("signals", coupling, "more", *(["bulk"] if far_face == "bulk" else [])):
+    for table in ("signals", coupling, "more", *(["bulk"] if bulk else [])):
         for given, taken in _TABLE[table].items():
             link = Link(*taken.split("."), *given.split("."))
             if link.input == "oil_temperature" and "sump" in present:

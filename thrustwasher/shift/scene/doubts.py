@@ -115,10 +115,10 @@ def _beside_the_set(gearbox: Part, name: str, mesh: GearMeshParams) -> Iterator[
         apart = mesh.centre_distance
         if mesh.normal_module > 0.0:
             apart = size * mesh.normal_module / math.cos(mesh.helix_angle)
-        wanted = size * own.normal_module / math.cos(own.helix_angle)
-        if abs(apart / wanted - 1.0) > APART:
+        expected = size * own.normal_module / math.cos(own.helix_angle)
+        if abs(apart / expected - 1.0) > APART:
             yield (
-                f"centre distance = {apart:.6g} m, but [transmission] has {wanted:.6g} m by its "
+                f"centre distance = {apart:.6g} m, but [transmission] has {expected:.6g} m by its "
                 "teeth and normal_module"
             )
     if mesh.film_heat == "loss" and abs(mesh.helix_angle - own.helix_angle) > TURNED:

@@ -32,8 +32,8 @@ class Part:
     params: Any
     tolerance: float | None = None
     """Asked for with fidelity "auto": the rung is still to be chosen; None: it is as it stands."""
-    told: dict[str, Any] = field(default_factory=dict, compare=False)
-    """What a package says of it: name and notes of its part file, if it has one."""
+    labels: dict[str, Any] = field(default_factory=dict, compare=False)
+    """Name, notes and box of its part file, as packages show them."""
     asked: str = field(default="", compare=False)
     """Name by which the rung was asked for; it may be that of one that is gone."""
 
@@ -65,7 +65,7 @@ class Published:
 class ShiftSequence:
     """Shifts up and down, each with its window of fine steps; times in s.
 
-    Long steps lie between the windows. ``courses``: of pressures and engine torque by direction,
+    Long steps lie between the windows. ``profiles``: of pressures and engine torque by direction,
     as parameters of the transmission, from the shift's own time on.
     """
 
@@ -73,7 +73,7 @@ class ShiftSequence:
     window: float
     pause_step: float
     ramp: dict[str, float]
-    courses: dict[str, dict[str, Any]]
+    profiles: dict[str, dict[str, Any]]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,7 +103,7 @@ class Scene:
     warnings: tuple[str, ...] = ()
     """What is doubtful in the scene itself, one line each."""
     sequence: ShiftSequence | None = None
-    """Several shifts in one run; None: the one that the scene's own ramp or courses make."""
+    """Several shifts in one run; None: the one that the scene's own ramp or profiles make."""
 
     def command(self, time: float) -> float:
         """Return the shift command: a ramp between two values."""
@@ -167,7 +167,7 @@ class Scene:
 
     @property
     def kiss_end(self) -> float | None:
-        """Where the engaging pack's course leaves the kiss point [s]; None without pistons.
+        """Where the engaging pack's pressure leaves the kiss point [s]; None without pistons.
 
         It is the last point before the pressure rises for good to what closes the pack: the first
         one above the return spring, or the last of those at falling or equal pressure behind it.
@@ -247,7 +247,7 @@ def _with(params: Any, **values: Any) -> Any:
 
 
 def shift_of_pressures(gearbox: Any) -> dict[str, Any]:
-    """Return the shift that courses of pressure make, as fields of a scene.
+    """Return the shift that profiles of pressure make, as fields of a scene.
 
     The pack whose pressure ends higher than it began engages; the shift begins where its pressure
     first rises and ends with its last point.
@@ -268,21 +268,21 @@ def shift_of_pressures(gearbox: Any) -> dict[str, Any]:
     }
 
 
-def with_fidelities(scene: Scene, wishes: Sequence[str]) -> Scene:
+def with_fidelities(scene: Scene, choices: Sequence[str]) -> Scene:
     """Return the scene with other rungs: "field" for all parts, "washer=map" for one.
 
-    Later wishes overrule earlier ones; parts with one rung keep it.
+    Later choices overrule earlier ones; parts with one rung keep it.
     """
     parts = dict(scene.parts)
-    for wish in wishes:
-        name, given, text = wish.partition("=")
+    for asked in choices:
+        name, given, text = asked.partition("=")
         if not given:
             text, names = name, [n for n, p in parts.items() if len(p.spec.fidelities) > 1]
         elif name in parts:
             names = [name]
         else:
             raise ParameterError(
-                f"fidelity = {wish!r}: there is no part {name!r} here, allowed: {', '.join(parts)}"
+                f"fidelity = {asked!r}: there is no part {name!r} here, allowed: {', '.join(parts)}"
             )
         for n in names:
             parts[n] = parts[n].asked_for(f"part {n!r}", text)

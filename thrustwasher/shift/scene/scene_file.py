@@ -42,7 +42,7 @@ NUMBERS = {
     "step": ("s", *STEP_RANGE),
     "oil_temperature": ("K", 233.15, 473.15),
 }
-ONE_OIL = 1.2  # ratio of viscosities up to which parts may be said to have one oil
+ONE_OIL = 1.2  # ratio of viscosities up to which parts count as having one oil
 LEAST_TEETH = 5  # of sun and planet: fewer make no gear
 ROLE = ("starts_pressed",)  # what a scene, not a part file, says of a part
 SHIFT = {
@@ -130,17 +130,17 @@ def _parse(name: str) -> dict[str, Any]:
 def _without_parts(base: dict[str, Any], top: dict[str, Any]) -> dict[str, Any]:
     """Return the tables of a base without what a part's file or another viscosity replaces."""
     result = dict(base)
-    for key, said in base.items():
+    for key, below in base.items():
         new = top.get(key)
-        if key == "oil" and isinstance(new, dict) and isinstance(said, dict):
+        if key == "oil" and isinstance(new, dict) and isinstance(below, dict):
             gone = set(VISCOSITY) if set(new) & set(VISCOSITY) else set()
             gone |= {"density"} if set(new) & {"name", *SHEET} else set()  # they give one
-            result[key] = {k: x for k, x in said.items() if k not in gone}
-        if key in PARTS and isinstance(said, dict) and isinstance(new, dict):
+            result[key] = {k: x for k, x in below.items() if k not in gone}
+        if key in PARTS and isinstance(below, dict) and isinstance(new, dict):
             if "part" in new:
-                result[key] = {k: x for k, x in said.items() if k in ROLE}
+                result[key] = {k: x for k, x in below.items() if k in ROLE}
             elif "preset" in new:
-                result[key] = {k: x for k, x in said.items() if k != "part"}
+                result[key] = {k: x for k, x in below.items() if k != "part"}
     return result
 
 
@@ -163,7 +163,7 @@ def _scene(name: str, table: dict[str, Any], own: bool) -> Scene:
             raise ParameterError(f"{where}: {key} = {value!r}, allowed: a table [{key}]")
     moves = "pressure" if "pressure" in table else "shift"
     if moves == "pressure" and "shift" in table:
-        raise ParameterError(f"{where}: [shift] beside [pressure], allowed: a ramp or courses")
+        raise ParameterError(f"{where}: [shift] beside [pressure], allowed: a ramp or profiles")
     for key in (*REQUIRED, moves, "stop_time"):
         if key not in table:
             raise ParameterError(f"{where}: {key!r} is missing")
@@ -223,7 +223,9 @@ def _parts(
             if key == "sump":
                 gearbox = replace(parts["transmission"].params, ring_mesh="ring_mesh" in table)
                 given = _sump(f"{where} [sump]", given, gearbox, temperature)
-            usual = _mates(parts["transmission"].params) if key in MESHES else {}
+            usual: dict[str, Any] = {}
+            if key in MESHES:  # with how many gears a planet meshes, and sun or ring
+                usual = {"mates_pinion": 2, "mates_gear": parts["transmission"].params.planets}
             parts[key], lost = _part(f"{where} [{key}]", PARTS[key], given, common, usual)
             if lost:
                 notes.append(
@@ -266,9 +268,9 @@ def _oil_warnings(
     found = {key: x for key, x in known.items() if x}
     if not own or not found or max(found.values()) < ONE_OIL * min(found.values()):
         return stiff
-    told = ", ".join(f"{key} {1e3 * x:.3g} mPa.s" for key, x in found.items())
+    listed = ", ".join(f"{key} {1e3 * x:.3g} mPa.s" for key, x in found.items())
     return [
-        f"no viscosity in [oil], so that each part has an oil of its own: {told} at "
+        f"no viscosity in [oil], so that each part has an oil of its own: {listed} at "
         f'{temperature - ZERO:.4g} degC; give the scene one, as in oil = "Dexron VI"',
         *stiff,
     ]
@@ -283,11 +285,6 @@ def _sump(where: str, table: dict[str, Any], gearbox: Any, oil: float) -> dict[s
             "sets it: all parts and the report start from it"
         )
     return {"initial_temperature": oil, **alike, **table}
-
-
-def _mates(gearbox: Any) -> dict[str, int]:
-    """Return with how many gears a planet meshes, and sun or ring: parameters of their meshes."""
-    return {"mates_pinion": 2, "mates_gear": gearbox.planets}
 
 
 def _shift(where: str, table: dict[str, Any]) -> dict[str, Any]:
@@ -333,7 +330,7 @@ def _part(
     earlier = earlier_of(spec.params)
     given = dict(table)
     with within(where):
-        values, rung, told = _start(spec, given.pop("part", None), given.pop("preset", None))
+        values, rung, labels = _start(spec, given.pop("part", None), given.pop("preset", None))
     own = {k: x for k, x in values.items() if x != getattr(spec.params(), k)}
     lost = [k for k, x in common.items() if k not in given and own.get(k, x) != x]
     values = usual | values | common
@@ -346,7 +343,7 @@ def _part(
         values[key] = read_value(where, key, value, known[key])
     with within(where):
         params = spec.params(**values)
-    part = Part(spec=spec, fidelity=spec.default_fidelity, params=params, told=told)
+    part = Part(spec=spec, fidelity=spec.default_fidelity, params=params, labels=labels)
     return part.asked_for(where, rung), lost
 
 

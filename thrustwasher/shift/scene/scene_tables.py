@@ -28,21 +28,9 @@ BEARING_TABLES = tuple(BEARINGS)
 USELESS = {
     "engine_torque": ("engine", "its points"),
     "engine_start_time": ("engine", "its points"),
-    "clutch_force": ("pressure", "courses of pressure"),
-    "brake_force": ("pressure", "courses of pressure"),
+    "clutch_force": ("pressure", "profiles of pressure"),
+    "brake_force": ("pressure", "profiles of pressure"),
 }
-
-
-def pairs(
-    where: str, key: str, points: Any, over: tuple[str, str], unit: str, what: str = ""
-) -> list[tuple[float, float]]:
-    """Return pairs of two quantities in SI units; ``over``: name and unit of the first ones."""
-    what = what or key
-    if not isinstance(points, list) or not all(isinstance(p, list) and len(p) == 2 for p in points):
-        raise ParameterError(f"{where}: {key} = {points!r}, allowed: pairs [{over[0]}, {what}]")
-    return [
-        (quantity(where, over[0], t, over[1]), quantity(where, what, x, unit)) for t, x in points
-    ]
 
 
 def driveline_table(where: str, table: dict[str, Any], vehicle: Vehicle | None) -> dict[str, Any]:
@@ -115,9 +103,11 @@ def vehicle_of(where: str, table: dict[str, Any] | None) -> Vehicle | None:
 
 
 def points_of(where: str, name: str, what: str, table: dict[str, Any]) -> dict[str, Any]:
-    """Return the parameters of a course from the table's ``points``, pairs of time and value."""
-    points = pairs(
-        where, "points", table.pop("points", None), ("time", "s"), COURSES[name][0], what
-    )
+    """Return the parameters of a profile from the table's ``points``, pairs of time and value."""
+    points = table.pop("points", None)
+    if not isinstance(points, list) or not all(isinstance(p, list) and len(p) == 2 for p in points):
+        raise ParameterError(f"{where}: points = {points!r}, allowed: pairs [time, {what}]")
+    unit = COURSES[name][0]
+    found = [(quantity(where, "time", t, "s"), quantity(where, what, x, unit)) for t, x in points]
     with within(where):
-        return course_fields(name, points)
+        return course_fields(name, found)

@@ -33,7 +33,7 @@ def shift_scene(whole: Scene, i: int) -> Scene:
     if way == "down":
         ramp |= {"shift_from": own.ramp["shift_to"], "shift_to": own.ramp["shift_from"]}
     gearbox = whole.parts["transmission"]
-    params = replace(gearbox.params, **own.courses[way])
+    params = replace(gearbox.params, **own.profiles[way])
     for name in COURSES:
         if points := course_points(params, name):
             later = course_fields(name, [(t + start, x) for t, x in points])
@@ -75,7 +75,7 @@ def _even(begin: float, end: float, step: float) -> Iterator[float]:
 
 
 def checked_sequence(where: str, whole: Scene, sequence: ShiftSequence) -> Scene:
-    """Return a scene with its sequence and without courses of its own; ParameterError if wrong."""
+    """Return a scene with its sequence and without profiles of its own; ParameterError if wrong."""
     ends = (whole.start_time, whole.stop_time - sequence.window)
     times = [ends[0] - sequence.window, *(t for t, _ in sequence.shifts)]
     for (a, one), (b, other) in pairwise(sequence.shifts):
@@ -92,10 +92,10 @@ def checked_sequence(where: str, whole: Scene, sequence: ShiftSequence) -> Scene
             )
     gearbox = whole.parts["transmission"]
     for way in dict.fromkeys(way for _, way in sequence.shifts):
-        params = replace(gearbox.params, **sequence.courses[way])
+        params = replace(gearbox.params, **sequence.profiles[way])
         if params.actuation == "pressure":
-            courses = [course_points(params, name) for name in COURSES if "pressure" in name]
-            last = max(points[-1][0] for points in courses if points)
+            profiles = [course_points(params, name) for name in COURSES if "pressure" in name]
+            last = max(points[-1][0] for points in profiles if points)
         else:
             last = sequence.ramp["shift_start"] + sequence.ramp["shift_duration"]
         if last > sequence.window:
@@ -133,7 +133,7 @@ def read_sequence(where: str, scene: Scene, table: dict[str, Any]) -> ShiftSeque
     later = [i * numbers.get("period", 0.0) for i in range(repeat)]
     params = scene.parts["transmission"].params
     if params.actuation == "pressure" and "down" not in table and "down" in dict(first).values():
-        raise ParameterError(f"{where}: [sequence.down] is missing, the courses of a shift down")
+        raise ParameterError(f"{where}: [sequence.down] is missing, the profiles of a shift down")
     own: dict[str, Any] = {}
     down = dict(table.get("down", {}))
     nothing_else(f"{where[:-1]}.down]", down, DOWN)
@@ -146,6 +146,6 @@ def read_sequence(where: str, scene: Scene, table: dict[str, Any]) -> ShiftSeque
         shifts=tuple((t + more, way) for more in later for t, way in first),
         window=numbers["window"],
         pause_step=pause,
-        courses={"up": own, "down": down or own},
+        profiles={"up": own, "down": down or own},
         ramp={f.name: getattr(scene, f.name) for f in fields(scene) if f.name.startswith("shift_")},
     )

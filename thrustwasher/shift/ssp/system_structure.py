@@ -62,7 +62,7 @@ class Structure(NamedTuple):
 
 
 def prepared(scene: Scene) -> Scene:
-    """Return the scene as the package runs it: parallel, with the transmission told so."""
+    """Return the scene as the package runs it: parallel, with a transmission set up for it."""
     if scene.sequence is not None:
         raise ParameterError("[sequence]: allowed in a package: one shift")
     return scene.with_options(master=MASTER)
@@ -108,16 +108,18 @@ def _source(scene: Scene) -> Part:
 def _component(
     scene: Scene, name: str, part: Part, used: list[Link], starts: Mapping[str, float]
 ) -> Component:
-    """Return a part with all that it is told: parameters, and what its inputs hold at first."""
+    """Return a part with all that it is given: parameters, and what its inputs hold at first."""
     fed = {k.input for k in used if k.target == name}
     values = {s.name: float(starts.get(s.name, s.start or 0.0)) for s in part.spec.inputs}
     if OIL in values:
         values[OIL] = scene.oil_temperature
     given = part.parameters()
-    span = scene.stop_time - scene.start_time
+    span = {"stop_time": scene.stop_time - scene.start_time, "step_size": scene.step}
     return Component(
         name=name,
-        spec=tailored(part.spec, given, values, stop_time=span, step_size=scene.step, **part.told),
+        spec=tailored(
+            part.spec, given, values, stop_time=span, step_size=scene.step, **part.labels
+        ),
         parameters=given,
         starts=values,
         inputs=tuple(s for s in part.spec.inputs if s.name in fed),

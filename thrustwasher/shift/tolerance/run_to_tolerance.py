@@ -1,12 +1,12 @@
 """A shift at a tolerance: a run with the cheapest rungs, the choice, its check, further runs."""
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from functools import partial
 from typing import Any
 
 from ...errors import ParameterError, SolveError
-from ..checks import step_error
 from ..checks.guard import guarded
 from ..cosim.system import Stepping
 from ..run import Progress, run_shift
@@ -38,13 +38,12 @@ class Pool:
             self._made[key] = self._make(name, part)
         return self._made[key]
 
-    def all_of(self, scene: Scene) -> dict[str, Stepping]:
-        """Return an instance for every part of a scene."""
-        return self.all_but(scene, {})
-
-    def all_but(self, scene: Scene, given: Mapping[str, Stepping]) -> dict[str, Stepping]:
+    def all_of(
+        self, scene: Scene, given: Mapping[str, Stepping] | None = None
+    ) -> dict[str, Stepping]:
         """Return an instance for every part of a scene, those that are given as they are."""
-        return {n: given.get(n) or self.take(n, part) for n, part in scene.parts.items()}
+        known = given or {}
+        return {n: known.get(n) or self.take(n, part) for n, part in scene.parts.items()}
 
 
 def run_auto(
@@ -80,24 +79,22 @@ def run_auto(
     def run(now: Scene) -> ShiftResult:
         return run_shift(now, pool.all_of(now), progress=progress, compiled=compiled)
 
-    second, given = partial(run_shift, compiled=compiled), pool.all_but
+    def checked(result: ShiftResult) -> ShiftResult:
+        return guarded(result, pool.all_of, partial(run_shift, compiled=compiled))
 
     scene, remarks = _without_choice(scene)
-    wanted = {n: p for n, p in scene.parts.items() if p.tolerance}
-    if not wanted:
-        result = run(scene)
-        result = replace(result, messages=[*result.messages, *remarks])
-        return guarded(result, given, second) if guard else result
-    result = run(with_rungs(scene, {n: first_rung(p, guard) for n, p in wanted.items()}))
+    asking = {n: p for n, p in scene.parts.items() if p.tolerance}
+    result = run(with_rungs(scene, {n: first_rung(p, guard) for n, p in asking.items()}))
     chosen = select(scene, result, guard)
     rungs = {c.part: c.rung for c in chosen}
     if any(result.scene.parts[name].fidelity != rung for name, rung in rungs.items()):
         result = run(with_rungs(scene, rungs))
     if guard:
-        result = _checked(result, chosen, pool, run)
-        result = _followed(scene, guarded(result, given, second), run, given, second)
-        remarks += _step_remarks(result, min(p.tolerance or 1.0 for p in wanted.values()))
-    return replace(result, selection=Selection(chosen), messages=[*result.messages, *remarks])
+        result = checked(_checked(result, chosen, pool, run))
+        result = _followed(scene, result, lambda again: checked(run(again)))
+        remarks += _step_remarks(result, asking.values())
+    selection = Selection(chosen) if chosen else None
+    return replace(result, selection=selection, messages=[*result.messages, *remarks])
 
 
 def with_rungs(scene: Scene, rungs: Mapping[str, str]) -> Scene:
@@ -107,11 +104,7 @@ def with_rungs(scene: Scene, rungs: Mapping[str, str]) -> Scene:
 
 
 def _followed(
-    scene: Scene,
-    result: ShiftResult,
-    run: Callable[[Scene], ShiftResult],
-    given: step_error.Make,
-    second: step_error.Run,
+    scene: Scene, result: ShiftResult, checked_run: Callable[[Scene], ShiftResult]
 ) -> ShiftResult:
     """Repeat a run in time where a washer whose rung was to be chosen is not steady in it.
 
@@ -121,7 +114,7 @@ def _followed(
         return result
     rungs = {n: p.fidelity for n, p in result.scene.parts.items() if n not in DIRECT}
     try:
-        again = guarded(run(with_rungs(_in_time(scene), rungs)), given, second)
+        again = checked_run(with_rungs(_in_time(scene), rungs))
     except (ParameterError, SolveError) as problem:
         words = f"A run with thermal_mode transient failed ({problem}); the one before it counts"
         return replace(result, found=(*result.found, words))
@@ -157,9 +150,10 @@ def _without_choice(scene: Scene) -> tuple[Scene, list[str]]:
     return replace(scene, parts=parts), remarks
 
 
-def _step_remarks(result: ShiftResult, tolerance: float) -> list[str]:
-    """Say that the communication step errs by more than its share of a tolerance, if so."""
-    error, share = result.step_error, STEP_SHARE * tolerance
+def _step_remarks(result: ShiftResult, asking: Iterable[Part]) -> list[str]:
+    """Say that the communication step errs by more than its share of the tolerance, if so."""
+    share = STEP_SHARE * min((part.tolerance or 1.0 for part in asking), default=math.inf)
+    error = result.step_error
     if error is None or error.relative <= share:
         return []
     return [

@@ -51,7 +51,7 @@ def check_part(
         result.time,
         inputs,
         places,
-        chosen.model in WITHOUT_PAST,
+        part.spec.key in WITHOUT_PAST,
     )
     worst = _farthest(chosen, part, result, solved)
     return Check(
@@ -122,7 +122,7 @@ def _solved(
     """
     outputs: dict[int, list[float]] = {}
     failed: list[str] = []
-    reached, wanted = None, set(places)
+    reached, required = None, set(places)
     for i in places if strides else range(max(places, default=-1) + 1):
         try:
             if reached is None:
@@ -133,7 +133,7 @@ def _solved(
                 instance.set_inputs(inputs[i].tolist())
                 instance.step(float(time[reached]), float(time[i] - time[reached]))
             reached = i
-            if i in wanted:
+            if i in required:
                 outputs[i] = instance.outputs()
         except (ParameterError, SolveError) as problem:
             failed.append(f"at t = {time[i]:.4g} s: {problem}")

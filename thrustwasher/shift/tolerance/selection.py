@@ -6,11 +6,13 @@ packs it does not decide: it knows one kind of engagement, and the check compare
 next one in the engagement at hand.
 """
 
+import numpy as np
+
 from ...errors import SolveError
 from ...ladder.choose import rungs_of
 from ...ladder.error_table import SAFETY, fresh_rungs
 from ...ladder.formats import shown_error
-from ..scene.connections import DIRECT, PACKS, QUANTITIES, SPEED, WITHOUT_PAST
+from ..scene.connections import DIRECT, JUDGED, PACKS, SPEED, WITHOUT_PAST
 from ..scene.scene import Part, Scene
 from ..shift_result import ShiftResult
 from .selection_record import Box, Scale, Selected
@@ -54,28 +56,19 @@ def _selected(name: str, part: Part, first: ShiftResult, safety: float) -> Selec
             f"part {name!r}, {TORQUE}: no rung reaches {100.0 * share:.2g} %; the best is {best} "
             f"with {shown_error(errors[best], None)}; ask for less or name a rung"
         )
-    words = [_words(name, fitting, errors, share, is_last=len(fitting) == 1)]
+    rung, asked = fitting[0], f"(asked {shown_error(share, None)})"
+    words = [f"{name}: {rung}, its last rung; no table of errors speaks here"]
+    if rung in errors:
+        words = [f"{name}: {rung}, {TORQUE} within {shown_error(errors[rung], None)} {asked}"]
+    elif len(fitting) > 1:
+        words = [f"{name}: {rung}, to be compared with {fitting[1]} {asked}"]
     words += [
         f"  too coarse: {rung} {shown_error(errors[rung], None)}"
         for rung in rungs
         if rung not in fitting
     ]
-    outputs = [o for _, o in QUANTITIES[spec.key] if o in [s.name for s in spec.outputs]]
-    scales = tuple(_scale(name, output, first) for output in outputs)
-    known = fitting[0] in errors
-    return Selected(name, spec.key, tuple(fitting), share, known, tuple(words), box, scales)
-
-
-def _words(
-    name: str, fitting: list[str], errors: dict[str, float], share: float, is_last: bool
-) -> str:
-    """Say which rung serves and what is known of it."""
-    rung, asked = fitting[0], f"(asked {shown_error(share, None)})"
-    if rung in errors:
-        return f"{name}: {rung}, {TORQUE} within {shown_error(errors[rung], None)} {asked}"
-    if is_last:
-        return f"{name}: {rung}, its last rung; no table of errors speaks here"
-    return f"{name}: {rung}, to be compared with {fitting[1]} {asked}"
+    scales = tuple(_scale(name, output, first) for output in JUDGED[spec.key])
+    return Selected(name, tuple(fitting), share, rung in errors, tuple(words), box, scales)
 
 
 def _inputs(name: str, part: Part, run: ShiftResult) -> Box:
@@ -97,13 +90,8 @@ def _errors(part: Part, box: Box, safety: float) -> dict[str, float]:
 
 def _scale(part: str, output: str, run: ShiftResult) -> Scale:
     """Return what differences of an output count against, by its range in a run."""
-
-    def seen(name: str) -> tuple[float, float]:
-        values = run.signals[f"{name}.{output}"]
-        return float(values.min()), float(values.max())
-
     if output == "temperature":  # of the hotter pack: what a scene is judged by
-        ranges = [seen(pack) for pack in PACKS]
-        return Scale(output, max(LEAST_RISE, *(b - a for a, b in ranges)), relative=False)
-    low, high = seen(part)
-    return Scale(output, FLOOR * max(abs(low), abs(high)) or 1e-12)
+        rises = [float(np.ptp(run.signals[f"{pack}.{output}"])) for pack in PACKS]
+        return Scale(output, max(LEAST_RISE, *rises), relative=False)
+    largest = float(np.abs(run.signals[f"{part}.{output}"]).max())
+    return Scale(output, FLOOR * largest or 1e-12)

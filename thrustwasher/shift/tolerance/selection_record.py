@@ -28,7 +28,6 @@ class Selected(NamedTuple):
     """The rungs of one part that may serve, cheapest first, and why."""
 
     part: str
-    model: str
     rungs: tuple[str, ...]
     tolerance: float  # the rung's share of the tolerance asked for
     verified: bool  # a table of measured errors speaks of the first one

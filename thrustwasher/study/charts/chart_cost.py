@@ -1,15 +1,16 @@
 """Error against cost: every way a model can be solved, on logarithmic axes."""
 
-import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import product
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.transforms import Bbox
 
 from ...report.palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY
 from ...report.style import label, legend_below, new_figure, note_at_right, styled
@@ -26,54 +27,33 @@ WORDS = {
     "end_temperature": "interface temperature at the end",
 }
 SIDE_BY_SIDE = 3  # names in a row of the legend
-# Names of marks, in points:
-SIZE = 7.5  # points
-WIDE, TALL = 0.62 * SIZE, 1.2 * SIZE  # of a letter and of a line, in points
-MARK = 3.5  # half of a mark, in points
-FAR = (4.0, 12.0, 22.0, 34.0)  # from the mark, in points; from the second on a line leads to it
+SIZE, MARK = 7.5, 3.5  # of letters; half of a mark, in points
+FAR = (4.0, 12.0, 22.0, 34.0)  # of a name from its mark, in points; from the second on with a line
+SIDES = ((1, 1), (1, -1), (-1, 1), (-1, -1), (0, 1), (0, -1))  # of the mark: right, above
+HORIZONTAL, VERTICAL = {1: "left", 0: "center", -1: "right"}, {1: "bottom", -1: "top"}
 Sampled = Mapping[str, Any]
-
-
-class Label(NamedTuple):
-    """A name, its place in data, its colour."""
-
-    x: float
-    y: float
-    text: str
-    colour: str
+Label = tuple[float, float, str, str]  # place in data, a name, its colour
 
 
 @styled
 def cost_figure(
-    model: str, survey: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]
+    title: str, study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]], across: str
 ) -> Figure:
-    """Return error over seconds per call, a panel per quantity.
+    """Return error over cost, a panel per quantity; lines follow the knob of a series.
 
-    ``survey`` is as in the JSON file, ``fronts`` the indices of the samples that nothing beats.
+    ``study`` is as in the JSON file, ``fronts`` the indices of the samples that nothing beats,
+    ``across`` what a cost is.
     """
-    figure, panels = _panels(survey, fronts, 5.0, f"{model}: ", survey["cost_of"])
-    legend_below(figure, *panels[0].get_legend_handles_labels(), columns=SIDE_BY_SIDE)
-    return figure
-
-
-def _panels(
-    study: Mapping[str, Any],
-    fronts: Mapping[str, Sequence[int]],
-    height: float,
-    prefix: str,
-    across: str,
-    crosses: bool = True,
-) -> tuple[Figure, list[Axes]]:
-    """Return a figure with room for its legend, and a panel of errors per quantity."""
     quantities, families = study["quantities"], {s["family"] for s in study["samples"]}
     foot = -(-(len(families) + 1) // SIDE_BY_SIDE)  # rows of the legend, a name for the front too
-    figure, panels = new_figure(11.0, height, 1, len(quantities), foot=foot)
+    figure, panels = new_figure(11.0, 5.0, 1, len(quantities), foot=foot)
     for axes, quantity in zip(panels, quantities, strict=True):
         name = quantity["name"]
-        draw_samples(axes, study["samples"], quantity, fronts[name], crosses=crosses)
+        draw_samples(axes, study["samples"], quantity, fronts[name])
         unit = "relative" if quantity["kind"] == "relative" else quantity["unit"]
-        label(axes, f"{prefix}{WORDS.get(name, name)}", across, f"error [{unit}]")
-    return figure, panels
+        label(axes, f"{title}{WORDS.get(name, name)}", across, f"error [{unit}]")
+    legend_below(figure, *panels[0].get_legend_handles_labels(), columns=SIDE_BY_SIDE)
+    return figure
 
 
 def draw_samples(
@@ -82,8 +62,6 @@ def draw_samples(
     quantity: Mapping[str, Any],
     front: Sequence[int],
     cost: str = "call_median",
-    spread: str | None = "call_iqr",
-    crosses: bool = True,
 ) -> None:
     """Draw worst (filled) and rms (hollow) of each sample, lines along the knob, the front."""
     name = quantity["name"]
@@ -92,14 +70,9 @@ def draw_samples(
     floor = max((s["ref_uncertainty"].get(name) or 0.0 for s in samples), default=0.0)
     low = _draw_floor(axes, known, name, floor)
     costs = [s[cost] for s in samples if s[cost]] or [1.0]
-    decades = math.log10(max(costs) / min(costs))
-    wide = max(0.5, decades)
-    more = 0.5 * (wide - decades)  # and room for words beside the marks
-    axes.set_xlim(
-        min(costs) / 10.0 ** (more + 0.06 * wide), max(costs) * 10.0 ** (more + 0.12 * wide)
-    )
+    axes.set_xlim(min(costs) / 2.0, 4.0 * max(costs))  # room for words beside the marks
     labels: list[Label] = []
-    if 0.8 < wide < 2.0:  # as many numbers as there is room for
+    if max(costs) < 20.0 * min(costs):  # as many numbers as there is room for
         axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
         axes.xaxis.set_minor_formatter(NullFormatter())
     families = list(dict.fromkeys(s["family"] for s in samples))
@@ -109,7 +82,7 @@ def draw_samples(
         members = [s for s in known if s["family"] == family]
         colour = COLOURS.get(family) or next(rivals)
         if members:
-            labels += _draw_family(axes, family, members, name, cost, spread, colour, low)
+            labels += _draw_family(axes, family, members, name, cost, colour, low)
     best = staircase(samples, front, name)
     axes.step(
         [s[cost] for s in best],
@@ -121,8 +94,7 @@ def draw_samples(
         label="nothing beats these (worst case)",
         zorder=1,
     )
-    if crosses:
-        _draw_failures(axes, samples, cost)
+    _draw_failures(axes, samples, cost, name)
     kinds = ("worst", "rms")
     place_labels(
         axes, labels, [(s[cost], max(s["errors"][name][k], low)) for s in known for k in kinds]
@@ -147,7 +119,6 @@ def _draw_family(
     members: Sequence[Sampled],
     name: str,
     cost: str,
-    spread: str | None,
     colour: str,
     low: float,
 ) -> list[Label]:
@@ -170,21 +141,21 @@ def _draw_family(
             mfc=fill,
             lw=1.2 if kind == "worst" else 0.7,
             zorder=3,
-            label=f"{family}: worst, hollow rms" if kind == "worst" else None,
+            label=None if kind == "rms" else family if single else f"{family}: worst, hollow rms",
             gid=mark_of(name, family) if kind == "worst" else None,
         )
-        if spread and kind == "worst":
+        if cost == "call_median" and kind == "worst":
             axes.errorbar(
                 x,
                 y,
-                xerr=[0.5 * (s[spread] or 0.0) for s in members],
+                xerr=[0.5 * (s["call_iqr"] or 0.0) for s in members],
                 fmt="none",
                 ecolor=colour,
                 elinewidth=0.9,
                 zorder=2,
             )
     shown = members if len(members) < 5 or not single else (members[0], members[-1])
-    return [Label(s[cost], max(s["errors"][name]["worst"], low), s["value"], colour) for s in shown]
+    return [(s[cost], max(s["errors"][name]["worst"], low), s["value"], colour) for s in shown]
 
 
 def mark_of(quantity: str, family: str) -> str:
@@ -192,10 +163,12 @@ def mark_of(quantity: str, family: str) -> str:
     return re.sub(r"\W+", "-", f"{quantity} {family}")
 
 
-def _draw_failures(axes: Axes, samples: Sequence[Sampled], cost: str) -> None:
-    """Mark failed samples by a cross at the top, with their number."""
+def _draw_failures(axes: Axes, samples: Sequence[Sampled], cost: str, name: str) -> None:
+    """Mark failed samples by a cross: of many cases at the top, with their number."""
     failed = [s for s in samples if s["n_failed"]]
-    for rank, s in enumerate(failed):
+    for s in (s for s in failed if s["n_cases"] == 1 and s[cost] and s["errors"][name]["worst"]):
+        axes.plot([s[cost]], [s["errors"][name]["worst"]], marker="x", ms=9, color=RED, mew=1.6)
+    for rank, s in enumerate(s for s in failed if s["n_cases"] > 1):
         up = 0.98 - 0.045 * rank
         text = f"{s['label']}: {s['n_failed']} of {s['n_cases']} fail"
         where: Any = axes.get_xaxis_transform() if s[cost] else axes.transAxes
@@ -213,22 +186,6 @@ def _draw_failures(axes: Axes, samples: Sequence[Sampled], cost: str) -> None:
 
 
 @styled
-def steps_figure(study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]) -> Figure:
-    """Return the errors of a shift over its cost, a panel per quantity; lines follow the step."""
-    across = "wall time per simulated second"
-    figure, panels = _panels(study, fronts, 5.6, "", across, crosses=False)
-    for axes, quantity in zip(panels, study["quantities"], strict=True):
-        for s in study["samples"]:
-            error = s["errors"][quantity["name"]]["worst"]
-            if s["n_failed"] and error and s["call_median"]:
-                axes.plot([s["call_median"]], [error], marker="x", ms=9, color=RED, mew=1.6)
-    handles, names = panels[0].get_legend_handles_labels()
-    names = [n.replace(": worst, hollow rms", "") for n in names]
-    legend_below(figure, handles, names, columns=SIDE_BY_SIDE)
-    return figure
-
-
-@styled
 def count_figure(model: str, survey: Mapping[str, Any]) -> Figure:
     """Return error over the work that needs no machine, a panel per unit of work."""
     quantity = survey["quantities"][0]
@@ -236,7 +193,7 @@ def count_figure(model: str, survey: Mapping[str, Any]) -> Figure:
     figure, panels = new_figure(11.0, 3.8, 1, max(1, len(groups)))
     for axes, group in zip(panels, groups, strict=False):
         members = [s for s in survey["samples"] if s["count_of"] == group]
-        draw_samples(axes, members, quantity, (), "count", None)
+        draw_samples(axes, members, quantity, (), "count")
         words = WORDS.get(quantity["name"], quantity["name"])
         label(axes, f"{model}: {words}", f"{group} per case", "error")
     return figure
@@ -247,40 +204,28 @@ def place_labels(axes: Axes, labels: Sequence[Label], marks: Sequence[tuple[floa
 
     One that finds no place is left out: the page tells it of the point.
     """
-    scale = 72.0 / axes.figure.dpi
-    at = axes.transData.transform
-    frame = scale * np.array(axes.get_window_extent().extents)
-    around = np.array([-MARK, -MARK, MARK, MARK])
-    taken = [np.tile(scale * at(mark), 2) + around for mark in marks]
-    taken += [scale * np.array(words.get_window_extent().extents) for words in axes.texts]
-    for one in labels:
-        spot = scale * at((one.x, one.y))
-        size = np.array([WIDE * len(one.text), TALL])
-        for far, corner in _corners(size):
-            box = np.concatenate((spot + corner, spot + corner + size))
-            inside = np.all(box[:2] >= frame[:2]) and np.all(box[2:] <= frame[2:])
-            if inside and not any(_overlap(box, other) for other in taken):
+    frame, half = axes.get_window_extent(), MARK * axes.figure.dpi / 72.0
+    spots = [axes.transData.transform(mark) for mark in marks]
+    taken = [Bbox.from_extents(x - half, y - half, x + half, y + half) for x, y in spots]
+    taken += [words.get_window_extent() for words in axes.texts]
+    for x, y, text, colour in labels:
+        for far, (right, up) in product(FAR, SIDES):
+            line: Any = {"arrowstyle": "-", "lw": 0.5, "color": colour, "shrinkB": 3.0}
+            words = axes.annotate(
+                text,
+                (x, y),
+                (far * right, far * up),
+                textcoords="offset points",
+                ha=HORIZONTAL[right],
+                va=VERTICAL[up],
+                fontsize=SIZE,
+                color=colour,
+                arrowprops=line if far > FAR[0] else None,
+            )
+            words.get_window_extent()  # finds its place, and what there is with the line
+            box = Text.get_window_extent(words)
+            inside = frame.contains(box.x0, box.y0) and frame.contains(box.x1, box.y1)
+            if inside and not box.count_overlaps(taken):
                 taken.append(box)
-                line: Any = {"arrowstyle": "-", "lw": 0.5, "color": one.colour, "shrinkB": 3.0}
-                axes.annotate(
-                    one.text,
-                    (one.x, one.y),
-                    corner,
-                    textcoords="offset points",
-                    fontsize=SIZE,
-                    color=one.colour,
-                    arrowprops=line if far > FAR[0] else None,
-                )
                 break
-
-
-def _corners(size: Any) -> Iterator[tuple[float, Any]]:
-    """Yield distances and where a label's lower left corner may lie, near places first."""
-    wide, tall = size
-    for far, (right, up) in product(FAR, ((1, 1), (1, -1), (-1, 1), (-1, -1), (0, 1), (0, -1))):
-        across = far if right > 0 else -0.5 * wide if right == 0 else -far - wide
-        yield far, np.array([across, far if up > 0 else -far - tall])
-
-
-def _overlap(a: Any, b: Any) -> bool:
-    return bool(np.all(a[:2] < b[2:]) and np.all(b[:2] < a[2:]))
+            words.remove()

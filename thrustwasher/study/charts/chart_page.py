@@ -16,7 +16,7 @@ from ...storage.digests import DATA
 from ...templates import template
 from ..macro_steps import WAYS
 from . import chart_text as text
-from .chart_cost import cost_figure, count_figure, mark_of, steps_figure
+from .chart_cost import cost_figure, count_figure, mark_of
 
 TITLE = "Speed against accuracy"
 SAME_EVERYWHERE = DATA / "same_everywhere.json"
@@ -136,7 +136,7 @@ def _steps_section(study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]
     heads = [
         "way",
         "step",
-        "per simulated second",
+        "wall time per simulated second",
         *(q["name"] for q in study["quantities"]),
         "what was wrong",
     ]
@@ -166,7 +166,7 @@ def _steps_section(study: Mapping[str, Any], fronts: Mapping[str, Sequence[int]]
         "macro-steps",
         "A shift: error against cost over step, master, coupling and rung",
         texts=[words, *text.order_sentences(study)],
-        plots=[Plot("chart-shift", steps_figure(study, fronts), caption)],
+        plots=[Plot("chart-shift", cost_figure("", study, fronts, heads[2]), caption)],
         tables=[Table(heads, rows, numbers=(2, 3, 4, 5), title="All runs", folded=True)],
     )
 
@@ -179,13 +179,14 @@ def _model_section(
     heads, rows = text.sample_rows(survey)
     even_heads, even_rows = text.break_even_rows(survey, "field")
     cases = [[c["name"], ", ".join(f"{v:g}" for v in c["point"])] for c in survey["cases"]]
+    figure = cost_figure(f"{model}: ", survey, fronts, survey["cost_of"])
     count_caption = "The same errors over counts that need no machine."
     return Section(
         model,
         f"{model}: error against cost",
         texts=[t for t in texts if t],
         plots=[
-            Plot(f"chart-{model}", cost_figure(model, survey, fronts), HOW),
+            Plot(f"chart-{model}", figure, HOW),
             Plot(f"chart-{model}-count", count_figure(model, survey), count_caption),
         ],
         tables=[

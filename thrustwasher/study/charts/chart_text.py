@@ -6,6 +6,9 @@ from collections.abc import Mapping, Sequence
 from statistics import linear_regression
 from typing import Any
 
+from ...ladder.formats import shown_error
+from ...units import format_quantity
+
 Sampled = Mapping[str, Any]  # a sample as in the JSON file
 Row = list[str]
 
@@ -42,26 +45,14 @@ def _error(sample: Sampled, quantity: str) -> float:
 
 def seconds(value: float | None) -> str:
     """Return a duration as a person reads it: 234 µs, 65 s; "-" for None."""
-    if value is None:
-        return "-"
-    for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
-        if value >= size:
-            return f"{value / size:.3g} {unit}"
-    return f"{value / 1e-9:.3g} ns"
+    return "-" if value is None else format_quantity(value, "s", digits=3)
 
 
 def error_text(value: float | None, quantity: Mapping[str, Any]) -> str:
     """Return an error with its unit, relative ones in per cent."""
     if value is None:
         return "-"
-    if quantity["kind"] == "relative":
-        return f"{_short(100.0 * value)} %"
-    return f"{_short(value)} {quantity['unit']}"
-
-
-def _short(value: float) -> str:
-    """Return two digits, without an exponent for large numbers."""
-    return f"{value:.0f}" if value >= 99.5 else f"{value:.2g}"
+    return shown_error(value, None if quantity["kind"] == "relative" else quantity["unit"])
 
 
 def sample_rows(survey: Mapping[str, Any]) -> tuple[Row, list[Row]]:

@@ -25,6 +25,7 @@ from .washer_chart import WASHER
 CHARTS = {"washer": WASHER, "clutch": CLUTCH, "gearmesh": RUNGS}  # by the models' keys
 
 Progress = Callable[[str], None]
+OF_SETTING = ("family", "label", "knob", "value", "count_of", "is_rival")
 GOOD = (Status.OK, Status.DISTRESS, Status.HOT)
 
 
@@ -49,7 +50,7 @@ class Sample:
     count_of: str
     n_cases: int
     n_failed: int
-    failures: dict[str, str] = field(default_factory=dict)  # case -> what it said
+    failures: dict[str, str] = field(default_factory=dict)  # case -> its message
     is_rival: bool = False
     slowest_call_s: float = math.nan
     slowest_case: str | None = None
@@ -92,30 +93,29 @@ def measure(
     timings = _time(method, solved, repeats) if method else {}
     timing = _typical(list(timings.values()))
     slowest = max(timings, key=lambda name: timings[name].median, default=None)
-    errors = {name: _errors(pairs) for name, pairs in found.items()}
     return Sample(
-        setting.family,
-        setting.label,
-        setting.knob,
-        setting.value,
-        digest(tuple(cases)),
-        errors,
-        uncertainty_of(known, quantities),
-        timing.median,
-        timing.iqr,
-        timing.least,
-        timing.repeats,
-        timing.first,
-        setup,
-        statistics.fmean(counts) if counts else math.nan,
-        setting.count_of,
-        len(cases),
-        len(failures),
-        failures,
-        setting.is_rival,
-        timings[slowest].median if slowest else math.nan,
-        slowest,
-        float(getattr(method, "build_s", 0.0)),
+        **{name: getattr(setting, name) for name in OF_SETTING},
+        cases=digest(tuple(cases)),
+        errors={name: _errors(pairs) for name, pairs in found.items()},
+        ref_uncertainty={
+            q.name: max(
+                q.error(t.values[q.name] + t.uncertainty[q.name], t.values[q.name]) for t in known
+            )
+            for q in quantities
+        },
+        call_median=timing.median,
+        call_iqr=timing.iqr,
+        call_min=timing.least,
+        repeats=timing.repeats,
+        first_call_s=timing.first,
+        setup_s=setup,
+        count=statistics.fmean(counts) if counts else math.nan,
+        n_cases=len(cases),
+        n_failed=len(failures),
+        failures=failures,
+        slowest_call_s=timings[slowest].median if slowest else math.nan,
+        slowest_case=slowest,
+        build_s=float(getattr(method, "build_s", 0.0)),
     )
 
 
@@ -162,18 +162,6 @@ def _errors(pairs: list[tuple[float, str]]) -> dict[str, Any]:
     worst, case = max(pairs)
     rms = math.sqrt(statistics.fmean(e * e for e, _ in pairs))
     return {"worst": worst, "rms": rms, "case": case}
-
-
-def uncertainty_of(
-    known: Sequence[ReferenceValues], quantities: Sequence[Quantity]
-) -> dict[str, float]:
-    """Return the largest uncertainty of reference values, as an error of each quantity."""
-    return {
-        q.name: max(
-            q.error(t.values[q.name] + t.uncertainty[q.name], t.values[q.name]) for t in known
-        )
-        for q in quantities
-    }
 
 
 def work_precision(

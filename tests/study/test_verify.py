@@ -6,6 +6,7 @@ import itertools
 import numpy as np
 import pytest
 
+from thrustwasher import WasherParams, solve_washer
 from thrustwasher.command.kernels import step as command_step
 from thrustwasher.ladder.error_table import QUANTITIES
 from thrustwasher.shift import load_scene
@@ -24,6 +25,7 @@ from thrustwasher.study.reference_values import (
     ReferencePoint,
     Source,
 )
+from thrustwasher.study.reference_washer import solve_on
 
 MODELS = ("washer", "clutch", "gearmesh")
 DEFAULT = {m: cases(m)[0] for m in MODELS}
@@ -170,7 +172,7 @@ def kept(tmp_path, monkeypatch):
         return [known(1.0, point)]
 
     return asked, Source(
-        solve, None, None, ("thrustwasher.tribology.flow_factors",), ("one route",)
+        solve, None, None, ("thrustwasher.tribology.flow_factors",), None, ("one route",)
     )
 
 
@@ -188,6 +190,21 @@ def test_values_of_other_kernels_or_parameters_are_not_taken(kept, monkeypatch):
     monkeypatch.setattr(reference_cache, "kernel_digest", lambda files: "other")
     reference_points(DEFAULT["washer"], source, 1)
     assert len(asked) == 3
+
+
+# the washer's finer meshes
+
+
+@pytest.mark.parametrize(("load", "branch"), [(300.0, "film"), (800.0, "contact")])
+def test_a_solution_carried_to_another_mesh_is_the_one_found_there(load, branch):
+    point = {"load": load, "speed": 545.0, "tilt": 2e-3}
+    coarse = solve_washer(WasherParams(), **point, branch=branch)
+    carried = solve_on(coarse, (19, 64))
+    cold = solve_washer(WasherParams(), **point, branch=branch, fidelity="fine")
+    assert carried.branch == branch and carried.grid == (19, 64)
+    assert carried.friction_torque == pytest.approx(cold.friction_torque, rel=2e-5)
+    assert carried.temperature == pytest.approx(cold.temperature, abs=1e-3)
+    assert carried.iterations < cold.iterations
 
 
 # time

@@ -20,8 +20,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "model",
         nargs="?",
         metavar="MODEL|FILE",
-        help=f"list only {models}; a part file (.toml): verify its rungs in its box, a minute or "
-        "less",
+        help=f"list only {models}; a part file (.toml): verify its rungs in its box, half a "
+        "minute or less",
     )
     group = parser.add_argument_group("of a part file")
     group.add_argument(

@@ -4,7 +4,7 @@ import hashlib
 import json
 from collections.abc import Callable
 from contextlib import closing
-from dataclasses import asdict, fields
+from dataclasses import asdict
 from functools import partial
 from typing import Any
 
@@ -48,7 +48,7 @@ def reference_points(
         axes,
         case.seed,
         list(source.routes),
-        [f.name for f in fields(ReferencePoint)],
+        list(source.grid or ()),
         MARGIN,
     ]
     digest = hashlib.sha256(json.dumps(what).encode()).hexdigest()[:16]

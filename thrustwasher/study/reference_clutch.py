@@ -232,5 +232,6 @@ SOURCE = Source(
     _answer,
     _at_case,
     tuple(f"thrustwasher.clutch.kernels.{name}" for name in ("advance", "pack_outputs", "steady")),
+    None,
     (f"{', '.join(map(str, RINGS))} rings, order 2; settled below {k.HOT_LIMIT:g} K",),
 )

@@ -237,5 +237,6 @@ SOURCE = Source(
         f"thrustwasher.gearmesh.kernels.{name}"
         for name in ("line_of_action", "constants", "operating_point")
     ),
+    None,
     ("adaptive quadrature over the line of action", "search for the hottest position"),
 )

@@ -34,7 +34,7 @@ class ReferencePoint:
     """What the reference says at a held-out point on one chart.
 
     ``values`` holds the quantities, numbers or a row over time; ``uncertainty`` is the reference's
-    own for each, in the same unit.
+    own for each, in the same unit. ``by_mesh`` holds what a mesh gave on the way.
     """
 
     point: Point
@@ -43,6 +43,7 @@ class ReferencePoint:
     values: Values
     uncertainty: dict[str, float]
     beside_fold: bool = False
+    by_mesh: dict[str, Values] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -61,6 +62,7 @@ class Source:
     answer: Callable[[Any, str, ReferencePoint], Answer]  # of parameters, rung; on the branch
     at_case: Callable[..., ReferenceValues]  # of a chart: its point, those before it, a preset
     kernels: tuple[str, ...]  # whose change makes kept values worthless
+    grid: tuple[int, ...] | None
     routes: tuple[str, ...]
     branches: Mapping[str, float] = field(default_factory=dict)
     """What asks the kernel for a branch, behind its inputs."""

@@ -6,37 +6,23 @@ import hashlib
 import os
 import platform
 import re
-import shutil
-import struct
 import sys
 import tempfile
-import time
 import zipfile
-import zlib
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from ...errors import EnvironmentProblem, ParameterError, naming
-from ...native.files import code_folder
+from ...native.files import DAMAGED, code_folder, forget_old
 
 KEPT = 20  # unpacked FMUs
 IN_USE = 86400.0  # s; a folder used within this time may be open in another process
 # The disk's or the user's trouble; other errors come of a damaged archive.
 DISK = {
     getattr(errno, name, None)
-    for name in (
-        "ENOSPC",
-        "EDQUOT",
-        "EFBIG",
-        "EIO",
-        "EROFS",
-        "EACCES",
-        "EPERM",
-        "EMFILE",
-        "ENFILE",
-    )
+    for name in "ENOSPC EDQUOT EFBIG EIO EROFS EACCES EPERM EMFILE ENFILE".split()
 }
 WARNING = 1  # of both FMI versions; what is above carries the reason of a failure
 # Arguments behind "..." lie where named ones would: everywhere but on Apple's ARM.
@@ -100,17 +86,7 @@ def _extract(path: str, folder: Path) -> None:
         with zipfile.ZipFile(path) as archive:
             archive.getinfo("modelDescription.xml")
             archive.extractall(folder)
-    except (
-        OSError,
-        zipfile.BadZipFile,
-        zlib.error,
-        struct.error,
-        EOFError,
-        KeyError,
-        ValueError,
-        OverflowError,
-        RuntimeError,
-    ) as problem:
+    except (OSError, *DAMAGED) as problem:
         if isinstance(problem, OSError) and problem.errno in DISK:
             raise
         raise ParameterError(
@@ -120,17 +96,7 @@ def _extract(path: str, folder: Path) -> None:
 
 def prune(home: Path, kept: int = KEPT) -> None:
     """Remove folders that were not used for a day, except the ``kept`` used last."""
-    used = []
-    for folder in home.iterdir():
-        with suppress(OSError):  # another process prunes too
-            if folder.is_dir():
-                used.append((folder.stat().st_mtime, folder))
-    for last, folder in sorted(used, reverse=True)[kept:]:
-        if time.time() - last > IN_USE:
-            gone = folder.with_name(f".{folder.name}.{os.getpid()}")
-            with suppress(OSError):
-                folder.rename(gone)  # nobody finds half a folder
-                shutil.rmtree(gone, ignore_errors=True)
+    forget_old(home, "*", kept, IN_USE)
 
 
 @cache

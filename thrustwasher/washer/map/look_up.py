@@ -3,8 +3,7 @@
 import math
 import os
 import threading
-from collections.abc import Callable, Mapping
-from functools import partial
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -202,42 +201,19 @@ def solve_by_map(
     status = solver.look_up(Point(*point), wanted)
     if status == NOT_HERE:
         return None
-    if status != Status.OK:
-        state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = before, ratio
-        return result_of(
-            params,
-            point,
-            NOTHING,
-            NOTHING,
-            "film",
-            False,
-            Status(status),
-            0,
-            "map",
-            NO_MESH,
-            BY_CARD,
-            state,
-        )
-    solver.tilt()
-    numbers, (branch, several) = solver.numbers.tolist(), solver.branch.tolist()
-    tilts = tuple(point[2] * turn for turn in solver.tilts.tolist())
-    state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = branch, numbers[L.O_RATIO]
-    lost = numbers[L.O_MEAN] - point[3] > LARGEST_RISE
-    lost = lost or (branch == L.CONTACT_BRANCH and several == 2.0)
-    return result_of(
-        params,
-        point,
-        numbers,
-        tilts,
-        BRANCH_NAMES[branch],
-        lost,
-        Status.OK,
-        0,
-        "map",
-        NO_MESH,
-        BY_CARD,
-        state,
-    )
+    numbers: Sequence[float] = NOTHING
+    tilts, lost = NOTHING, False
+    if status == Status.OK:
+        solver.tilt()
+        numbers, (before, several) = solver.numbers.tolist(), solver.branch.tolist()
+        tilts = tuple(point[2] * turn for turn in solver.tilts.tolist())
+        ratio = numbers[L.O_RATIO]
+        lost = numbers[L.O_MEAN] - point[3] > LARGEST_RISE
+        lost = lost or (before == L.CONTACT_BRANCH and several == 2.0)
+    state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = before, ratio
+    branch = BRANCH_NAMES[before] if status == Status.OK else "film"
+    how = Status(status), 0, "map", NO_MESH, BY_CARD
+    return result_of(params, point, numbers, tilts, branch, lost, *how, state)
 
 
 def outside_text(params: WasherParams, points: Array, what: str, most: float = 0.0) -> str:
@@ -287,17 +263,9 @@ def build_own(
 
     The box is cut at what a map can cover.
     """
-    keep_own(
-        params,
-        partial(
-            resolve(MAKER),
-            params,
-            box=coverable(box),
-            tolerance=tolerance,
-            workers=workers,
-            progress=progress,
-        ),
-    )
+    make, wider = resolve(MAKER), coverable(box)
+    own = {"tolerance": tolerance, "workers": workers, "progress": progress}
+    keep_own(params, lambda out: make(params, out, box=wider, **own))
 
 
 def keep_own(params: WasherParams, make: Callable[[Path], Any]) -> None:

@@ -312,13 +312,9 @@ def _card(
 ) -> dict[str, Any]:
     """Return a map's card; ``change`` is what a finer mesh added."""
     mesh = (
-        {}
-        if change is None
-        else {
-            "finer_lines": change.solved,
-            "mesh_made_good": change.raised,
-            "mesh_left": change.left,
-        }
+        {"finer_lines": change.solved, "mesh_made_good": change.raised, "mesh_left": change.left}
+        if change
+        else {}
     )
     return {
         "kind": "washer map",

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -150,15 +151,15 @@ def solve_lines(tasks: Sequence[LineTask]) -> list[Curve]:
     SolveError: a node could not be solved, or the load of a thick film does not fall with its
     thickness.
     """
-    line, curves = None, []
+    line: Line | None = None
+    curves: list[Curve] = []
+    guesses, kept = list[float](), list[list[Array]]()
     for task in tasks:
-        try:
-            if line is None:
-                line, guesses = _entered(task)
-                curve, kept = _solved(line, guesses)
-            else:
+        curve = None
+        if line is not None:
+            with suppress(SolveError):
                 curve, kept = _solved(line, guesses, kept, task)
-        except SolveError:
+        if curve is None:
             try:
                 line, guesses = _entered(task)
                 curve, kept = _solved(line, guesses)

@@ -8,6 +8,7 @@ the working directory while it loads.
 
 import os
 from collections.abc import Callable, Mapping, Sequence
+from ctypes import c_double
 from pathlib import Path
 from time import perf_counter
 from typing import Any, Self
@@ -228,7 +229,8 @@ class Instance:
         for v, value in zip(found, values.values(), strict=True):
             items = v.declaredType.items if v.type == "Enumeration" else ()
             given = number(v.name, value, {i.name: int(i.value) for i in items or ()})
-            if self._protocol.is_whole(v) and given != int(given):
+            whole = self._protocol.types[v.type][1] is not c_double
+            if whole and given != int(given):
                 raise ParameterError(f"{v.name} = {given!r}, allowed: a whole number")
             numbers.append(given)
         table = Table(self._protocol, found)

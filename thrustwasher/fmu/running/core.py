@@ -16,7 +16,7 @@ from ...model.rungs import gone_rung
 from ...native.load import bound
 from ..description.interface import Interface, Variable
 from ..model_kernels import content_digest
-from .snapshot import Snapshot
+from .snapshot import ARRAYS, Snapshot
 
 # What is said of an input outside the part's box, and outside what was verified: before it, behind.
 RANGES = (
@@ -55,18 +55,11 @@ class Core:
         self.state, self.work = np.zeros(kernel.NSTATE), np.zeros(kernel.NWORK)
         self.out, self.iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
         self._step_into = partial(kernel.step, self.par, self.inp, self.state, self.work)
-        self._step = bound(
-            kernel.step,
-            par=self.par,
-            inp=self.inp,
-            state=self.state,
-            work=self.work,
-            out=self.out,
-            iout=self.iout,
-        )
+        names = ("par", "inp", "state", "work", "out", "iout")
+        self._arrays = {name: getattr(self, name) for name in names}
+        self._step = bound(kernel.step, **self._arrays)
         self._undo = self.state.copy(), self.out.copy(), self.iout.copy()
         self._zeros = np.zeros(kernel.NOUT)
-        self._arrays = {name: getattr(self, name) for name in ("par", "inp", "out", "iout")}
         self._ranges = shown.ranges()
         self._beyond = [[False] * len(own) for own in self._ranges]
         self._warned = -1  # the status that was last told, -1: nothing yet
@@ -350,11 +343,7 @@ class Core:
         """Copy all that decides what comes next."""
         return Snapshot(
             identity=content_digest(self.spec),
-            par=self.par.copy(),
-            inp=self.inp.copy(),
-            state=self.state.copy(),
-            out=self.out.copy(),
-            iout=self.iout.copy(),
+            **{name: self._arrays[name].copy() for name in ARRAYS},
             time=self.time,
             mode=int(self.mode),
             dirty=self.dirty,
@@ -366,19 +355,18 @@ class Core:
 
     def restore(self, snapshot: Snapshot) -> None:
         """Go back to a snapshot of this model and version, or raise ParameterError."""
-        names = ("par", "inp", "state", "out", "iout")
         mine = content_digest(self.spec)
         if (
             snapshot.identity != mine
-            or any(getattr(snapshot, n).shape != getattr(self, n).shape for n in names)
+            or any(getattr(snapshot, n).shape != self._arrays[n].shape for n in ARRAYS)
             or len(snapshot.seen) != len(self._seen)
         ):
             raise ParameterError(
                 f"FMU state of another model or version ({snapshot.identity}), "
                 f"allowed: {self.spec.name} {mine}"
             )
-        for name in names:
-            getattr(self, name)[:] = getattr(snapshot, name)
+        for name in ARRAYS:
+            self._arrays[name][:] = getattr(snapshot, name)
         self.time, self.mode = snapshot.time, Mode(snapshot.mode)
         self.dirty, self.prepared = snapshot.dirty, snapshot.prepared
         self.latch, self._unsolved = snapshot.latch, ""

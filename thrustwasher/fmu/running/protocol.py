@@ -57,10 +57,6 @@ class Protocol:
         """Advance and return the status."""
         return self._do_step(self.fmu.component, t, h, *self._rest)
 
-    def is_whole(self, variable: Any) -> bool:
-        """Tell if a variable takes whole numbers only."""
-        return self.types[variable.type][1] is not ctypes.c_double
-
     def function(self, name: str) -> Callable[..., int]:
         """Return a function of the library; it returns the status as a number."""
         found: Callable[..., int] = getattr(self.fmu.dll, f"fmi{self._version}{name}")

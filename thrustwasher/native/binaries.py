@@ -18,14 +18,8 @@ ALLOWED = {
 }
 # What linkers show beside what is asked for: zig's for macOS; the memory, its free part and the
 # table of functions of WebAssembly, and what sets up its C library.
-_OWN = {
-    "__dso_handle",
-    "_mh_dylib_header",
-    "memory",
-    "__heap_base",
-    "__indirect_function_table",
-    "_initialize",
-}
+_OWN = {"__dso_handle", "_mh_dylib_header", "memory", "__heap_base", "__indirect_function_table"}
+_OWN |= {"_initialize"}
 _NEEDED = 1  # tag in ELF's dynamic section
 _DYNAMIC, _DYNSYM = 6, 11  # section types of ELF
 _SYMTAB = 2  # section type in ELF and load command in Mach-O

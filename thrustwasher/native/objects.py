@@ -82,31 +82,23 @@ def _compile_missing(kernel: str, name: str, folder: Path, wanted: Wanted, note:
     def waiting() -> None:
         note(f"{name} is being compiled by another process: waiting for it")
 
+    def lower(which: tuple[str, str]) -> None:
+        platform, level = wanted[which]
+        settings = platform.name, json.dumps(asdict(level)), name
+        _make(_object(folder, which), "lower", str(bitcode), *settings)
+
+    bitcode = folder / "module.bc"
     with files.locked(folder / "lock", waiting):
         missing = wanted.keys() - _kept(folder, wanted).keys()
         if not missing:
             return
-        start, bitcode = time.perf_counter(), folder / "module.bc"
+        start = time.perf_counter()
         if files.kept(bitcode) is None:
             about = shipped.index()["kernels"].get(kernel, {}).get("seconds", 30.0)
             note(f"compiling {name}, whose source is new here: about {about:.0f} s")
             _make(bitcode, "emit", kernel, digest(kernel))
         with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-            jobs = [
-                pool.submit(
-                    _make,
-                    _object(folder, w),
-                    "lower",
-                    str(bitcode),
-                    platform.name,
-                    json.dumps(asdict(level)),
-                    name,
-                )
-                for w, (platform, level) in sorted(wanted.items())
-                if w in missing
-            ]
-            for job in jobs:
-                job.result()
+            list(pool.map(lower, sorted(missing)))
         note(f"compiled {name} in {time.perf_counter() - start:.0f} s")
 
 

@@ -182,7 +182,7 @@ def _solved(
     grid: tuple[int, int],
 ) -> list[list[Curve]]:
     """Return the curves of rows of neighbours on a grid."""
-    tasks = [[_task(plan, reach, grid, terms, *place) for place in row] for row in rows]
+    tasks = [[LineTask(plan, reach, grid, terms, place) for place in row] for row in rows]
     curves: list[list[Curve]] = []
     for row in run(solve_lines, tasks, 1):
         curves.append(row)
@@ -212,7 +212,7 @@ def build_lines(
     flags = np.zeros((len(places), 1), np.int32)
     done = journal.load(lines, flags) if journal else np.zeros(len(places), bool)
     rest = _neighbours(places, np.flatnonzero(~done).tolist())
-    tasks = [_task(plan, reach, GRIDS[fidelity], plan.terms, *places[i]) for i in rest]
+    tasks = [LineTask(plan, reach, GRIDS[fidelity], plan.terms, places[i]) for i in rest]
     count = len(places) - len(rest)
     numbers = iter(rest)
     batches = [tasks[k : k + BATCH] for k in range(0, len(tasks), BATCH)]
@@ -261,7 +261,7 @@ def find_reach(plan: MapPlan) -> float:
     for speed in {slow, 0.5 * (slow + fast), fast}:
         for tilt in set(tilts):
             for oil in set(oils):
-                task = _task(plan, 1.0, COARSE, (), *plan.at(speed, tilt, oil))
+                task = LineTask(plan, 1.0, COARSE, (), plan.at(speed, tilt, oil))
                 line = Line(task, COARSE)
                 load = line.at.outputs()[O_FLUID_LOAD]
                 if load <= light:
@@ -276,30 +276,6 @@ def find_reach(plan: MapPlan) -> float:
     if not math.isfinite(largest):
         raise SolveError("map: no film is thick enough for the least load; raise the least load")
     return 1.05 * largest
-
-
-def _task(
-    plan: MapPlan,
-    reach: float,
-    grid: tuple[int, int],
-    terms: tuple[int, ...],
-    speed: float,
-    tilt: float,
-    oil: float,
-) -> LineTask:
-    scale = plan.viscosity(oil) * speed
-    return LineTask(
-        params=plan.params,
-        speed=speed,
-        tilt=tilt,
-        oil_temperature=oil,
-        scale=scale,
-        thickest=math.sqrt(L.LEAST_REACH**2 + reach * scale),
-        marks=plan.marks,
-        terms=terms,
-        grid=grid,
-        accuracy=max(1e-7, 2e-2 * plan.tolerance),
-    )
 
 
 def _write(path: Path, data: Any, card: dict[str, Any]) -> None:

@@ -191,7 +191,7 @@ def _errors(
     there = np.polynomial.chebyshev.chebvander(warp(DENSE), n - 1)
     scale = np.array([[np.log(c.task.scale) for c in line] for line in lines])
     if speed is not None:
-        scale -= np.log([[c.task.speed for c in line] for line in lines])
+        scale -= np.log([[c.task.place[0] for c in line] for line in lines])
     scale = scale @ (there @ fit_of(n)[:, ::-1]).T
     if speed is not None:
         scale += np.log(speed(DENSE))

@@ -215,23 +215,15 @@ def _assemble(
         shown[name] = rows[name]
         units[name] = next(p.unit for p in order if p.name == name)
     rung = rung_named(spec, fidelity)
-    plan = Plan(
-        spec,
-        rung,
-        inputs,
-        shown,
-        units,
-        starts,
-        params,
-        params_of,
-        taken=taken_text(box, default, spec.inputs),
-        warnings=(
-            *_idle(params, fidelity, spec.key),
-            *_of_oil(part, params, inputs),
-            *_outside(part, inputs),
-            *_doubt(spec, rung, params, np.repeat(params_of, np.diff(starts)), inputs),
-        ),
+    warnings = (
+        *_idle(params, fidelity, spec.key),
+        *_of_oil(part, params, inputs),
+        *_outside(part, inputs),
+        *_doubt(spec, rung, params, np.repeat(params_of, np.diff(starts)), inputs),
     )
+    rows_and_lines = inputs, shown, units, starts, params, params_of
+    taken = taken_text(box, default, spec.inputs)
+    plan = Plan(spec, rung, *rows_and_lines, taken=taken, warnings=warnings)
     plan.identity.update(_identity(plan, base, fixed, varied))
     return plan
 

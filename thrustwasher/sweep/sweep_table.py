@@ -93,16 +93,8 @@ def make_table(
         names[status] = status.name
     columns["status"] = names[flags[:, -1]]
     counts = {Status(i).name: n for i, n in enumerate(np.bincount(flags[:, -1]).tolist()) if n}
-    return SweepTable(
-        columns,
-        units,
-        plan.fidelity,
-        plan.choice,
-        counts,
-        plan.taken,
-        plan.warnings,
-        tuple(beyond(plan.spec, columns)),
-    )
+    told = plan.taken, plan.warnings, tuple(beyond(plan.spec, columns))
+    return SweepTable(columns, units, plan.fidelity, plan.choice, counts, *told)
 
 
 def pieces(plan: Plan, blocks: Iterable[Block]) -> Iterator[SweepTable]:

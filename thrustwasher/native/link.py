@@ -8,11 +8,12 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext, suppress
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from functools import cache
 from importlib import metadata
 from pathlib import Path
+from typing import Any
 
 from ..errors import EnvironmentProblem
 from .files import Note, locked, to_stderr, user_cache
@@ -108,14 +109,8 @@ def shared_library(
 ) -> bytes:
     """Compile and link C files and objects to a shared library; EnvironmentProblem if that fails.
 
-    Parameters
-    ----------
-    files : name -> content of everything; ``.c`` is compiled, ``.o`` linked, headers are found
-    platform : what it is for
-    name : of the library, without extension; stands inside the file on macOS only
-    defines : macros, "NAME" or "NAME=VALUE"
-    linker : None: that of ``find_linker``
-    note : called with a line of progress before anything that takes long
+    ``files``: name -> content; ``.c`` is compiled, ``.o`` linked, headers are found. ``name``,
+    without extension, stands inside the file on macOS only. ``defines``: "NAME" or "NAME=VALUE".
     """
     output = f"{name}.{platform.extension}"
     flags = [*(["-shared"] if platform.format != "WASM" else []), *platform.flags]
@@ -162,21 +157,15 @@ def _run(
     Two first builds with zig at once can wait for each other for ever: they go one by one.
     """
     known = user_cache() / f"{linker.name}-{linker.version}-{platform.name}"
-    alone: AbstractContextManager[None] = nullcontext()
-    if linker.is_cross and not known.exists():
-        kept = Path(os.environ.get("ZIG_GLOBAL_CACHE_DIR") or user_cache())
-        with suppress(OSError):  # where nothing can be written there is nothing to wait for
-            kept.mkdir(parents=True, exist_ok=True)
-            alone = locked(
-                kept / "first-build.lock",
-                lambda: note(f"waiting for another first build with {linker.name}"),
-            )
-    with (
-        alone,
-        subprocess.Popen(
-            command, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
-        ) as process,
-    ):
+    with ExitStack() as stack:
+        if linker.is_cross and not known.exists():
+            kept = Path(os.environ.get("ZIG_GLOBAL_CACHE_DIR") or user_cache())
+            waiting = f"waiting for another first build with {linker.name}"
+            with suppress(OSError):  # where nothing can be written there is nothing to wait for
+                kept.mkdir(parents=True, exist_ok=True)
+                stack.enter_context(locked(kept / "first-build.lock", lambda: note(waiting)))
+        pipes: Any = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+        process = stack.enter_context(subprocess.Popen(command, cwd=folder, text=True, **pipes))
         try:
             said, _ = process.communicate(timeout=LONG if known.exists() else SHORT)
         except subprocess.TimeoutExpired:

@@ -70,7 +70,7 @@ class Variable:
         return low, LARGEST if self.high is None else self.high
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Interface:
     """All that an FMU shows of a model; ``interface`` makes it, whatever writes or runs takes it.
 
@@ -79,25 +79,10 @@ class Interface:
 
     spec: ModelSpec
     variables: tuple[Variable, ...]
+    inputs: tuple[Variable, ...]
+    parameters: tuple[Variable, ...]
+    outputs: tuple[Variable, ...]
     enumerations: dict[str, tuple[Item, ...]]
-
-    @cached_property
-    def inputs(self) -> tuple[Variable, ...]:
-        """The inputs."""
-        return self._of("input")
-
-    @cached_property
-    def parameters(self) -> tuple[Variable, ...]:
-        """The parameters."""
-        return self._of("parameter")
-
-    @cached_property
-    def outputs(self) -> tuple[Variable, ...]:
-        """The outputs."""
-        return self._of("output")
-
-    def _of(self, causality: str) -> tuple[Variable, ...]:
-        return tuple(v for v in self.variables if v.causality == causality)
 
     @cached_property
     def status_slot(self) -> int | None:
@@ -161,7 +146,11 @@ def interface(spec: ModelSpec) -> Interface:
                 entry |= {"low": min(numbers), "high": max(numbers)}
             made.append(Variable(reference=len(made), store=store, slot=slots[store], **entry))
             slots[store] += 1
-        _made[id(spec)] = Interface(spec=spec, variables=tuple(made), enumerations=items)
+        inputs, parameters, outputs = (
+            tuple(v for v in made if v.causality == kind)
+            for kind in ("input", "parameter", "output")
+        )
+        _made[id(spec)] = Interface(spec, tuple(made), inputs, parameters, outputs, items)
     return _made[id(spec)]
 
 

@@ -123,16 +123,11 @@ def linked_objects(
     note: Note = to_stderr,
 ) -> bytes:
     """Return C files linked with a kernel's objects, checked for what they need and export."""
-    linker, levels = linker or link.find_linker(), platform.levels
+    levels = platform.levels
     parts = {f"kernel_{level}.o": content for (_, level), content in code.items()}
-    made = link.shared_library(
-        {**sources, **parts},
-        platform=platform,
-        name=name,
-        linker=linker,
-        note=note,
-        defines=[f"TW_LEVEL={levels[0].name}"] if len(levels) == 1 else [],
-    )
+    defines = [f"TW_LEVEL={levels[0].name}"] if len(levels) == 1 else []
+    how: dict[str, Any] = {"linker": linker, "note": note, "defines": defines}
+    made = link.shared_library({**sources, **parts}, platform=platform, name=name, **how)
     binaries.check(made, exports=exports)
     return made
 

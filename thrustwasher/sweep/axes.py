@@ -41,12 +41,11 @@ class Place:
         if self.kind in ("enumeration", "boolean"):
             check_value(self.name, value, self.meta)
             return str(value) if self.kind == "enumeration" else bool(value)
-        number = parse_quantity(
+        given, relative = (
             value if isinstance(value, str) else float(value),
-            self.unit,
-            self.name,
-            difference=bool(self.meta.get("relative")),
+            self.meta.get("relative"),
         )
+        number = parse_quantity(given, self.unit, self.name, difference=bool(relative))
         check_value(self.name, number, self.meta, stated=has_unit(value))
         return int(number) if self.kind == "integer" else number
 

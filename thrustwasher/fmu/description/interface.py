@@ -162,16 +162,10 @@ def _entries(spec: ModelSpec) -> Iterator[tuple[str, dict[str, Any]]]:
         yield "inp", _signal(signal, causality="input", initial=None, start=signal.start or 0.0)
     for f in fields(spec.params):
         yield "par", _parameter(f)
-    yield (
-        "par",
-        {
-            "name": "fidelity",
-            "type": "Enumeration",
-            "type_name": "Fidelity",
-            "help": "how finely the model is resolved",
-            "start": float(list(spec.fidelities).index(spec.default_fidelity) + 1),
-        },
-    )
+    rung = list(spec.fidelities).index(spec.default_fidelity) + 1.0
+    kind = {"type": "Enumeration", "type_name": "Fidelity"}
+    words = "how finely the model is resolved"
+    yield "par", kind | {"name": "fidelity", "help": words, "start": rung}
     for signal in spec.outputs:
         store = "out" if signal.kind == "real" else "iout"
         own = {"causality": "output", "initial": "calculated", "depends": signal.depends}
@@ -183,12 +177,8 @@ def _enumerations(spec: ModelSpec) -> dict[str, tuple[Item, ...]]:
     for f in fields(spec.params):
         if f.metadata["kind"] == "enumeration":
             found[f.metadata["type"]] = _counted(f.metadata["options"])
-    shared = {
-        "Regime": _counted(REGIMES),
-        "SolverStatus": tuple(
-            Item(name=s.name, value=int(s), help=s.advice) for s in sorted(Status)
-        ),
-    }
+    statuses = tuple(Item(name=s.name, value=int(s), help=s.advice) for s in sorted(Status))
+    shared = {"Regime": _counted(REGIMES), "SolverStatus": statuses}
     used = {signal.type for signal in (*spec.inputs, *spec.outputs)}
     return found | {name: items for name, items in shared.items() if name in used}
 

@@ -356,11 +356,8 @@ class Core:
     def restore(self, snapshot: Snapshot) -> None:
         """Go back to a snapshot of this model and version, or raise ParameterError."""
         mine = content_digest(self.spec)
-        if (
-            snapshot.identity != mine
-            or any(getattr(snapshot, n).shape != self._arrays[n].shape for n in ARRAYS)
-            or len(snapshot.seen) != len(self._seen)
-        ):
+        fits = all(getattr(snapshot, n).shape == self._arrays[n].shape for n in ARRAYS)
+        if snapshot.identity != mine or not fits or len(snapshot.seen) != len(self._seen):
             raise ParameterError(
                 f"FMU state of another model or version ({snapshot.identity}), "
                 f"allowed: {self.spec.name} {mine}"

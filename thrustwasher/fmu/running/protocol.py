@@ -6,30 +6,25 @@ through FMPy. FMPy has declared the argument types of all functions when it load
 
 import ctypes
 from collections.abc import Callable, Sequence
+from ctypes import c_bool, c_double, c_int, c_int32, c_int64
 from operator import itemgetter
 from typing import Any, NamedTuple
 
 # C types of values -> how a compiled loop calls them.
-KINDS = {
-    ctypes.c_double: "REAL",
-    ctypes.c_int: "INT32",
-    ctypes.c_int32: "INT32",
-    ctypes.c_int64: "INT64",
-    ctypes.c_bool: "BYTE",
-}
+KINDS = {c_double: "REAL", c_int: "INT32", c_int64: "INT64", c_bool: "BYTE"}
 # Of both versions: type of a variable -> (name in calls, C type).
 TYPES: dict[int, dict[str, tuple[str, Any]]] = {
     2: {
-        "Real": ("Real", ctypes.c_double),
-        "Integer": ("Integer", ctypes.c_int),
-        "Enumeration": ("Integer", ctypes.c_int),
-        "Boolean": ("Boolean", ctypes.c_int),
+        "Real": ("Real", c_double),
+        "Integer": ("Integer", c_int),
+        "Enumeration": ("Integer", c_int),
+        "Boolean": ("Boolean", c_int),
     },
     3: {
-        "Float64": ("Float64", ctypes.c_double),
-        "Int32": ("Int32", ctypes.c_int32),
-        "Enumeration": ("Int64", ctypes.c_int64),
-        "Boolean": ("Boolean", ctypes.c_bool),
+        "Float64": ("Float64", c_double),
+        "Int32": ("Int32", c_int32),
+        "Enumeration": ("Int64", c_int64),
+        "Boolean": ("Boolean", c_bool),
     },
 }
 
@@ -42,7 +37,7 @@ class Protocol:
         self.types = TYPES[version]
         self.lengths = version - 2  # times the number of values is handed over beside the values
         self._do_step = self.function("DoStep")
-        self._told = (ctypes.c_bool(), ctypes.c_bool(), ctypes.c_bool(), ctypes.c_double())
+        self._told = (c_bool(), c_bool(), c_bool(), c_double())
         self._rest = (0,) if version == 2 else (False, *(ctypes.byref(x) for x in self._told))
 
     def begin(self, start_time: float) -> None:
@@ -76,14 +71,9 @@ class Group:
         self.references = _references([found[i] for i in places])
         self.places = list(places)
         self.values = (c_type * n)()
-        self.whole = c_type is not ctypes.c_double
-        self._arguments = (
-            protocol.fmu.component,
-            self.references,
-            n,
-            self.values,
-            *(n,) * protocol.lengths,
-        )
+        self.whole = c_type is not c_double
+        lengths = (n,) * protocol.lengths
+        self._arguments = (protocol.fmu.component, self.references, n, self.values, *lengths)
         self.set_function = protocol.function(f"Set{kind}")
         self.get_function = protocol.function(f"Get{kind}")
 
@@ -128,21 +118,14 @@ class Direction:
     """Derivatives of some outputs along a direction of some inputs; the arrays are made once."""
 
     def __init__(self, protocol: Protocol, unknowns: Sequence[Any], knowns: Sequence[Any]) -> None:
-        self.seed = (ctypes.c_double * len(knowns))()
-        self.slope = (ctypes.c_double * len(unknowns))()
+        self.seed = (c_double * len(knowns))()
+        self.slope = (c_double * len(unknowns))()
         self._call = protocol.function("GetDirectionalDerivative")
         n_unknown, n_known = len(unknowns), len(knowns)
-        self._arguments = (
-            protocol.fmu.component,
-            _references(unknowns),
-            n_unknown,
-            _references(knowns),
-            n_known,
-            self.seed,
-            *(n_known,) * protocol.lengths,
-            self.slope,
-            *(n_unknown,) * protocol.lengths,
-        )
+        named = _references(unknowns), n_unknown, _references(knowns), n_known
+        seed = self.seed, *(n_known,) * protocol.lengths
+        slope = self.slope, *(n_unknown,) * protocol.lengths
+        self._arguments = (protocol.fmu.component, *named, *seed, *slope)
 
     def get(self) -> int:
         """Compute the derivatives and return the status."""

@@ -1,7 +1,7 @@
 """Which FMI function may be called when: one table, as data, in ``calls.toml``.
 
 The C tables of the native shell are written from it, and the tests walk through it: every function
-in every mode.
+in every mode. A mode there is a name of here in small letters.
 """
 
 from ...model.toml_tables import table_beside
@@ -28,15 +28,6 @@ ACCESS = {
     "output": (NEVER, SOLVABLE | TERMINATED),
 }
 
-_NAMED = {
-    "instantiated": INSTANTIATED,
-    "stepping": STEPPING,
-    "initializing": INITIALIZING,
-    "terminated": TERMINATED,
-    "events": EVENTS,
-    "solvable": SOLVABLE,
-    "always": ALWAYS,
-}
 _TABLE = table_beside(__file__, "calls.toml")
 
 # Version -> functions without an instance.
@@ -49,7 +40,7 @@ DECLINED: dict[int, dict[str, str]] = {
 # Version -> function with an instance -> modes it is allowed in.
 CALLS: dict[int, dict[str, int]] = {
     fmi: {
-        name: sum(_NAMED[mode] for mode in modes.split())
+        name: sum(globals()[mode.upper()] for mode in modes.split())
         for modes, names in _TABLE["calls"][f"fmi{fmi}"]
         for name in names.split()
     }

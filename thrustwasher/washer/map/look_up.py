@@ -174,10 +174,7 @@ def _solver(params: WasherParams) -> _Solver:
 
 
 def solve_by_map(
-    params: WasherParams,
-    point: Inputs,
-    wanted: float,
-    start: WasherResult | None,
+    params: WasherParams, point: Inputs, wanted: float, start: WasherResult | None
 ) -> WasherResult | None:
     """Return the state at a point by look-up, None where the map says nothing.
 

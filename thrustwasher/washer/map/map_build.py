@@ -6,7 +6,6 @@ import platform
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -25,11 +24,13 @@ from ..solve import GRIDS
 from .map_check import check_map, mesh_of
 from .map_file import SUFFIX, identity_of, pack
 from .map_line import Curve, Line, LineTask, packed, solve_lines
-from .map_mesh import Change, NotSmooth, change_of_mesh
+from .map_mesh import Change, Grid, NotSmooth, change_of_mesh
 from .map_plan import COARSE, FIELD_FROM, SPARE, TOLERANCE, MapPlan, Place, plan_map
 from .map_survey import surveyed
 
 Progress = Callable[[int, int], None]
+Terms = tuple[int, ...]
+Solve = Callable[[Sequence[Sequence[Place]], Grid, Terms], list[list[Curve]]]
 POINTS = 60  # held out
 FIDELITIES = ("field", "fine")  # meshes to build from
 DIGIT = 2.0**-20  # of the logarithms; what is finer only makes the file large
@@ -118,11 +119,9 @@ def _made(job: _Job, fidelity: str, *, raised: bool, lines: str = "lines") -> di
             )
             change = None
             if raised:
+                solve, fine = _solver(plan, reach, run, show("finer mesh")), GRIDS["fine"]
                 change = change_of_mesh(
-                    plan,
-                    GRIDS[fidelity],
-                    GRIDS["fine"],
-                    partial(_solved, plan, reach, plan.terms, run, show("finer mesh")),
+                    plan, GRIDS[fidelity], fine, lambda rows, grid: solve(rows, grid, plan.terms)
                 )
                 numbers = data[L.DATA :].reshape(-1, plan.line)
                 numbers += np.round(change.lines / DIGIT) * DIGIT
@@ -167,28 +166,23 @@ def survey(
     plan: MapPlan, reach: float, *, run: Run = run_here, progress: Progress | None = None
 ) -> MapPlan:
     """Return the plan with what its tolerance needs, measured on the coarse mesh."""
-    return surveyed(
-        plan, lambda rows, terms: _solved(plan, reach, terms, run, progress, rows, COARSE)
-    )
+    solve = _solver(plan, reach, run, progress)
+    return surveyed(plan, lambda rows, terms: solve(rows, COARSE, terms))
 
 
-def _solved(
-    plan: MapPlan,
-    reach: float,
-    terms: tuple[int, ...],
-    run: Run,
-    progress: Progress | None,
-    rows: Sequence[Sequence[Place]],
-    grid: tuple[int, int],
-) -> list[list[Curve]]:
-    """Return the curves of rows of neighbours on a grid."""
-    tasks = [[LineTask(plan, reach, grid, terms, place) for place in row] for row in rows]
-    curves: list[list[Curve]] = []
-    for row in run(solve_lines, tasks, 1):
-        curves.append(row)
-        if progress is not None:
-            progress(len(curves), len(tasks))
-    return curves
+def _solver(plan: MapPlan, reach: float, run: Run, progress: Progress | None) -> Solve:
+    """Return what solves rows of neighbours on a grid, with so many coefficients."""
+
+    def solve(rows: Sequence[Sequence[Place]], grid: Grid, terms: Terms) -> list[list[Curve]]:
+        tasks = [[LineTask(plan, reach, grid, terms, place) for place in row] for row in rows]
+        curves: list[list[Curve]] = []
+        for row in run(solve_lines, tasks, 1):
+            curves.append(row)
+            if progress is not None:
+                progress(len(curves), len(tasks))
+        return curves
+
+    return solve
 
 
 def build_lines(

@@ -187,10 +187,7 @@ def _entered(task: LineTask) -> tuple[Line, list[float]]:
 
 
 def _solved(
-    line: Line,
-    guesses: list[float],
-    kept: Sequence[list[Array]] = (),
-    task: LineTask | None = None,
+    line: Line, guesses: list[float], kept: Sequence[list[Array]] = (), task: LineTask | None = None
 ) -> tuple[Curve, list[list[Array]]]:
     """Return a curve, and the solutions at onset and marks; ``kept`` are those of another task."""
     if task is not None:

@@ -145,15 +145,9 @@ def library(
 def linked(spec: ModelSpec, platform: Platform, linker: Linker, note: Note = to_stderr) -> bytes:
     """Link the shared library of a model for one platform; nothing that was made before is used."""
     exports = [name for fmi in c_tables.VERSIONS for name in call_table.functions(fmi)]
-    return linked_objects(
-        {**sources(spec), **headers()},
-        objects(spec.kernel, [platform], note),
-        platform,
-        shipped.short(spec.kernel),
-        exports,
-        linker=linker,
-        note=note,
-    )
+    parts, code = {**sources(spec), **headers()}, objects(spec.kernel, [platform], note)
+    name = shipped.short(spec.kernel)
+    return linked_objects(parts, code, platform, name, exports, linker=linker, note=note)
 
 
 def library_digest(spec: ModelSpec) -> str:

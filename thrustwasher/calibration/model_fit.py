@@ -55,8 +55,8 @@ class ModelProblem(Problem):
         real = [f.name for f in fields(spec.params) if f.metadata["kind"] == "real"]
         names = chosen_names(fit or (), real, f"real parameters of {spec.name}")
         if len(points.value) < len(names):
-            told = f"{counted(len(points.value), 'value')} for {counted(len(names), 'parameter')}"
-            raise ParameterError(f"data: {told}, allowed: as many values as parameters, or more")
+            sizes = f"{counted(len(points.value), 'value')} for {counted(len(names), 'parameter')}"
+            raise ParameterError(f"data: {sizes}, allowed: as many values as parameters, or more")
         check_rung(spec, points.plan.fidelity, points.plan.params[0])
         return points, names
 

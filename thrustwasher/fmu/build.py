@@ -21,7 +21,7 @@ from .documentation.reference_results import reference_files
 from .model_kernels import content_digest, has_derivatives, package_version
 from .package.licences import licences
 from .package.model_sources import Order, identifier, model_folder, source_folder
-from .shell.platform_libraries import chosen, made_of, native_contents
+from .shell.platform_libraries import chosen, library_identity, native_contents
 
 TARGETS = ("native", "python")
 DESCRIPTION = "modelDescription.xml"  # lies in front
@@ -162,7 +162,7 @@ def _check(target: str, fmi: int, platforms: Sequence[str] | None, maps: bool) -
 def contents(shown: Interface, folder: Path, order: Order, *, reference: bool) -> dict[str, bytes]:
     """Return everything that lies in one FMU; ``folder`` holds the model's own sources."""
     spec, native = shown.spec, order.target == "native"
-    tools = made_of(spec, local=order.local) if native else ""
+    tools = library_identity(spec, local=order.local) if native else ""
     guid = identifier(shown, folder, order, f"{tools} {accuracy(spec)}")
     if native:
         own = native_contents(shown, order, guid)
@@ -202,8 +202,8 @@ def _python_contents(shown: Interface, folder: Path, guid: str) -> dict[str, byt
     module = f"thrustwasher_fmu_{folder.name}_{guid[:8]}"
     spec, version = shown.spec, package_version()
     slave = (Path(__file__).parent / "python" / "slavemodule.txt").read_text("utf-8")
-    told = {"model": spec.key, "version": version, "digest": content_digest(spec), "guid": guid}
-    for name, text in told.items():
+    values = {"model": spec.key, "version": version, "digest": content_digest(spec), "guid": guid}
+    for name, text in values.items():
         slave = slave.replace(f"@{name}@", text)
     needs = (source_folder() / "documentation" / "externalDependencies.txt").read_text("utf-8")
     needs = needs.format(version=version, pythonfmu=metadata.version("pythonfmu"))

@@ -164,13 +164,13 @@ class Instance:
 
     def machine(self) -> Machine:
         """Return the addresses of all that a step needs; valid until ``close``."""
-        said = self._messages.said
-        said.value = 0
-        return machine_of(self._protocol, self._inputs, self._outputs, said)
+        logged = self._messages.logged
+        logged.value = 0
+        return machine_of(self._protocol, self._inputs, self._outputs, logged)
 
     def judge(self, stage: str, status: int) -> None:
         """Raise what a call made past this object would have raised: "set", "step" or "get"."""
-        self._messages.said.value = 0
+        self._messages.logged.value = 0
         self._judge(status, *STAGES[stage])
 
     def get_state(self) -> Any:
@@ -212,8 +212,8 @@ class Instance:
         if strange:
             raise ParameterError(f"category = {strange[0]!r}, allowed: {', '.join(known)}")
         always = [name for name in known if name.startswith("logStatus")]
-        wanted = [*always, *(categories or known)] if on else always
-        self._call(self._fmu.setDebugLogging, True, list(dict.fromkeys(wanted)))
+        chosen = [*always, *(categories or known)] if on else always
+        self._call(self._fmu.setDebugLogging, True, list(dict.fromkeys(chosen)))
 
     def _named(self, name: str, causality: str) -> Any:
         v = self._by_name.get(name)
@@ -281,8 +281,8 @@ class Instance:
         """Read solver_status plainly, so that reading it cannot fail in turn."""
         if self._status is None:
             return Status.OK
-        said = len(self._messages)
+        before = len(self._messages)
         one = Table(self._protocol, [self._status])
         failed = any(group.get() > WARNING for group in one.groups)
-        del self._messages[said:]
+        del self._messages[before:]
         return Status.NOT_FINITE if failed else Status(int(one.read()[0]))

@@ -43,11 +43,11 @@ class Linked:
 
 def check(data: bytes, *, exports: Iterable[str]) -> None:
     """Stop if a library needs more than libc and libm, or does not export just the given names."""
-    found, wanted = read(data), set(exports)
+    found, required = read(data), set(exports)
     allowed = re.compile(ALLOWED[found.format], re.I if found.format == "PE" else 0)
     problems = [f"it needs {n}" for n in sorted(found.needed) if not allowed.fullmatch(n)]
-    problems += [f"it exports {name}" for name in sorted(found.exports - wanted - _OWN)]
-    problems += [f"it does not export {name}" for name in sorted(wanted - found.exports)]
+    problems += [f"it exports {name}" for name in sorted(found.exports - required - _OWN)]
+    problems += [f"it does not export {name}" for name in sorted(required - found.exports)]
     if problems:
         raise EnvironmentProblem(f"the linked library is not as it should be: {problems[0]}")
 

@@ -23,7 +23,7 @@ from .targets import PLATFORMS, Level, Platform
 COMMON = ("-Os", "-std=c99", "-ffp-contract=off", "-fvisibility=hidden", "-s", "-I.")
 # What a processor must have for a level beyond the first one of its platform.
 FEATURES = {"v3": ("avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe")}
-SHORT, LONG = 6.0, 60.0  # seconds until something is said, at the first build and at later ones
+SHORT, LONG = 6.0, 60.0  # seconds until something is printed, at the first build and at later ones
 MISSING = (
     "native FMUs whose sources were edited need a C compiler to be built (not to be run): "
     "pip install 'thrustwasher[build]' for all platforms, or gcc for this one"
@@ -141,10 +141,10 @@ def build(
         for file, content in files.items():
             data = content.encode() if isinstance(content, str) else content
             (Path(folder) / file).write_bytes(data)
-        code, said = _run(command, folder, platform, linker, note)
+        code, printed = _run(command, folder, platform, linker, note)
         if code:
-            lines = [line for line in said.splitlines() if "error" in line]
-            first = (lines or said.splitlines() or ["no message"])[0]
+            lines = [line for line in printed.splitlines() if "error" in line]
+            first = (lines or printed.splitlines() or ["no message"])[0]
             raise EnvironmentProblem(f"{linker.name} cannot build {output}: {first}")
         return (Path(folder) / output).read_bytes()
 
@@ -152,7 +152,7 @@ def build(
 def _run(
     command: Sequence[str], folder: str, platform: Platform, linker: Linker, note: Note
 ) -> tuple[int, str]:
-    """Return the exit status and what was said; do not let minutes pass in silence.
+    """Return the exit status and what was printed; do not let minutes pass in silence.
 
     Two first builds with zig at once can wait for each other for ever: they go one by one.
     """
@@ -167,15 +167,15 @@ def _run(
         pipes: Any = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
         process = stack.enter_context(subprocess.Popen(command, cwd=folder, text=True, **pipes))
         try:
-            said, _ = process.communicate(timeout=LONG if known.exists() else SHORT)
+            printed, _ = process.communicate(timeout=LONG if known.exists() else SHORT)
         except subprocess.TimeoutExpired:
             note(
                 f"{linker.name} takes long for {platform.name}: the first time on a machine it "
                 "compiles its C library, some minutes"
             )
-            said, _ = process.communicate()
+            printed, _ = process.communicate()
         if process.returncode == 0:
             with suppress(OSError):  # only a note for the next time
                 known.parent.mkdir(parents=True, exist_ok=True)
                 known.touch()
-        return process.returncode, said
+        return process.returncode, printed

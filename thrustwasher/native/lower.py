@@ -101,7 +101,7 @@ def main(arguments: list[str]) -> int:
         code = object_code(Path(bitcode).read_bytes(), TARGETS[platform], settings, kernel)
     except EnvironmentProblem as problem:
         print(problem, file=sys.stderr)
-        return emit.SAID
+        return emit.REPORTED
     Path(file).write_bytes(code)
     return 0
 

@@ -81,13 +81,13 @@ def find_place(name: str, known: dict[str, Place], spec: ModelSpec) -> Place:
     return known[name]
 
 
-def split_settings(texts: Iterable[str], option: str, wanted: str) -> dict[str, str]:
+def split_settings(texts: Iterable[str], option: str, allowed: str) -> dict[str, str]:
     """Return the values of every ``NAME=VALUES`` or ``NAME [UNIT]=VALUES`` by name, each once."""
     found: dict[str, str] = {}
     for text in texts:
         name, equals, values = (part.strip() for part in text.partition("="))
         if not name or not equals or not values:
-            raise ParameterError(f"{option} {text}: allowed: {wanted}")
+            raise ParameterError(f"{option} {text}: allowed: {allowed}")
         if name in found:
             raise ParameterError(f"{option} {text}: {name} is given twice")
         found[name] = values

@@ -121,11 +121,11 @@ def _slope_words(spec: ModelSpec, runs: bool) -> str | None:
     if not runs:
         return ""
     point = {s.name: s.usual for s in spec.inputs}
-    said = [
+    slopes = [
         f"{slope(spec, point | {'speed': v}):.1e} at {v:g} rad/s" for v in (0.0, point["speed"])
     ]
     others = ", ".join(f"{n} = {x:g} {inputs[n].unit}" for n, x in point.items() if n != "speed")
-    return f"Here c [N.m.s/rad] is {' and '.join(said)}, with {others}."
+    return f"Here c [N.m.s/rad] is {' and '.join(slopes)}, with {others}."
 
 
 def slope(spec: ModelSpec, point: dict[str, float]) -> float:

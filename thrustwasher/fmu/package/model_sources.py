@@ -63,8 +63,8 @@ def identifier(
     """
     spec = shown.spec
     own = spec.name, spec.help, spec.box, spec.notes, spec.course, spec.stop_time, spec.step_size
-    said = shown.variables, shown.enumerations, spec.terminals, own
-    hashed = hashlib.sha256(repr(said).encode())
+    content = shown.variables, shown.enumerations, spec.terminals, own
+    hashed = hashlib.sha256(repr(content).encode())
     hashed.update(f"{content_digest(spec)} {package_version()} {tools}".encode())
     hashed.update(f"{order.target} {order.fmi}".encode())
     beside = shared or source_folder()

@@ -255,10 +255,10 @@ class Core:
 
     def messages(self) -> list[tuple[str, str]]:
         """Return (category, text) of all that a host has to be told after a step."""
-        told = [("logStatusWarning", self.late)] + [("logEvents", text) for text in self.events]
-        told.append(("logNonlinearSystems", self.effort))
-        told += [("logStatusWarning", text) for text in self.advice()]
-        return [(category, text) for category, text in told if text]
+        sent = [("logStatusWarning", self.late)] + [("logEvents", text) for text in self.events]
+        sent.append(("logNonlinearSystems", self.effort))
+        sent += [("logStatusWarning", text) for text in self.advice()]
+        return [(category, text) for category, text in sent if text]
 
     def note_switches(self) -> list[str]:
         """Return one sentence for each event since the last communication point."""
@@ -309,7 +309,7 @@ class Core:
 
     def advice(self) -> list[str]:
         """Return what the host has to be warned of now, each once until it has passed."""
-        said, unverified, begin = [], False, f"{self._here}: "
+        outside, unverified, begin = [], False, f"{self._here}: "
         for k, (name, words) in enumerate(RANGES):
             for i, (v, (low, high)) in enumerate(
                 zip(self.shown.inputs, self._ranges[k], strict=True)
@@ -319,15 +319,15 @@ class Core:
                 unverified |= bool(k) and beyond
                 if beyond and not self._beyond[k][i]:
                     span = f"is outside {low:g} .. {high:g}{unit}, {words}"
-                    said.append((i, k, f"{begin}{name}{v.name} = {value:g}{unit} {span}"))
+                    outside.append((i, k, f"{begin}{name}{v.name} = {value:g}{unit} {span}"))
                 self._beyond[k][i] = beyond
-        status, found = self.status, [text for *_, text in sorted(said)]
+        status, found = self.status, [text for *_, text in sorted(outside)]
         if self._warned < 0:
             number = int(self.par.item(len(fields(self.spec.params))))
             rung = list(self.spec.fidelities)[number - 1]
             found = [*(begin + text for text in gone_rung(self.spec, rung)), *found]
-        told = status == self._warned or (status is Status.OUTSIDE_VERIFIED and unverified)
-        if not told and Status.OK < status < FIRST_FAILURE:
+        is_known = status == self._warned or (status is Status.OUTSIDE_VERIFIED and unverified)
+        if not is_known and Status.OK < status < FIRST_FAILURE:
             found.append(f"{begin}{status.name}: {status.advice}; {self._point(self.shown.point)}")
         self._warned = status
         return found

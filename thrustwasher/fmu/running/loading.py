@@ -38,11 +38,11 @@ class Message(NamedTuple):
 
 
 class Messages(list[Message]):
-    """What an FMU said and nobody has looked at yet; ``said`` is 1 once there was something."""
+    """What an FMU said and nobody has looked at yet; ``logged`` is 1 once there was something."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.said = ctypes.c_int64(0)
+        self.logged = ctypes.c_int64(0)
 
 
 def unpack(path: str | os.PathLike[str]) -> Path:
@@ -117,10 +117,10 @@ def capabilities(folder: Path) -> tuple[bool, bool]:
 
     root = ElementTree.parse(folder / "modelDescription.xml").getroot()
     found = root.find("CoSimulation")
-    flags = {} if found is None else {name.lower(): said for name, said in found.attrib.items()}
+    flags = {} if found is None else {name.lower(): value for name, value in found.attrib.items()}
     slope = "providesdirectionalderivative"
-    said = flags.get("cangetandsetfmustate"), flags.get(f"{slope}s") or flags.get(slope)
-    return said[0] in ("true", "1"), said[1] in ("true", "1")
+    states, slopes = flags.get("cangetandsetfmustate"), flags.get(f"{slope}s") or flags.get(slope)
+    return states in ("true", "1"), slopes in ("true", "1")
 
 
 def instantiate(folder: Path, described: Any, name: str, messages: Messages) -> Any:
@@ -149,7 +149,7 @@ def instantiate(folder: Path, described: Any, name: str, messages: Messages) -> 
         ctypes.CDLL(fmu.dll._name, mode=os.RTLD_NOLOAD | os.RTLD_NODELETE | os.RTLD_NOW)
     try:
         if third:  # its logger gets a plain text
-            fmu.instantiate(loggingOn=True, logMessage=lambda _, *told: _keep(messages, *told))
+            fmu.instantiate(loggingOn=True, logMessage=lambda _, *rest: _keep(messages, *rest))
         else:
             _begin2(fmu, messages)
     except Exception as problem:
@@ -172,8 +172,8 @@ def _begin2(fmu: Any, messages: Messages) -> None:
     if VARIADIC_AS_USUAL:
 
         def log(_: Any, _name: bytes, status: int, category: bytes, text: bytes, more: int) -> None:
-            told = ctypes.string_at(more) if text == b"%s" and more else text
-            _keep(messages, status, category, told)
+            sent = ctypes.string_at(more) if text == b"%s" and more else text
+            _keep(messages, status, category, sent)
 
         pointers = ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int, ctypes.c_char_p, ctypes.c_char_p
         logger = ctypes.CFUNCTYPE(None, *pointers, ctypes.c_void_p)(log)
@@ -181,7 +181,7 @@ def _begin2(fmu: Any, messages: Messages) -> None:
     else:
         from fmpy.logging import addLoggerProxy
 
-        logger = fmi2CallbackLoggerTYPE(lambda _e, _n, *told: _keep(messages, *told))
+        logger = fmi2CallbackLoggerTYPE(lambda _e, _n, *rest: _keep(messages, *rest))
         callbacks.logger = logger
         addLoggerProxy(ctypes.byref(callbacks))  # it knows one logger per process: the last
     fmu.kept_logger = logger  # alive as long as the FMU
@@ -189,6 +189,6 @@ def _begin2(fmu: Any, messages: Messages) -> None:
 
 
 def _keep(messages: Messages, status: int, category: bytes | None, text: bytes | None) -> None:
-    told = [(x or b"").decode("utf-8", "replace") for x in (category, text)]
-    messages.append(Message(status, *told))
-    messages.said.value = 1
+    texts = [(x or b"").decode("utf-8", "replace") for x in (category, text)]
+    messages.append(Message(status, *texts))
+    messages.logged.value = 1

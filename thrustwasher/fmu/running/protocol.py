@@ -150,10 +150,10 @@ class Machine(NamedTuple):
     step: int
     setters: list[MachineGroup]
     getters: list[MachineGroup]
-    said: int  # address of a number that is not 0 once the FMU has logged something
+    logged: int  # address of a number that is not 0 once the FMU has logged something
 
 
-def machine_of(protocol: Protocol, inputs: Table, outputs: Table, said: Any) -> Machine:
+def machine_of(protocol: Protocol, inputs: Table, outputs: Table, logged: Any) -> Machine:
     """Return the addresses of an instance."""
     return Machine(
         third=protocol.lengths > 0,
@@ -161,7 +161,7 @@ def machine_of(protocol: Protocol, inputs: Table, outputs: Table, said: Any) -> 
         step=_address(protocol.function("DoStep")),
         setters=[_group(g, g.set_function) for g in inputs.groups],
         getters=[_group(g, g.get_function) for g in outputs.groups],
-        said=ctypes.addressof(said),
+        logged=ctypes.addressof(logged),
     )
 
 

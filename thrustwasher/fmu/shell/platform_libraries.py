@@ -67,7 +67,7 @@ def tools(linker: Linker) -> str:
     return f"fmpy {metadata.version('fmpy')}, {linker.name} {linker.version}"
 
 
-def made_of(spec: ModelSpec, *, local: bool) -> str:
+def library_identity(spec: ModelSpec, *, local: bool) -> str:
     """Return what decides a model's libraries beside the FMU's own texts."""
     if is_shipped(spec):
         return library_digest(spec)

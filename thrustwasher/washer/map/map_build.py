@@ -157,8 +157,9 @@ def _too_coarse(card: dict[str, Any]) -> str:
     held, units = card["held_out"], {s.name: s.unit for s in SPEC.inputs}
     where = ", ".join(f"{n} = {x:.4g} {units[n]}" for n, x in held["worst"].items())
     return (
-        f"map: its torque is {held['torque']:.2%} off at {where}; wanted: {card['tolerance']:.2%}. "
-        f"Leave that out of the box, or ask for {1.1 * held['torque']:.1g} (--tol)"
+        f"map: its torque is {held['torque']:.2%} off at {where}; required: "
+        f"{card['tolerance']:.2%}. Leave that out of the box, or ask for "
+        f"{1.1 * held['torque']:.1g} (--tol)"
     )
 
 
@@ -223,10 +224,10 @@ def build_lines(
     return data
 
 
-def _neighbours(places: Sequence[Place], wanted: Sequence[int]) -> list[int]:
+def _neighbours(places: Sequence[Place], required: Sequence[int]) -> list[int]:
     """Return numbers of places so that one is near the next: speeds up and down by turns."""
     rows: dict[tuple[float, float], list[int]] = {}
-    for i in sorted(wanted, key=lambda i: (places[i][1:], places[i][0])):
+    for i in sorted(required, key=lambda i: (places[i][1:], places[i][0])):
         rows.setdefault(places[i][1:], []).append(i)
     return [i for k, row in enumerate(rows.values()) for i in (row[::-1] if k % 2 else row)]
 

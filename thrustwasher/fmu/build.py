@@ -137,7 +137,6 @@ def pack_native(
     """Return a native FMU of FMI 2 of any model, also of one with defaults of its own.
 
     It has no reference results: those of a model with its usual defaults are in the usual FMU.
-    ``platforms`` and ``note`` are those of ``build``.
     """
     say = note or (lambda _: None)
     order = Order("native", 2, chosen(platforms, say, [spec]), say)

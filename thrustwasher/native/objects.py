@@ -27,9 +27,8 @@ KEPT_VERSIONS = 5
 def objects(kernel: str, platforms: Iterable[Platform], note: Note = to_stderr) -> Objects:
     """Return (platform, level) -> object file with the entries of a kernel module.
 
-    What several platforms need is made once; ``note`` is called with a line of progress before
-    something takes long. EnvironmentProblem: the kernel needs what an FMU does not have, or
-    numba is not as expected.
+    ``note`` is called before something takes long. EnvironmentProblem: the kernel needs what an FMU
+    does not have, or numba is not as expected.
     """
     required, found = required_for(platforms), shipped.objects_of(kernel)
     if required.keys() <= found.keys():

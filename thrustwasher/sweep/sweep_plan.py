@@ -118,10 +118,7 @@ def _held(at: Mapping[str, Any], known: dict[str, Place], spec: ModelSpec) -> li
 
 
 def _grid(axes: list[Axis]) -> tuple[dict[str, Any], NDArray[np.int64], list[str]]:
-    """Return the columns of a full grid, the starts of its lines, the names in order.
-
-    Inputs run faster than parameters, and among each the one named first runs fastest.
-    """
+    """Return the columns of a full grid, the starts of its lines, the names, fastest first."""
     if not axes:
         raise ParameterError("over: nothing is varied, allowed: NAME=VALUES, e.g. load=50:1850:50")
     order = [a for a in axes if a.place.is_input] + [a for a in axes if not a.place.is_input]

@@ -127,11 +127,9 @@ def check_output(path: str | Path) -> Path:
 def write_table(
     tables: Iterator[SweepTable], path: Path
 ) -> tuple[Counter[str], tuple[Beyond, ...]]:
-    """Write CSV or Parquet, as the name ends, from pieces of a table.
+    """Write CSV or Parquet, as the name ends, from pieces of a table, whole or not at all.
 
     Return the points by status, and what is beyond its bound.
-
-    The file appears complete or not at all.
     """
     counts, first, found = Counter[str](), next(tables), list[Beyond]()
     with whole_file(path) as draft, ExitStack() as stack:

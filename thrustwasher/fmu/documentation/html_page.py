@@ -24,11 +24,9 @@ WIDTH = 1e-3  # rad/s, of the central difference: small beside every smoothing
 
 
 def page(shown: Interface, folder: Path, order: Order, guid: str, *, runs: bool = True) -> str:
-    """Return the page.
+    """Return the page; ``folder`` holds the model's icon and readme, its title in the first line.
 
-    ``folder`` holds the model's icon and readme, whose first line is the title. With ``runs`` =
-    False the model is not run for the slope of its torque, and need not be compiled for this
-    Python.
+    With ``runs`` = False the model is not run for the slope of its torque.
     """
     spec, icon = shown.spec, folder / "icon.png"
     return filled(

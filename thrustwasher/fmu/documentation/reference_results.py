@@ -48,10 +48,7 @@ def input_rows(spec: ModelSpec) -> Rows:
 
 
 def reference_run(spec: ModelSpec) -> Rows:
-    """Return rows of time and all outputs over the default experiment.
-
-    Numbers of less than a millionth of the nominal value become 0.
-    """
+    """Return rows of time and all outputs over the default experiment."""
     stop, h = interface(spec).experiment
     course = np.array(input_rows(spec))
     times = h * np.arange(round(stop / h) + 1)

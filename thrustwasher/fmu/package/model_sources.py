@@ -56,10 +56,9 @@ def identifier(
 ) -> str:
     """Return 32 hex digits over all that decides what an FMU contains.
 
-    That is the interface, the kernels, the model's own files in ``folder``, what the models share
-    (C shell and documentation, in ``shared``, by default ``source_folder()``), this package's
-    packing, target, FMI version, package version and ``tools``: the versions of the compilers, and
-    whatever else goes in. No clock, no path, no chance.
+    ``folder`` holds the model's own files, ``shared`` (by default ``source_folder()``) C shell and
+    documentation; ``tools``: the versions of the compilers, and whatever else goes in. No clock, no
+    path, no chance.
     """
     spec = shown.spec
     own = spec.name, spec.help, spec.box, spec.notes, spec.course, spec.stop_time, spec.step_size

@@ -256,10 +256,7 @@ def build_own(
     workers: int,
     progress: Any,
 ) -> None:
-    """Build the map of one's own washer and keep it in the user's cache; as ``make_map``.
-
-    The box is cut at what a map can cover.
-    """
+    """Build the map of one's own washer, its box cut at what a map can cover, and keep it."""
     make, wider = resolve(MAKER), coverable(box)
     own = {"tolerance": tolerance, "workers": workers, "progress": progress}
     keep_own(params, lambda out: make(params, out, box=wider, **own))

@@ -47,7 +47,7 @@ class ModelProblem(Problem):
     def asked(
         cls, points: Measured, fit: Sequence[str] | None, given: set[str]
     ) -> tuple[Measured, tuple[str, ...]]:
-        """Return the points and the parameters to fit; ``given`` are inputs that the points have."""
+        """Return the points and the parameters to fit; the points have inputs ``given``."""
         spec = points.plan.spec
         real = [f.name for f in fields(spec.params) if f.metadata["kind"] == "real"]
         names = chosen_names(fit or (), real, f"real parameters of {spec.name}")

@@ -7,6 +7,7 @@ through FMPy. FMPy has declared the argument types of all functions when it load
 import ctypes
 from collections.abc import Callable, Sequence
 from ctypes import c_bool, c_double, c_int, c_int32, c_int64
+from functools import partial
 from operator import itemgetter
 from typing import Any, NamedTuple
 
@@ -73,17 +74,10 @@ class Group:
         self.values = (c_type * n)()
         self.whole = c_type is not c_double
         lengths = (n,) * protocol.lengths
-        self._arguments = (protocol.fmu.component, self.references, n, self.values, *lengths)
-        self.set_function = protocol.function(f"Set{kind}")
-        self.get_function = protocol.function(f"Get{kind}")
-
-    def set(self) -> int:
-        """Hand the values over and return the status."""
-        return self.set_function(*self._arguments)
-
-    def get(self) -> int:
-        """Fetch the values and return the status."""
-        return self.get_function(*self._arguments)
+        call = (protocol.fmu.component, self.references, n, self.values, *lengths)
+        # hand the values over, fetch them; both return the status
+        self.set = partial(protocol.function(f"Set{kind}"), *call)
+        self.get = partial(protocol.function(f"Get{kind}"), *call)
 
 
 class Table:
@@ -120,16 +114,12 @@ class Direction:
     def __init__(self, protocol: Protocol, unknowns: Sequence[Any], knowns: Sequence[Any]) -> None:
         self.seed = (c_double * len(knowns))()
         self.slope = (c_double * len(unknowns))()
-        self._call = protocol.function("GetDirectionalDerivative")
         n_unknown, n_known = len(unknowns), len(knowns)
         named = _references(unknowns), n_unknown, _references(knowns), n_known
         seed = self.seed, *(n_known,) * protocol.lengths
         slope = self.slope, *(n_unknown,) * protocol.lengths
-        self._arguments = (protocol.fmu.component, *named, *seed, *slope)
-
-    def get(self) -> int:
-        """Compute the derivatives and return the status."""
-        return self._call(*self._arguments)
+        function = protocol.function("GetDirectionalDerivative")  # returns the status
+        self.get = partial(function, protocol.fmu.component, *named, *seed, *slope)
 
 
 class MachineGroup(NamedTuple):
@@ -159,8 +149,8 @@ def machine_of(protocol: Protocol, inputs: Table, outputs: Table, logged: Any) -
         third=protocol.lengths > 0,
         component=int(protocol.fmu.component),
         step=_address(protocol.function("DoStep")),
-        setters=[_group(g, g.set_function) for g in inputs.groups],
-        getters=[_group(g, g.get_function) for g in outputs.groups],
+        setters=[_group(g, g.set.func) for g in inputs.groups],
+        getters=[_group(g, g.get.func) for g in outputs.groups],
         logged=ctypes.addressof(logged),
     )
 

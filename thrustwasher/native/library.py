@@ -98,12 +98,9 @@ def web_functions(kernel: str, names: Iterable[str]) -> dict[str, dict[str, Any]
         name = getattr(entry.function, "py_func", entry.function).__name__
         if name in names:
             takes = [word for kind in entry.takes for word in _flat(kind)]
-            found[name] = {
-                "place": order.index(entry.symbol),
-                "takes": takes,
-                "returns": len(entry.returns),
-                "tuple": entry.is_tuple,
-            }
+            place, numbers = order.index(entry.symbol), len(entry.returns)
+            more = {"returns": numbers, "tuple": entry.is_tuple}
+            found[name] = {"place": place, "takes": takes, **more}
     return found
 
 

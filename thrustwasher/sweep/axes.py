@@ -41,11 +41,9 @@ class Place:
         if self.kind in ("enumeration", "boolean"):
             check_value(self.name, value, self.meta)
             return str(value) if self.kind == "enumeration" else bool(value)
-        given, relative = (
-            value if isinstance(value, str) else float(value),
-            self.meta.get("relative"),
-        )
-        number = parse_quantity(given, self.unit, self.name, difference=bool(relative))
+        given = value if isinstance(value, str) else float(value)
+        relative = bool(self.meta.get("relative"))
+        number = parse_quantity(given, self.unit, self.name, difference=relative)
         check_value(self.name, number, self.meta, stated=has_unit(value))
         return int(number) if self.kind == "integer" else number
 

@@ -38,8 +38,8 @@ class Protocol:
         self.types = TYPES[version]
         self.lengths = version - 2  # times the number of values is handed over beside the values
         self._do_step = self.function("DoStep")
-        self._told = (c_bool(), c_bool(), c_bool(), c_double())
-        self._rest = (0,) if version == 2 else (False, *(ctypes.byref(x) for x in self._told))
+        self._early = (c_bool(), c_bool(), c_bool(), c_double())
+        self._rest = (0,) if version == 2 else (False, *(ctypes.byref(x) for x in self._early))
 
     def begin(self, start_time: float) -> None:
         """Enter initialization at a time."""

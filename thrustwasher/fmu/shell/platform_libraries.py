@@ -161,14 +161,9 @@ def library_digest(spec: ModelSpec) -> str:
 def sources(spec: ModelSpec) -> dict[str, bytes]:
     """Return the C files of a model's libraries, but the standard's headers."""
     tables = {name: text.encode() for name, text in c_tables.sources(interface(spec)).items()}
-    return {**shell(), **dispatch(), **tables}
-
-
-def shell() -> dict[str, bytes]:
-    """Return the C files of the shell and its headers."""
     folder = source_folder() / "shell"
     names = [*c_tables.SHELL_FILES, *(f.name for f in sorted(folder.glob("*.h")))]
-    return {name: digest.read(folder / name) for name in names}
+    return {name: digest.read(folder / name) for name in names} | dispatch() | tables
 
 
 def dispatch() -> dict[str, bytes]:

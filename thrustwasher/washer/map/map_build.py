@@ -5,24 +5,26 @@ import os
 import platform
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ...errors import ParameterError, SolveError, naming
+from ...errors import ParameterError, SolveError
 from ...numerics.chebyshev import lines_of
 from ...numerics.jit import Array, kernel_digest
 from ...processes import Run, run_here, runner
 from ...storage.digests import params_digest
 from ...storage.journal import Journal
+from ...storage.whole_files import whole_file
 from ..kernels.layout import O_FLUID_LOAD
 from ..kernels.map import map_layout as L
 from ..parameters import SPEC, WasherParams
 from ..solve import GRIDS
 from .map_check import check_map, mesh_of
-from .map_file import SUFFIX, identity_of, pack
+from .map_file import identity_of, pack
 from .map_line import Curve, Line, LineTask, packed, solve_lines
 from .map_mesh import Change, Grid, NotSmooth, change_of_mesh
 from .map_plan import COARSE, FIELD_FROM, SPARE, TOLERANCE, MapPlan, Place, plan_map
@@ -71,47 +73,41 @@ def make_map(
     if fidelity not in (None, *FIDELITIES):
         raise ParameterError(f"fidelity = {fidelity!r}, allowed: {' or '.join(FIDELITIES)}")
     plan = plan_map(params, box, tolerance)
-    job = _Job(
-        plan,
-        out,
-        workers or os.cpu_count() or 1,
-        points,
-        progress or (lambda _label: lambda _done, _total: None),
-    )
+    show = progress or (lambda _label: lambda _done, _total: None)
+    made = partial(_made, plan, out, workers or os.cpu_count() or 1, points, show)
     usual = "field" if tolerance >= FIELD_FROM else "fine"
     raised = fidelity is None and usual == "field"
     try:
-        card = _made(job, fidelity or usual, raised=raised)
+        card = made(fidelity or usual, raised=raised)
         why = f"the map is {card['held_out']['torque']:.1%} off" if raised and _missed(card) else ""
     except NotSmooth as problem:
         why = str(problem)
     if why:
-        card = _made(job, "fine", raised=False, lines=f"{why}: all lines on the finer mesh,")
+        card = made("fine", raised=False, lines=f"{why}: all lines on the finer mesh,")
     if fidelity is None and _missed(card):
         out.unlink()
         raise SolveError(_too_coarse(card))
     return card
 
 
-@dataclass(frozen=True)
-class _Job:
-    plan: MapPlan
-    out: Path
-    workers: int
-    points: int
-    show: Callable[[str], Progress]
-
-
-def _made(job: _Job, fidelity: str, *, raised: bool, lines: str = "lines") -> dict[str, Any]:
+def _made(
+    plan: MapPlan,
+    out: Path,
+    workers: int,
+    points: int,
+    show: Callable[[str], Progress],
+    fidelity: str,
+    *,
+    raised: bool,
+    lines: str = "lines",
+) -> dict[str, Any]:
     """Build a map on a mesh, check and write it; return its card."""
-    plan, out, show = job.plan, job.out, job.show
-    draft = out.with_name(f".{out.name}.{os.getpid()}.draft{SUFFIX}")
     # Held to the end: another run that writes this map is refused before it has worked for nothing.
     journal = journal_for(out.with_name(f"{out.name}.journal"), plan, fidelity)
     finished = False
     try:
         began = time.perf_counter()
-        with runner(job.workers) as run:
+        with whole_file(out) as draft, runner(workers) as run:
             reach = find_reach(plan)
             plan = survey(plan, reach, run=run, progress=show("survey"))
             data = build_lines(
@@ -126,25 +122,20 @@ def _made(job: _Job, fidelity: str, *, raised: bool, lines: str = "lines") -> di
                 numbers = data[L.DATA :].reshape(-1, plan.line)
                 numbers += np.round(change.lines / DIGIT) * DIGIT
                 data[L.IDENTITY] = identity_of(data)
-            card = _card(plan, fidelity, change, time.perf_counter() - began, job.workers)
-            _write(draft, data, card)
+            card = _card(plan, fidelity, change, time.perf_counter() - began, workers)
+            draft.write_bytes(pack(data, card))
+            shown = show("held-out points")
+            grid = mesh_of(card)
             verdict = check_map(
-                plan.params,
-                str(draft),
-                grid=mesh_of(card),
-                run=run,
-                points=job.points,
-                progress=show("held-out points"),
+                plan.params, str(draft), grid=grid, run=run, points=points, progress=shown
             )
-        card["held_out"] = asdict(verdict)
-        _write(draft, data, card)
-        draft.replace(out)
+            card["held_out"] = asdict(verdict)
+            draft.write_bytes(pack(data, card))
         finished = True
     except SolveError:
         finished = True  # the same again would end here again
         raise
     finally:
-        draft.unlink(missing_ok=True)
         journal.close(finished=finished)
     return card
 
@@ -271,11 +262,6 @@ def find_reach(plan: MapPlan) -> float:
     if not math.isfinite(largest):
         raise SolveError("map: no film is thick enough for the least load; raise the least load")
     return 1.05 * largest
-
-
-def _write(path: Path, data: Any, card: dict[str, Any]) -> None:
-    with naming(path):
-        path.write_bytes(pack(data, card))
 
 
 def _card(

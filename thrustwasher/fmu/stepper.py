@@ -11,11 +11,11 @@ from collections.abc import Callable, Mapping, Sequence
 from ctypes import c_double
 from pathlib import Path
 from time import perf_counter
-from typing import Any, Self
+from typing import Any
 
 from ..errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from .running import loading
-from .running.direct_instance import DirectInstance, number, unknown
+from .running.direct_instance import DirectInstance, Stepped, number, unknown
 from .running.loading import WARNING, Message, Messages, unpack
 from .running.protocol import Direction, Machine, Protocol, Table, machine_of
 
@@ -30,7 +30,7 @@ STAGES: dict[str, tuple[str, type[Exception]]] = {
 WORDS = {2: "discarded", 3: "error", 4: "fatal: the FMU cannot go on"}
 
 
-class Instance:
+class Instance(Stepped):
     """An instantiated co-simulation FMU of FMI 2.0 or 3.0.
 
     Parameters
@@ -70,7 +70,6 @@ class Instance:
         self._messages = Messages()
         self.warnings: list[str] = []
         self.notes: list[Message] = []
-        self.calls, self.wall_time, self.initialize_time = 0, 0.0, 0.0
         self._fmu: Any = loading.instantiate(
             folder, self.description, name or self.path.stem, self._messages
         )
@@ -86,12 +85,6 @@ class Instance:
             self.close()
             raise
         self.instantiate_time = perf_counter() - start
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
 
     def initialize(
         self, start_time: float = 0.0, inputs: Mapping[str, float] | None = None

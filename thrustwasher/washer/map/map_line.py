@@ -167,7 +167,9 @@ def solve_lines(tasks: Sequence[LineTask]) -> list[Curve]:
                 curve, kept = _solved(line, guesses, kept, task)
         if curve is None:
             try:
-                line, guesses = _entered(task)
+                coarse = Line(task, COARSE)  # its arrays are those of all lines on this grid
+                guesses = [coarse.to_contact(load) for load in task.plan.marks]
+                line = Line(task, task.grid)
                 curve, kept = _solved(line, guesses)
             except SolveError:
                 raise SolveError(
@@ -177,13 +179,6 @@ def solve_lines(tasks: Sequence[LineTask]) -> list[Curve]:
         curves.append(curve)
         guesses = curve.edges[3:]
     return curves
-
-
-def _entered(task: LineTask) -> tuple[Line, list[float]]:
-    """Return a line at its entry, and where its marks are about."""
-    coarse = Line(task, COARSE)  # its arrays are those of all lines on this grid
-    guesses = [coarse.to_contact(load) for load in task.plan.marks]
-    return Line(task, task.grid), guesses
 
 
 def _solved(

@@ -75,8 +75,7 @@ def _of_this_machine() -> Linker | None:
 
 def local_machine() -> tuple[str, str]:
     """Return the system and machine of this computer as ``Platform.machine`` names them."""
-    machine = this.machine()
-    return this.system(), {"amd64": "x86_64", "arm64": "arm64"}.get(machine, machine)
+    return this.system(), this.machine().replace("amd64", "x86_64")
 
 
 def this_platform() -> Platform:

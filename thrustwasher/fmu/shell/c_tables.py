@@ -35,8 +35,7 @@ PART, MAGIC, WORD = "part.bin", b"twpart2\0", 64  # as in shell.h
 def sources(shown: Interface) -> dict[str, str]:
     """Return model.h and model.c, file name -> text."""
     header, tables = _texts(shown)
-    build = build_of(shown)
-    return {"model.h": header.replace("@BUILD@", build), "model.c": tables}
+    return {"model.h": header.replace("@BUILD@", build_of(shown)), "model.c": tables}
 
 
 @cache

@@ -25,7 +25,7 @@ from thrustwasher.native.digest import digest, sources
 from thrustwasher.native.entries import libraries as all_libraries
 from thrustwasher.native.files import to_stderr
 from thrustwasher.native.library import linked_library
-from thrustwasher.native.objects import Objects, compile_objects, wanted_for
+from thrustwasher.native.objects import Objects, compile_objects, required_for
 from thrustwasher.native.targets import TARGETS, WEB
 
 LIBRARIES = ("linux64",)  # platforms whose libraries for Python lie in the checkout
@@ -39,7 +39,7 @@ def toolchain() -> dict[str, str]:
 
 def made(kernel: str) -> tuple[Objects, float]:
     """Return a kernel module's objects for all platforms, compiled now, and the seconds it took."""
-    start, wanted = time.perf_counter(), wanted_for(TARGETS.values())
+    start, wanted = time.perf_counter(), required_for(TARGETS.values())
     with tempfile.TemporaryDirectory() as folder:
         code = compile_objects(kernel, Path(folder) / "made", wanted)
     return code, time.perf_counter() - start

@@ -13,7 +13,7 @@ from pathlib import Path
 from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.shell import c_tables
 from thrustwasher.fmu.shell.platform_libraries import headers as fmi_headers
-from thrustwasher.fmu.shell.platform_libraries import library, shell
+from thrustwasher.fmu.shell.platform_libraries import library, sources
 from thrustwasher.model.registry import all_specs, find_spec
 from thrustwasher.model.spec import ModelSpec
 from thrustwasher.native import link
@@ -43,8 +43,8 @@ def headers() -> Path:
 
 def empty_library(spec: ModelSpec) -> bytes:
     """Return a library of the shell with this model's tables and a step that does nothing."""
-    files: dict[str, str | bytes] = {**shell(), **fmi_headers(), "empty.c": EMPTY}
-    files |= c_tables.sources(interface(spec))
+    files: dict[str, str | bytes] = {**sources(spec), **fmi_headers(), "empty.c": EMPTY}
+    del files["dispatch.c"]  # that calls the kernels
     return link.shared_library(files, platform=PLATFORMS["linux64"], name="empty")
 
 

@@ -70,7 +70,7 @@ class Calibration:
     """Sentences on points that the fit cannot follow, the gravest first; empty for a sound fit."""
     _problem: Any = field(repr=False)  # the ModelProblem, which knows what is drawn and said
     _best: Array = field(repr=False)
-    _told: Information = field(repr=False)
+    _learned: Information = field(repr=False)
 
     @property
     def taken(self) -> str:
@@ -117,7 +117,7 @@ class Calibration:
         """Return the outputs to be drawn over their inputs."""
         points, found = self.points, []
         slopes = self._problem.slopes_of_curve(self._best)
-        half = np.array([self._told.half_width_of(row) for row in slopes])
+        half = np.array([self._learned.half_width_of(row) for row in slopes])
         for name, unit in output_units(points.plan.spec).items():
             if name in points.names:
                 at, known = points.of(name), points.error

@@ -31,30 +31,31 @@ def fitted(
 ) -> tuple[dict[str, Any], list[Verdict]]:
     """Return what a ``Calibration`` says of the constants, and the verdicts.
 
-    ``first`` are the values before the fit; constants not told stay near them.
+    ``first`` are the values before the fit; constants not determined stay near them.
     """
     if not isinstance(confidence, int | float) or not 0.0 < confidence < 1.0:
         raise ParameterError(f"confidence = {confidence!r}, allowed: above 0 and below 1")
-    best, told, judged = _settled(problem, first, confidence)
+    best, learned, judged = _settled(problem, first, confidence)
     computed = problem.curve(best)
     residuals = problem.measured - computed
-    is_judged = problem.known_errors and told.freedom > 0
+    is_judged = problem.known_errors and learned.freedom > 0
     found = {
         "fitted": computed,
         "estimates": tuple(
-            _estimate(problem, best, told, i, verdict, profile) for i, verdict in enumerate(judged)
+            _estimate(problem, best, learned, i, verdict, profile)
+            for i, verdict in enumerate(judged)
         ),
-        "correlation": told.correlation(),
-        "confounded": tuple(combination(problem, best, way) for way in told.blurred()),
-        "singular_values": tuple(told.strength.tolist()),
+        "correlation": learned.correlation(),
+        "confounded": tuple(combination(problem, best, way) for way in learned.blurred()),
+        "singular_values": tuple(learned.strength.tolist()),
         "residuals": residuals,
         "rms": float(np.sqrt(np.mean(residuals**2))),
-        "degrees_of_freedom": told.freedom,
-        "reduced_chi_square": problem.cost(best) / told.freedom if is_judged else None,
+        "degrees_of_freedom": learned.freedom,
+        "reduced_chi_square": problem.cost(best) / learned.freedom if is_judged else None,
         "confidence": float(confidence),
         "_problem": problem,
         "_best": best,
-        "_told": told,
+        "_learned": learned,
     }
     return found, judged
 
@@ -62,29 +63,29 @@ def fitted(
 def _settled(
     problem: Problem, first: Array, confidence: float
 ) -> tuple[Array, Information, list[Verdict]]:
-    """Return the fit, what it tells, and the verdicts; constants not told stay near their first."""
+    """Return the fit, its information, the verdicts; what is not known stays near ``first``."""
     best, weak = best_fit(problem, first), np.zeros(len(first))
-    told = information(problem, best, confidence)
-    judged = verdicts(problem, best, told, weak)
+    learned = information(problem, best, confidence)
+    judged = verdicts(problem, best, learned, weak)
     if not all(verdict.identifiable for verdict in judged):  # nothing may depend on it there
         lost = [not verdict.identifiable for verdict in judged]
         middle = np.where(lost, 0.5 * (problem.low + problem.high), best)
         best = best_fit(problem, first, [middle])
-        told = information(problem, best, confidence)
-    deviation = told.deviation
+        learned = information(problem, best, confidence)
+    deviation = learned.deviation
     for _ in problem.names:
-        judged = verdicts(problem, best, told, np.zeros(len(best)))
+        judged = verdicts(problem, best, learned, np.zeros(len(best)))
         now = np.maximum(weak, [0.0 if verdict.identifiable else 1.0 for verdict in judged])
         if np.array_equal(now, weak):
             break
         weak = now
         best = settled(problem, best, first, weak, deviation)
-        told = information(problem, best, confidence)
-    return best, told, verdicts(problem, best, told, weak)
+        learned = information(problem, best, confidence)
+    return best, learned, verdicts(problem, best, learned, weak)
 
 
 def _estimate(
-    problem: Problem, best: Array, told: Information, i: int, verdict: Verdict, profile: bool
+    problem: Problem, best: Array, learned: Information, i: int, verdict: Verdict, profile: bool
 ) -> Estimate:
     """Return value, error and intervals of one constant."""
 
@@ -93,18 +94,18 @@ def _estimate(
 
     name, value, half = problem.names[i], float(best[i]), verdict.half_width
     low, high = float(problem.low[i]), float(problem.high[i])
-    error = half / told.quantile if np.isfinite(told.quantile) else np.inf
+    error = half / learned.quantile if np.isfinite(learned.quantile) else np.inf
     ends = None
     if verdict.identifiable:
         low, high = max(low, value - half), min(high, value + half)
-        if profile and told.deviation > 0.0 and half > 1e-9 * problem.scale[i]:
-            rise = (told.quantile * told.deviation) ** 2
+        if profile and learned.deviation > 0.0 and half > 1e-9 * problem.scale[i]:
+            rise = (learned.quantile * learned.deviation) ** 2
             lower, upper = (
                 shown(profile_end(problem, best, i, value + side * half, rise))
                 for side in (-1.0, 1.0)
             )
             ends = (lower, upper)
-    error *= float(problem.stretch(best)[i])
+    error *= float(problem.derivative(best)[i])
     interval, judged = (shown(low), shown(high)), (verdict.identifiable, verdict.at_bound)
     unit = problem.units[name]
     return Estimate(name, unit, shown(value), error, interval, ends, *judged, verdict.reason)

@@ -43,10 +43,10 @@ class Information:
         """Return the standard error of a quantity from its gradient; infinite if not told."""
         along = self.directions @ (gradient * self.scale)
         size = float(np.abs(gradient * self.scale).max())
-        told = self.strength > 0.0
-        if np.any(np.abs(along[~told]) > LEAKS * size):
+        kept = self.strength > 0.0
+        if np.any(np.abs(along[~kept]) > LEAKS * size):
             return np.inf
-        return float(np.sqrt(np.sum((along[told] / self.strength[told]) ** 2)))
+        return float(np.sqrt(np.sum((along[kept] / self.strength[kept]) ** 2)))
 
     def half_width_of(self, gradient: Array) -> float:
         """Return the half width of a quantity's interval; infinite if not told."""
@@ -96,7 +96,7 @@ def combination(problem: Problem, best: Array, direction: Array) -> str:
     if len(named) == 1:
         return f"no {problem.counted_as} says enough about {names[named[0]]}"
     change = direction / direction[named[0]] * 0.01 * problem.scale[named[0]]
-    change = change * problem.stretch(best)
+    change = change * problem.derivative(best)
     parts = listed([f"{names[i]} {change[i]:+.3g}" for i in named], "and")
     return (
         f"the points cannot tell {listed([names[i] for i in named], 'and')} apart: changed "
@@ -114,7 +114,7 @@ class Verdict:
     reason: str
 
 
-def verdicts(problem: Problem, best: Array, told: Information, weak: Array) -> list[Verdict]:
+def verdicts(problem: Problem, best: Array, learned: Information, weak: Array) -> list[Verdict]:
     """Return the verdict on every constant.
 
     A constant counts as identifiable where the half width of its interval is below a change that
@@ -123,11 +123,11 @@ def verdicts(problem: Problem, best: Array, told: Information, weak: Array) -> l
     """
     found = []
     for i, row in enumerate(np.eye(len(best))):
-        half = told.half_width_of(row)
+        half = learned.half_width_of(row)
         known = bool(half <= problem.scale[i]) and not weak[i]
         low, high = best[i] <= problem.low[i], best[i] >= problem.high[i]
         side = "lower" if low else "upper" if high else ""
-        words = [] if known else [_why_not(problem, best, told, i, half)]
+        words = [] if known else [_why_not(problem, best, learned, i, half)]
         if side:
             words.append(_bound_text(problem, best, i, side))
         found.append(Verdict(half, known, side, "; ".join(words)))
@@ -143,7 +143,7 @@ def _bound_text(problem: Problem, best: Array, i: int, side: str) -> str:
     return f"{text}: the points pull beyond it{problem.why_bound(best, i, side)}"
 
 
-def _why_not(problem: Problem, best: Array, told: Information, i: int, half: float) -> str:
+def _why_not(problem: Problem, best: Array, learned: Information, i: int, half: float) -> str:
     """Return the reason why the points do not tell a constant, the most tangible one first."""
     count = len(problem.measured)
     few = f"{counted(count, problem.counted_as)} for {counted(len(best), 'constant')}"
@@ -152,10 +152,10 @@ def _why_not(problem: Problem, best: Array, told: Information, i: int, half: flo
         return lead
     lead = few if count < len(best) else lead
     lead += "; " * bool(lead)
-    about = [direction for direction in told.blurred() if i in members(problem, direction)]
+    about = [direction for direction in learned.blurred() if i in members(problem, direction)]
     if about:
         return lead + combination(problem, best, about[0])
-    if not np.isfinite(told.quantile):
+    if not np.isfinite(learned.quantile):
         return f"{few}: no scatter is left to judge by, add points or give {problem.error_name}"
     width = f"a factor of {np.exp(half):.2g}" if problem.logarithmic[i] else f"{half:.2g}"
     return f"{lead}at this scatter its interval would be +- {width}"

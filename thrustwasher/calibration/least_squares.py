@@ -65,7 +65,7 @@ class Problem:
         """Return the values that a guess stands for."""
         return np.where(self.logarithmic, np.exp(np.minimum(guess, 700.0)), guess)
 
-    def stretch(self, guess: Array) -> Array:
+    def derivative(self, guess: Array) -> Array:
         """Return the derivatives of the values over the guess."""
         return np.where(self.logarithmic, self.shown(guess), 1.0)
 
@@ -144,10 +144,10 @@ def settled(problem: Problem, best: Array, first: Array, weak: Array, deviation:
     return _pressed(problem, _on_bounds_exactly(problem, reached[int(np.argmin(pulled))]))
 
 
-def profile_end(problem: Problem, best: Array, index: int, end: float, wanted: float) -> float:
-    """Return where one constant alone costs ``wanted`` more, the others refitted.
+def profile_end(problem: Problem, best: Array, index: int, end: float, more: float) -> float:
+    """Return where one constant alone costs ``more``, the others refitted.
 
-    ``end`` is a first guess of the place, on the wanted side of ``best``. Where the sum of squares
+    ``end`` is a first guess of the place, on one side of ``best``. Where the sum of squares
     rises less up to the constant's bound, it is that bound.
     """
     from scipy.optimize import brentq
@@ -159,7 +159,7 @@ def profile_end(problem: Problem, best: Array, index: int, end: float, wanted: f
         held = problem.holding(index, place)
         found = _refine(held, rest, problem.rough) if held.names else rest
         rise = held.cost(rest if found is None else found) - least
-        return float(np.sqrt(max(rise, 0.0) / wanted)) - 1.0
+        return float(np.sqrt(max(rise, 0.0) / more)) - 1.0
 
     near, place = centre, float(np.clip(end, problem.low[index], problem.high[index]))
     while excess(place) < 0.0:

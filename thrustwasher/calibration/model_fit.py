@@ -46,16 +46,13 @@ class ModelProblem(Problem):
     def asked(
         cls, points: Measured, fit: Sequence[str] | None, given: set[str]
     ) -> tuple[Measured, tuple[str, ...]]:
-        """Return the points as they are fitted, and the parameters to fit, or refuse them.
-
-        ``given`` are the inputs that the points have.
-        """
+        """Return the points and the parameters to fit; the points have inputs ``given``."""
         spec = points.plan.spec
         real = [f.name for f in fields(spec.params) if f.metadata["kind"] == "real"]
         names = chosen_names(fit or (), real, f"real parameters of {spec.name}")
         if len(points.value) < len(names):
-            told = f"{counted(len(points.value), 'value')} for {counted(len(names), 'parameter')}"
-            raise ParameterError(f"data: {told}, allowed: as many values as parameters, or more")
+            sizes = f"{counted(len(points.value), 'value')} for {counted(len(names), 'parameter')}"
+            raise ParameterError(f"data: {sizes}, allowed: as many values as parameters, or more")
         check_rung(spec, points.plan.fidelity, points.plan.params[0])
         return points, names
 

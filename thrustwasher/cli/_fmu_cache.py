@@ -40,12 +40,14 @@ def source_digest(target: str) -> str:
     """Return 16 hex digits over version, sources, linker and, if native, what was compiled."""
     from ..fmu.model_kernels import package_version
     from ..fmu.package.model_sources import TEXTS, source_folder
-    from ..fmu.shell.platform_libraries import made_of
+    from ..fmu.shell.platform_libraries import library_identity
     from ..model.prepare import tables_of
     from ..model.registry import all_specs
 
     native, texts = target == "native", (*TEXTS, ".json", ".npz")
-    made_for = " ".join(made_of(spec, local=True) for spec in all_specs()) if native else "python"
+    made_for = "python"
+    if native:
+        made_for = " ".join(library_identity(spec, local=True) for spec in all_specs())
     hashed = hashlib.sha256(f"{package_version()} {made_for}".encode())
     for root in (Path(__file__).parents[1], source_folder()):
         for path in sorted(p for p in root.rglob("*") if p.suffix in texts):

@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Mapping, Sequence
-from functools import partial
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -21,8 +20,8 @@ from .documentation.html_page import accuracy, page
 from .documentation.reference_results import reference_files
 from .model_kernels import content_digest, has_derivatives, package_version
 from .package.licences import licences
-from .package.model_sources import identifier, model_folder, source_folder
-from .shell.platform_libraries import chosen, made_of, native_contents
+from .package.model_sources import Order, identifier, model_folder, source_folder
+from .shell.platform_libraries import chosen, library_identity, native_contents
 
 TARGETS = ("native", "python")
 DESCRIPTION = "modelDescription.xml"  # lies in front
@@ -78,12 +77,10 @@ def build(
     places: Sequence[str] = ()
     if target == "native":
         places = [this_platform().name] if local else chosen(platforms, say, specs)
-    paths = []
+    order, paths = Order(target, fmi, places, say, local), []
     for spec in specs:
         shown, folder = interface(spec), model_folder(spec, sources or source_folder())
-        files = contents(
-            shown, folder, target=target, fmi=fmi, platforms=places, note=say, local=local
-        )
+        files = contents(shown, folder, order, reference=not local)
         if not maps:
             files = {n: data for n, data in files.items() if not n.startswith("resources/map-")}
         if terminals:
@@ -140,20 +137,11 @@ def pack_native(
     """Return a native FMU of FMI 2 of any model, also of one with defaults of its own.
 
     It has no reference results: those of a model with its usual defaults are in the usual FMU.
-    ``platforms`` and ``note`` are those of ``build``.
     """
     say = note or (lambda _: None)
-    places = chosen(platforms, say, [spec])
+    order = Order("native", 2, chosen(platforms, say, [spec]), say)
     folder = model_folder(spec, source_folder())
-    files = contents(
-        interface(spec),
-        folder,
-        target="native",
-        fmi=2,
-        platforms=places,
-        note=say,
-        reference=False,
-    )
+    files = contents(interface(spec), folder, order, reference=False)
     return zipped(files, first=DESCRIPTION)
 
 
@@ -170,42 +158,29 @@ def _check(target: str, fmi: int, platforms: Sequence[str] | None, maps: bool) -
         raise ParameterError("platforms are chosen for target native only; use --target native")
 
 
-def contents(
-    shown: Interface,
-    folder: Path,
-    *,
-    target: str,
-    fmi: int,
-    platforms: Sequence[str],
-    note: Note,
-    local: bool = False,
-    reference: bool = True,
-) -> dict[str, bytes]:
+def contents(shown: Interface, folder: Path, order: Order, *, reference: bool) -> dict[str, bytes]:
     """Return everything that lies in one FMU; ``folder`` holds the model's own sources."""
-    spec, native = shown.spec, target == "native"
-    tools = made_of(spec, local=local) if native else ""
-    guid = identifier(shown, folder, target=target, fmi=fmi, tools=f"{tools} {accuracy(spec)}")
+    spec, native = shown.spec, order.target == "native"
+    tools = library_identity(spec, local=order.local) if native else ""
+    guid = identifier(shown, folder, order, f"{tools} {accuracy(spec)}")
     if native:
-        own = native_contents(
-            shown, fmi=fmi, guid=guid, platforms=platforms, note=note, local=local
-        )
+        own = native_contents(shown, order, guid)
     else:
         own = _python_contents(shown, folder, guid)
-    reference = reference and not local
-    note(f"{spec.name}: {'reference results and documents' if reference else 'documents'}")
+    order.note(f"{spec.name}: {'reference results and documents' if reference else 'documents'}")
     derivatives = native and has_derivatives(spec)
-    described = description(shown, fmi=fmi, guid=guid, derivatives=derivatives)
-    told = partial(page, shown, folder, target=target, fmi=fmi, guid=guid, platforms=platforms)
+    described = description(shown, fmi=order.fmi, guid=guid, derivatives=derivatives)
     try:
-        results, text = (reference_files(spec) if reference else {}), told(runs=reference)
+        results = reference_files(spec) if reference else {}
+        text = page(shown, folder, order, guid, runs=reference)
     except SolveError as problem:  # a part need not have a solution all over the usual inputs
-        note(f"{spec.name}: without reference results: {problem}")
-        results, text = {}, told(runs=False)
+        order.note(f"{spec.name}: without reference results: {problem}")
+        results, text = {}, page(shown, folder, order, guid, runs=False)
     return {
         DESCRIPTION: described,
         "documentation/index.html": text.encode(),
-        **_icons(shown, folder, fmi),
-        **licences(target, platforms),
+        **_icons(shown, folder, order.fmi),
+        **licences(order.target, order.platforms),
         **results,
         **own,
     }
@@ -226,8 +201,8 @@ def _python_contents(shown: Interface, folder: Path, guid: str) -> dict[str, byt
     module = f"thrustwasher_fmu_{folder.name}_{guid[:8]}"
     spec, version = shown.spec, package_version()
     slave = (Path(__file__).parent / "python" / "slavemodule.txt").read_text("utf-8")
-    told = {"model": spec.key, "version": version, "digest": content_digest(spec), "guid": guid}
-    for name, text in told.items():
+    values = {"model": spec.key, "version": version, "digest": content_digest(spec), "guid": guid}
+    for name, text in values.items():
         slave = slave.replace(f"@{name}@", text)
     needs = (source_folder() / "documentation" / "externalDependencies.txt").read_text("utf-8")
     needs = needs.format(version=version, pythonfmu=metadata.version("pythonfmu"))

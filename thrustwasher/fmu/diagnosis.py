@@ -36,7 +36,7 @@ def diagnose() -> list[Check]:
         ("thrustwasher", _version),
         ("Python", lambda: f"{version} in {sys.executable}, {platform.platform()}"),
         *((name, _importable(name)) for name in ("numpy", "numba", "fmpy", "pythonfmu")),
-        ("models", _models),
+        ("models", lambda: ", ".join(s.name for s in all_specs() if kernel_of(s))),
         ("compiled kernels", _kernels),
         ("kept maps", _kept),
         ("temporary folder", lambda: _writable(tempfile.gettempdir())),
@@ -75,13 +75,6 @@ def _importable(name: str) -> Callable[[], str]:
         return metadata.version(name.replace("_", "-"))
 
     return look
-
-
-def _models() -> str:
-    specs = all_specs()
-    for spec in specs:
-        kernel_of(spec)
-    return ", ".join(spec.name for spec in specs)
 
 
 def _kernels() -> str:

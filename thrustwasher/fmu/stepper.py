@@ -8,13 +8,14 @@ the working directory while it loads.
 
 import os
 from collections.abc import Callable, Mapping, Sequence
+from ctypes import c_double
 from pathlib import Path
 from time import perf_counter
-from typing import Any, Self
+from typing import Any
 
 from ..errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from .running import loading
-from .running.direct_instance import DirectInstance, number, unknown
+from .running.direct_instance import DirectInstance, Stepped, number, unknown
 from .running.loading import WARNING, Message, Messages, unpack
 from .running.protocol import Direction, Machine, Protocol, Table, machine_of
 
@@ -29,7 +30,7 @@ STAGES: dict[str, tuple[str, type[Exception]]] = {
 WORDS = {2: "discarded", 3: "error", 4: "fatal: the FMU cannot go on"}
 
 
-class Instance:
+class Instance(Stepped):
     """An instantiated co-simulation FMU of FMI 2.0 or 3.0.
 
     Parameters
@@ -69,7 +70,6 @@ class Instance:
         self._messages = Messages()
         self.warnings: list[str] = []
         self.notes: list[Message] = []
-        self.calls, self.wall_time, self.initialize_time = 0, 0.0, 0.0
         self._fmu: Any = loading.instantiate(
             folder, self.description, name or self.path.stem, self._messages
         )
@@ -85,12 +85,6 @@ class Instance:
             self.close()
             raise
         self.instantiate_time = perf_counter() - start
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
 
     def initialize(
         self, start_time: float = 0.0, inputs: Mapping[str, float] | None = None
@@ -163,13 +157,13 @@ class Instance:
 
     def machine(self) -> Machine:
         """Return the addresses of all that a step needs; valid until ``close``."""
-        said = self._messages.said
-        said.value = 0
-        return machine_of(self._protocol, self._inputs, self._outputs, said)
+        logged = self._messages.logged
+        logged.value = 0
+        return machine_of(self._protocol, self._inputs, self._outputs, logged)
 
     def judge(self, stage: str, status: int) -> None:
         """Raise what a call made past this object would have raised: "set", "step" or "get"."""
-        self._messages.said.value = 0
+        self._messages.logged.value = 0
         self._judge(status, *STAGES[stage])
 
     def get_state(self) -> Any:
@@ -211,8 +205,8 @@ class Instance:
         if strange:
             raise ParameterError(f"category = {strange[0]!r}, allowed: {', '.join(known)}")
         always = [name for name in known if name.startswith("logStatus")]
-        wanted = [*always, *(categories or known)] if on else always
-        self._call(self._fmu.setDebugLogging, True, list(dict.fromkeys(wanted)))
+        chosen = [*always, *(categories or known)] if on else always
+        self._call(self._fmu.setDebugLogging, True, list(dict.fromkeys(chosen)))
 
     def _named(self, name: str, causality: str) -> Any:
         v = self._by_name.get(name)
@@ -228,7 +222,8 @@ class Instance:
         for v, value in zip(found, values.values(), strict=True):
             items = v.declaredType.items if v.type == "Enumeration" else ()
             given = number(v.name, value, {i.name: int(i.value) for i in items or ()})
-            if self._protocol.is_whole(v) and given != int(given):
+            whole = self._protocol.types[v.type][1] is not c_double
+            if whole and given != int(given):
                 raise ParameterError(f"{v.name} = {given!r}, allowed: a whole number")
             numbers.append(given)
         table = Table(self._protocol, found)
@@ -279,8 +274,8 @@ class Instance:
         """Read solver_status plainly, so that reading it cannot fail in turn."""
         if self._status is None:
             return Status.OK
-        said = len(self._messages)
+        before = len(self._messages)
         one = Table(self._protocol, [self._status])
         failed = any(group.get() > WARNING for group in one.groups)
-        del self._messages[said:]
+        del self._messages[before:]
         return Status.NOT_FINITE if failed else Status(int(one.read()[0]))

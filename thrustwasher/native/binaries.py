@@ -18,14 +18,8 @@ ALLOWED = {
 }
 # What linkers show beside what is asked for: zig's for macOS; the memory, its free part and the
 # table of functions of WebAssembly, and what sets up its C library.
-_OWN = {
-    "__dso_handle",
-    "_mh_dylib_header",
-    "memory",
-    "__heap_base",
-    "__indirect_function_table",
-    "_initialize",
-}
+_OWN = {"__dso_handle", "_mh_dylib_header", "memory", "__heap_base", "__indirect_function_table"}
+_OWN |= {"_initialize"}
 _NEEDED = 1  # tag in ELF's dynamic section
 _DYNAMIC, _DYNSYM = 6, 11  # section types of ELF
 _SYMTAB = 2  # section type in ELF and load command in Mach-O
@@ -49,11 +43,11 @@ class Linked:
 
 def check(data: bytes, *, exports: Iterable[str]) -> None:
     """Stop if a library needs more than libc and libm, or does not export just the given names."""
-    found, wanted = read(data), set(exports)
+    found, required = read(data), set(exports)
     allowed = re.compile(ALLOWED[found.format], re.I if found.format == "PE" else 0)
     problems = [f"it needs {n}" for n in sorted(found.needed) if not allowed.fullmatch(n)]
-    problems += [f"it exports {name}" for name in sorted(found.exports - wanted - _OWN)]
-    problems += [f"it does not export {name}" for name in sorted(wanted - found.exports)]
+    problems += [f"it exports {name}" for name in sorted(found.exports - required - _OWN)]
+    problems += [f"it does not export {name}" for name in sorted(required - found.exports)]
     if problems:
         raise EnvironmentProblem(f"the linked library is not as it should be: {problems[0]}")
 

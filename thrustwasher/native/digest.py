@@ -51,11 +51,7 @@ def read(path: Path) -> bytes:
 
 
 def sources(kernel: str) -> dict[str, Path]:
-    """Return module -> file of all that is compiled into a kernel module's library.
-
-    That is the module, those of the functions that Python calls, and all modules of their kind that
-    these import.
-    """
+    """Return module -> file of all that is compiled into a kernel module's library."""
     return closure(kernel, *called_modules(kernel))
 
 

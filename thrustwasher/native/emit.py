@@ -20,7 +20,7 @@ from . import lean
 from .callbacks import callbacks
 from .digest import digest
 
-SAID = 2  # exit status: the last line on stderr is the message for the user
+REPORTED = 2  # exit status: the last line on stderr is the message for the user
 
 
 def environment(cache: str) -> dict[str, str]:
@@ -45,9 +45,9 @@ def environment(cache: str) -> dict[str, str]:
 
 def module(kernel: ModuleType) -> Any:
     """Return one module with all entries, external and hidden; everything else is internal."""
-    wanted = callbacks(kernel)
-    whole = lean.module(wanted)
-    hide(whole, [callback.symbol for callback in wanted])
+    entries = callbacks(kernel)
+    whole = lean.module(entries)
+    hide(whole, [callback.symbol for callback in entries])
     return whole
 
 
@@ -72,17 +72,17 @@ def main(arguments: list[str]) -> int:
     """Write the bitcode of a kernel module."""
     import llvmlite.binding as llvm
 
-    name, wanted, file = arguments
+    name, expected, file = arguments
     warnings.filterwarnings("ignore", message=r"[\s\S]*Cannot cache compiled function")
     llvm.initialize_all_targets()
     try:
         whole = module(importlib.import_module(name))
         digest.cache_clear()
-        if digest(name) != wanted:
+        if digest(name) != expected:
             raise EnvironmentProblem(f"{name}: its source changed meanwhile; start again")
     except EnvironmentProblem as problem:
         print(problem, file=sys.stderr)
-        return SAID
+        return REPORTED
     Path(file).write_bytes(whole.as_bitcode())
     return 0
 

@@ -11,9 +11,12 @@ import io
 import os
 import shutil
 import stat
+import struct
 import sys
 import tempfile
+import time
 import zipfile
+import zlib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from functools import cache
@@ -25,6 +28,9 @@ Note = Callable[[str], None]
 READABLE = "can be read by others"
 EPOCH = (1980, 1, 1, 0, 0, 0)
 UNIX, FILE_MODE = 3, 0o100644
+# What reading an archive raises, beside OSError, if it is damaged or none.
+_BUILT_IN = (EOFError, KeyError, ValueError, OverflowError, RuntimeError)
+DAMAGED = (zipfile.BadZipFile, zlib.error, struct.error, *_BUILT_IN)
 SUM = ".sha256"  # ends the name of the file that holds another one's checksum
 
 
@@ -144,12 +150,19 @@ def private_folder() -> Path:
     return Path(folder)
 
 
-def forget_old(folder: Path, pattern: str, kept: int) -> None:
-    """Remove all folders of a name but those changed last."""
-    with suppress(OSError):
-        found = sorted(folder.glob(pattern), key=lambda f: f.stat().st_mtime)
-        for old in found[: max(len(found) - kept, 0)]:
-            shutil.rmtree(old, ignore_errors=True)
+def forget_old(folder: Path, pattern: str, kept: int, unused: float = 0.0) -> None:
+    """Remove all folders of a name but those changed last, or within ``unused`` seconds."""
+    used = []
+    for found in folder.glob(pattern):
+        with suppress(OSError):  # another process removes them too
+            if found.is_dir():
+                used.append((found.stat().st_mtime, found))
+    for last, old in sorted(used, reverse=True)[kept:]:
+        if time.time() - last >= unused:
+            gone = old.with_name(f".{old.name}.{os.getpid()}")
+            with suppress(OSError):
+                old.rename(gone)  # nobody finds half a folder
+                shutil.rmtree(gone, ignore_errors=True)
 
 
 def keep(path: Path, data: bytes) -> None:
@@ -189,39 +202,24 @@ def locked(path: Path, waiting: Callable[[], None]) -> Iterator[None]:
     try:
         if not _try_lock(handle):
             waiting()
-            _lock(handle)
+            while not _try_lock(handle):
+                time.sleep(0.2)
         yield
     finally:
         os.close(handle)
 
 
-if sys.platform == "win32":
-    import msvcrt
-    import time
+def _try_lock(handle: int) -> bool:
+    """Take a lock if no other process holds it; a file system without locks lets all have it."""
+    try:
+        if sys.platform == "win32":
+            import msvcrt
 
-    def _try_lock(handle: int) -> bool:
-        try:
             msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
-        except OSError:
-            return False
-        return True
+        else:
+            import fcntl
 
-    def _lock(handle: int) -> None:
-        while not _try_lock(handle):
-            time.sleep(0.2)
-
-else:
-    import fcntl
-
-    def _try_lock(handle: int) -> bool:
-        try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return False
-        except OSError:  # a file system without locks
-            return True
-        return True
-
-    def _lock(handle: int) -> None:
-        with suppress(OSError):
-            fcntl.flock(handle, fcntl.LOCK_EX)
+    except OSError as error:
+        return sys.platform != "win32" and not isinstance(error, BlockingIOError)
+    return True

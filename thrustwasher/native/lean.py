@@ -41,7 +41,7 @@ def check_numba() -> None:
             raise unknown_numba(f"{owner}.{name} is not as expected")
 
 
-def module(wanted: Sequence[Callback]) -> Any:
+def module(callbacks: Sequence[Callback]) -> Any:
     """Return one LLVM module with the functions of all callbacks under their symbols.
 
     numba compiles for nothing else in this process from then on. EnvironmentProblem: this numba is
@@ -49,7 +49,7 @@ def module(wanted: Sequence[Callback]) -> Any:
     """
     check_numba()
     libraries = _gathered()
-    names = {function_name(compiled(callback)): callback.symbol for callback in wanted}
+    names = {function_name(compiled(callback)): callback.symbol for callback in callbacks}
     return _linked(libraries, names)
 
 

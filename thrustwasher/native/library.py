@@ -98,12 +98,9 @@ def web_functions(kernel: str, names: Iterable[str]) -> dict[str, dict[str, Any]
         name = getattr(entry.function, "py_func", entry.function).__name__
         if name in names:
             takes = [word for kind in entry.takes for word in _flat(kind)]
-            found[name] = {
-                "place": order.index(entry.symbol),
-                "takes": takes,
-                "returns": len(entry.returns),
-                "tuple": entry.is_tuple,
-            }
+            place, numbers = order.index(entry.symbol), len(entry.returns)
+            more = {"returns": numbers, "tuple": entry.is_tuple}
+            found[name] = {"place": place, "takes": takes, **more}
     return found
 
 
@@ -123,16 +120,11 @@ def linked_objects(
     note: Note = to_stderr,
 ) -> bytes:
     """Return C files linked with a kernel's objects, checked for what they need and export."""
-    linker, levels = linker or link.find_linker(), platform.levels
+    levels = platform.levels
     parts = {f"kernel_{level}.o": content for (_, level), content in code.items()}
-    made = link.shared_library(
-        {**sources, **parts},
-        platform=platform,
-        name=name,
-        linker=linker,
-        note=note,
-        defines=[f"TW_LEVEL={levels[0].name}"] if len(levels) == 1 else [],
-    )
+    defines = [f"TW_LEVEL={levels[0].name}"] if len(levels) == 1 else []
+    how: dict[str, Any] = {"linker": linker, "note": note, "defines": defines}
+    made = link.shared_library({**sources, **parts}, platform=platform, name=name, **how)
     binaries.check(made, exports=exports)
     return made
 

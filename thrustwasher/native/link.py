@@ -8,11 +8,12 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext, suppress
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from functools import cache
 from importlib import metadata
 from pathlib import Path
+from typing import Any
 
 from ..errors import EnvironmentProblem
 from .files import Note, locked, to_stderr, user_cache
@@ -22,7 +23,7 @@ from .targets import PLATFORMS, Level, Platform
 COMMON = ("-Os", "-std=c99", "-ffp-contract=off", "-fvisibility=hidden", "-s", "-I.")
 # What a processor must have for a level beyond the first one of its platform.
 FEATURES = {"v3": ("avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe")}
-SHORT, LONG = 6.0, 60.0  # seconds until something is said, at the first build and at later ones
+SHORT, LONG = 6.0, 60.0  # seconds until something is printed, at the first build and at later ones
 MISSING = (
     "native FMUs whose sources were edited need a C compiler to be built (not to be run): "
     "pip install 'thrustwasher[build]' for all platforms, or gcc for this one"
@@ -74,8 +75,7 @@ def _of_this_machine() -> Linker | None:
 
 def local_machine() -> tuple[str, str]:
     """Return the system and machine of this computer as ``Platform.machine`` names them."""
-    machine = this.machine()
-    return this.system(), {"amd64": "x86_64", "arm64": "arm64"}.get(machine, machine)
+    return this.system(), this.machine().replace("amd64", "x86_64")
 
 
 def this_platform() -> Platform:
@@ -108,14 +108,8 @@ def shared_library(
 ) -> bytes:
     """Compile and link C files and objects to a shared library; EnvironmentProblem if that fails.
 
-    Parameters
-    ----------
-    files : name -> content of everything; ``.c`` is compiled, ``.o`` linked, headers are found
-    platform : what it is for
-    name : of the library, without extension; stands inside the file on macOS only
-    defines : macros, "NAME" or "NAME=VALUE"
-    linker : None: that of ``find_linker``
-    note : called with a line of progress before anything that takes long
+    ``files``: name -> content; ``.c`` is compiled, ``.o`` linked, headers are found. ``name``,
+    without extension, stands inside the file on macOS only. ``defines``: "NAME" or "NAME=VALUE".
     """
     output = f"{name}.{platform.extension}"
     flags = [*(["-shared"] if platform.format != "WASM" else []), *platform.flags]
@@ -146,10 +140,10 @@ def build(
         for file, content in files.items():
             data = content.encode() if isinstance(content, str) else content
             (Path(folder) / file).write_bytes(data)
-        code, said = _run(command, folder, platform, linker, note)
+        code, printed = _run(command, folder, platform, linker, note)
         if code:
-            lines = [line for line in said.splitlines() if "error" in line]
-            first = (lines or said.splitlines() or ["no message"])[0]
+            lines = [line for line in printed.splitlines() if "error" in line]
+            first = (lines or printed.splitlines() or ["no message"])[0]
             raise EnvironmentProblem(f"{linker.name} cannot build {output}: {first}")
         return (Path(folder) / output).read_bytes()
 
@@ -157,36 +151,30 @@ def build(
 def _run(
     command: Sequence[str], folder: str, platform: Platform, linker: Linker, note: Note
 ) -> tuple[int, str]:
-    """Return the exit status and what was said; do not let minutes pass in silence.
+    """Return the exit status and what was printed; do not let minutes pass in silence.
 
     Two first builds with zig at once can wait for each other for ever: they go one by one.
     """
     known = user_cache() / f"{linker.name}-{linker.version}-{platform.name}"
-    alone: AbstractContextManager[None] = nullcontext()
-    if linker.is_cross and not known.exists():
-        kept = Path(os.environ.get("ZIG_GLOBAL_CACHE_DIR") or user_cache())
-        with suppress(OSError):  # where nothing can be written there is nothing to wait for
-            kept.mkdir(parents=True, exist_ok=True)
-            alone = locked(
-                kept / "first-build.lock",
-                lambda: note(f"waiting for another first build with {linker.name}"),
-            )
-    with (
-        alone,
-        subprocess.Popen(
-            command, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
-        ) as process,
-    ):
+    with ExitStack() as stack:
+        if linker.is_cross and not known.exists():
+            kept = Path(os.environ.get("ZIG_GLOBAL_CACHE_DIR") or user_cache())
+            waiting = f"waiting for another first build with {linker.name}"
+            with suppress(OSError):  # where nothing can be written there is nothing to wait for
+                kept.mkdir(parents=True, exist_ok=True)
+                stack.enter_context(locked(kept / "first-build.lock", lambda: note(waiting)))
+        pipes: Any = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+        process = stack.enter_context(subprocess.Popen(command, cwd=folder, text=True, **pipes))
         try:
-            said, _ = process.communicate(timeout=LONG if known.exists() else SHORT)
+            printed, _ = process.communicate(timeout=LONG if known.exists() else SHORT)
         except subprocess.TimeoutExpired:
             note(
                 f"{linker.name} takes long for {platform.name}: the first time on a machine it "
                 "compiles its C library, some minutes"
             )
-            said, _ = process.communicate()
+            printed, _ = process.communicate()
         if process.returncode == 0:
             with suppress(OSError):  # only a note for the next time
                 known.parent.mkdir(parents=True, exist_ok=True)
                 known.touch()
-        return process.returncode, said
+        return process.returncode, printed

@@ -24,7 +24,7 @@ class Unfit(TypeError):
     """An argument is no array of the kind that the compiled function takes."""
 
     def __init__(self, item: Any, ndim: int) -> None:
-        super().__init__(f"a contiguous array of {item} with {ndim} dimensions is wanted")
+        super().__init__(f"a contiguous array of {item} with {ndim} dimensions is required")
 
 
 def native_function(

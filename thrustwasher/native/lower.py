@@ -25,13 +25,9 @@ def object_code(bitcode: bytes, platform: Platform, level: Level, kernel: str) -
     module = llvm.parse_bitcode(bitcode)
     if not _takes_attributes():
         level = replace(level, attribute="")
-    machine = llvm.Target.from_triple(platform.triple).create_target_machine(
-        cpu=level.cpu,
-        features="",
-        opt=3,
-        codemodel="default",
-        reloc="static" if platform.format == "WASM" else "pic",
-    )
+    reloc = "static" if platform.format == "WASM" else "pic"
+    options = {"cpu": level.cpu, "features": "", "opt": 3, "codemodel": "default", "reloc": reloc}
+    machine = llvm.Target.from_triple(platform.triple).create_target_machine(**options)
     module.triple, module.data_layout = platform.triple, str(machine.target_data)
     for function in module.functions:
         if function.is_declaration:
@@ -101,7 +97,7 @@ def main(arguments: list[str]) -> int:
         code = object_code(Path(bitcode).read_bytes(), TARGETS[platform], settings, kernel)
     except EnvironmentProblem as problem:
         print(problem, file=sys.stderr)
-        return emit.SAID
+        return emit.REPORTED
     Path(file).write_bytes(code)
     return 0
 

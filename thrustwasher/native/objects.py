@@ -19,7 +19,7 @@ from .files import Note, to_stderr
 from .targets import Level, Platform
 
 Objects = dict[tuple[str, str], bytes]  # (platform, level) -> object file
-Wanted = dict[tuple[str, str], tuple[Platform, Level]]
+Required = dict[tuple[str, str], tuple[Platform, Level]]
 PACKAGE = __name__.rpartition(".")[0]
 KEPT_VERSIONS = 5
 
@@ -27,17 +27,16 @@ KEPT_VERSIONS = 5
 def objects(kernel: str, platforms: Iterable[Platform], note: Note = to_stderr) -> Objects:
     """Return (platform, level) -> object file with the entries of a kernel module.
 
-    What several platforms need is made once; ``note`` is called with a line of progress before
-    something takes long. EnvironmentProblem: the kernel needs what an FMU does not have, or
-    numba is not as expected.
+    ``note`` is called before something takes long. EnvironmentProblem: the kernel needs what an FMU
+    does not have, or numba is not as expected.
     """
-    wanted, found = wanted_for(platforms), shipped.objects_of(kernel)
-    if wanted.keys() <= found.keys():
-        return {which: found[which] for which in wanted}
-    return compile_objects(kernel, kept_folder(kernel), wanted, note)
+    required, found = required_for(platforms), shipped.objects_of(kernel)
+    if required.keys() <= found.keys():
+        return {which: found[which] for which in required}
+    return compile_objects(kernel, kept_folder(kernel), required, note)
 
 
-def wanted_for(platforms: Iterable[Platform]) -> Wanted:
+def required_for(platforms: Iterable[Platform]) -> Required:
     """Return all levels of some platforms."""
     return {(p.name, level.name): (p, level) for p in platforms for level in p.levels}
 
@@ -47,19 +46,21 @@ def kept_folder(kernel: str) -> Path:
     return files.code_folder() / f"{shipped.short(kernel)}-{digest(kernel)}"
 
 
-def compile_objects(kernel: str, folder: Path, wanted: Wanted, note: Note = to_stderr) -> Objects:
+def compile_objects(
+    kernel: str, folder: Path, required: Required, note: Note = to_stderr
+) -> Objects:
     """Return the objects in ``folder`` after compiling what is missing; one process does it."""
-    name, made = shipped.short(kernel), _kept(folder, wanted)
+    name, made = shipped.short(kernel), _kept(folder, required)
     try:
-        if made.keys() != wanted.keys():
-            _compile_missing(kernel, name, folder, wanted, note)
-            made = _kept(folder, wanted)
+        if made.keys() != required.keys():
+            _compile_missing(kernel, name, folder, required, note)
+            made = _kept(folder, required)
     except OSError as error:
         raise EnvironmentProblem(
             f"compiling {name}: {error.filename or folder}: {error.strerror or error}; free room "
             "there, or let XDG_CACHE_HOME name another folder"
         ) from None
-    if made.keys() != wanted.keys():
+    if made.keys() != required.keys():
         raise EnvironmentProblem(f"{folder}: what was compiled is not there any more; start again")
     return made
 
@@ -68,13 +69,13 @@ def _object(folder: Path, which: tuple[str, str]) -> Path:
     return folder / f"{which[0]}-{which[1]}.o"
 
 
-def _kept(folder: Path, wanted: Wanted) -> Objects:
+def _kept(folder: Path, required: Required) -> Objects:
     """Return those objects that are there."""
-    found = {which: files.kept(_object(folder, which)) for which in wanted}
+    found = {which: files.kept(_object(folder, which)) for which in required}
     return {which: data for which, data in found.items() if data is not None}
 
 
-def _compile_missing(kernel: str, name: str, folder: Path, wanted: Wanted, note: Note) -> None:
+def _compile_missing(kernel: str, name: str, folder: Path, required: Required, note: Note) -> None:
     folder.mkdir(exist_ok=True, mode=0o700)
     os.utime(folder)  # the one used last
     files.forget_old(folder.parent, f"{name}-*", KEPT_VERSIONS)
@@ -82,31 +83,23 @@ def _compile_missing(kernel: str, name: str, folder: Path, wanted: Wanted, note:
     def waiting() -> None:
         note(f"{name} is being compiled by another process: waiting for it")
 
+    def lower(which: tuple[str, str]) -> None:
+        platform, level = required[which]
+        settings = platform.name, json.dumps(asdict(level)), name
+        _make(_object(folder, which), "lower", str(bitcode), *settings)
+
+    bitcode = folder / "module.bc"
     with files.locked(folder / "lock", waiting):
-        missing = wanted.keys() - _kept(folder, wanted).keys()
+        missing = required.keys() - _kept(folder, required).keys()
         if not missing:
             return
-        start, bitcode = time.perf_counter(), folder / "module.bc"
+        start = time.perf_counter()
         if files.kept(bitcode) is None:
             about = shipped.index()["kernels"].get(kernel, {}).get("seconds", 30.0)
             note(f"compiling {name}, whose source is new here: about {about:.0f} s")
             _make(bitcode, "emit", kernel, digest(kernel))
         with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-            jobs = [
-                pool.submit(
-                    _make,
-                    _object(folder, w),
-                    "lower",
-                    str(bitcode),
-                    platform.name,
-                    json.dumps(asdict(level)),
-                    name,
-                )
-                for w, (platform, level) in sorted(wanted.items())
-                if w in missing
-            ]
-            for job in jobs:
-                job.result()
+            list(pool.map(lower, sorted(missing)))
         note(f"compiled {name} in {time.perf_counter() - start:.0f} s")
 
 
@@ -126,6 +119,6 @@ def _make(path: Path, module: str, *arguments: str) -> None:
         if done.returncode:
             lines = done.stderr.strip().splitlines()
             last = lines[-1] if lines else f"it ended with {done.returncode}"
-            said = done.returncode == emit.SAID
-            raise EnvironmentProblem(last if said else f"compiling {arguments[0]}: {last}")
+            reported = done.returncode == emit.REPORTED
+            raise EnvironmentProblem(last if reported else f"compiling {arguments[0]}: {last}")
         files.keep(path, part.read_bytes())

@@ -31,11 +31,8 @@ def params_digest(params: Any) -> str:
 
 def changed_fields(params: Any) -> dict[str, Any]:
     """Return the fields that differ from their defaults."""
-    return {
-        f.name: getattr(params, f.name)
-        for f in fields(params)
-        if getattr(params, f.name) != f.default
-    }
+    values = ((f, getattr(params, f.name)) for f in fields(params))
+    return {f.name: value for f, value in values if value != f.default}
 
 
 @cache

@@ -18,7 +18,9 @@ def whole_file(path: Path) -> Iterator[Path]:
         try:  # a signal may stop it at any line: the name is known before the file is there
             draft.touch(0o600, exist_ok=False)
             yield draft
-            draft.chmod(0o666 & ~_umask())
+            mask = os.umask(0)  # of ordinary new files
+            os.umask(mask)
+            draft.chmod(0o666 & ~mask)
             os.replace(draft, path)
         finally:
             draft.unlink(missing_ok=True)
@@ -53,10 +55,3 @@ def new_folder(folder: Path, *, stays: bool = True) -> Iterator[None]:
         for made in missing:  # the innermost first
             with suppress(OSError):
                 made.rmdir()
-
-
-def _umask() -> int:
-    """Return the mask that ordinary new files get."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

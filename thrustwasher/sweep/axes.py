@@ -41,12 +41,9 @@ class Place:
         if self.kind in ("enumeration", "boolean"):
             check_value(self.name, value, self.meta)
             return str(value) if self.kind == "enumeration" else bool(value)
-        number = parse_quantity(
-            value if isinstance(value, str) else float(value),
-            self.unit,
-            self.name,
-            difference=bool(self.meta.get("relative")),
-        )
+        given = value if isinstance(value, str) else float(value)
+        relative = bool(self.meta.get("relative"))
+        number = parse_quantity(given, self.unit, self.name, difference=relative)
         check_value(self.name, number, self.meta, stated=has_unit(value))
         return int(number) if self.kind == "integer" else number
 
@@ -83,13 +80,13 @@ def find_place(name: str, known: dict[str, Place], spec: ModelSpec) -> Place:
     return known[name]
 
 
-def split_settings(texts: Iterable[str], option: str, wanted: str) -> dict[str, str]:
+def split_settings(texts: Iterable[str], option: str, allowed: str) -> dict[str, str]:
     """Return the values of every ``NAME=VALUES`` or ``NAME [UNIT]=VALUES`` by name, each once."""
     found: dict[str, str] = {}
     for text in texts:
         name, equals, values = (part.strip() for part in text.partition("="))
         if not name or not equals or not values:
-            raise ParameterError(f"{option} {text}: allowed: {wanted}")
+            raise ParameterError(f"{option} {text}: allowed: {allowed}")
         if name in found:
             raise ParameterError(f"{option} {text}: {name} is given twice")
         found[name] = values

@@ -249,14 +249,9 @@ class Run:
         """Return the task of lines ``a .. b - 1``."""
         plan = self.plan
         starts = plan.starts[a : b + 1]
-        return Task(
-            plan.spec.key,
-            plan.fidelity,
-            int(starts[0]),
-            plan.inputs[starts[0] : starts[-1]],
-            tuple((starts - starts[0]).tolist()),
-            tuple(plan.params[i] for i in plan.params_of[a:b]),
-        )
+        lines, rows = tuple((starts - starts[0]).tolist()), plan.inputs[starts[0] : starts[-1]]
+        params = tuple(plan.params[i] for i in plan.params_of[a:b])
+        return Task(plan.spec.key, plan.fidelity, int(starts[0]), rows, lines, params)
 
 
 @contextmanager

@@ -96,10 +96,7 @@ def _constants(model: str, fidelity: str, params: Any) -> Array:
 
 
 def _work(spec: ModelSpec, fidelity: str, params: Any, par: Array) -> Array:
-    """Return this worker's work array of a kernel; ParameterError if the rung's table is missing.
-
-    Only one with a table belongs to its parameters.
-    """
+    """Return a kernel's work array in this worker; ParameterError: the rung's table is missing."""
     return _filled_work(spec.key, *((fidelity, params) if wants_table(spec, par) else (None, None)))
 
 

@@ -66,7 +66,7 @@ def make_plan(
     asked = part.fidelity if fidelity is None else fidelity
     rung, tolerance = chooser.rung_and_tolerance(spec.key, spec, asked)
     base = params_of(spec, params)
-    held = {a.place.name: a.values[0] for a in _held(at, known, spec)}
+    held = _held(at, known, spec)
     axes = [read_axis(name, values, known, spec) for name, values in over.items()]
     if points is None:
         rows, lines, order = _grid(axes)
@@ -105,22 +105,19 @@ def _chosen(plan: Plan, tolerance: float) -> Plan:
     return replace(plan, fidelity=choice.fidelity, choice=str(choice), identity=identity)
 
 
-def _held(at: Mapping[str, Any], known: dict[str, Place], spec: ModelSpec) -> list[Axis]:
-    """Return what is held at one value."""
-    found = []
+def _held(at: Mapping[str, Any], known: dict[str, Place], spec: ModelSpec) -> dict[str, Any]:
+    """Return what is held at one value, by name."""
+    found = {}
     for name, value in at.items():
         axis = read_axis(name, value if isinstance(value, str) else [value], known, spec)
         if len(axis.values) != 1:
             raise ParameterError(f"{axis.place.name} = {value}, allowed: one value")
-        found.append(axis)
+        found[axis.place.name] = axis.values[0]
     return found
 
 
 def _grid(axes: list[Axis]) -> tuple[dict[str, Any], NDArray[np.int64], list[str]]:
-    """Return the columns of a full grid, the starts of its lines, the names in order.
-
-    Inputs run faster than parameters, and among each the one named first runs fastest.
-    """
+    """Return the columns of a full grid, the starts of its lines, the names, fastest first."""
     if not axes:
         raise ParameterError("over: nothing is varied, allowed: NAME=VALUES, e.g. load=50:1850:50")
     order = [a for a in axes if a.place.is_input] + [a for a in axes if not a.place.is_input]
@@ -214,23 +211,15 @@ def _assemble(
         shown[name] = rows[name]
         units[name] = next(p.unit for p in order if p.name == name)
     rung = rung_named(spec, fidelity)
-    plan = Plan(
-        spec,
-        rung,
-        inputs,
-        shown,
-        units,
-        starts,
-        params,
-        params_of,
-        taken=taken_text(box, default, spec.inputs),
-        warnings=(
-            *_idle(params, fidelity, spec.key),
-            *_of_oil(part, params, inputs),
-            *_outside(part, inputs),
-            *_doubt(spec, rung, params, np.repeat(params_of, np.diff(starts)), inputs),
-        ),
+    warnings = (
+        *_idle(params, fidelity, spec.key),
+        *_of_oil(part, params, inputs),
+        *_outside(part, inputs),
+        *_doubt(spec, rung, params, np.repeat(params_of, np.diff(starts)), inputs),
     )
+    rows_and_lines = inputs, shown, units, starts, params, params_of
+    taken = taken_text(box, default, spec.inputs)
+    plan = Plan(spec, rung, *rows_and_lines, taken=taken, warnings=warnings)
     plan.identity.update(_identity(plan, base, fixed, varied))
     return plan
 
@@ -307,11 +296,10 @@ def _parameters(
         keys = [()] * (len(starts) - 1)
     numbers: dict[Any, int] = {}
     of_line = np.array([numbers.setdefault(key, len(numbers)) for key in keys], np.int64)
-    given = {name: getattr(base, name) for name in type(base).__dataclass_fields__} | fixed
     found, first_error = [], None
     for key in numbers:
         try:
-            found.append(type(base)(**{**given, **dict(zip(names, key, strict=True))}))
+            found.append(replace(base, **fixed, **dict(zip(names, key, strict=True))))
         except ParameterError as error:
             first_error = first_error or error
             found.append(None)

@@ -50,11 +50,14 @@ class SweepTable:
         """What a reader must not miss: points outside the part's box, and those with an advice."""
         limits = (found.text(len(self)) for found in self.beyond)
         hot = max((found.rows for found in self.beyond if found.sign > 0.0), default=0)
-        told = {"OK", *(["HOT"] if hot >= self.counts.get("HOT", 0) else [])}  # told with the worst
+        known = {
+            "OK",
+            *(["HOT"] if hot >= self.counts.get("HOT", 0) else []),
+        }  # told with the worst
         advised = (
             f"{n} of {len(self)} points {name}: {Status[name].advice}"
             for name, n in sorted(self.counts.items())
-            if name not in told
+            if name not in known
         )
         return (*self.outside, *advised, *limits)
 
@@ -93,16 +96,8 @@ def make_table(
         names[status] = status.name
     columns["status"] = names[flags[:, -1]]
     counts = {Status(i).name: n for i, n in enumerate(np.bincount(flags[:, -1]).tolist()) if n}
-    return SweepTable(
-        columns,
-        units,
-        plan.fidelity,
-        plan.choice,
-        counts,
-        plan.taken,
-        plan.warnings,
-        tuple(beyond(plan.spec, columns)),
-    )
+    more = plan.taken, plan.warnings, tuple(beyond(plan.spec, columns))
+    return SweepTable(columns, units, plan.fidelity, plan.choice, counts, *more)
 
 
 def pieces(plan: Plan, blocks: Iterable[Block]) -> Iterator[SweepTable]:
@@ -123,7 +118,7 @@ def check_output(path: str | Path) -> Path:
     if target.suffix.lower() not in SUFFIXES:
         raise ParameterError(f"out = {str(path)!r}, allowed: a name ending in .csv or .parquet")
     if target.is_dir():
-        raise ParameterError(f"out = {str(path)!r}: is a folder, the name of a file is wanted")
+        raise ParameterError(f"out = {str(path)!r}: is a folder, the name of a file is required")
     if target.suffix.lower() == ".parquet":
         _pyarrow()
     return target
@@ -132,11 +127,9 @@ def check_output(path: str | Path) -> Path:
 def write_table(
     tables: Iterator[SweepTable], path: Path
 ) -> tuple[Counter[str], tuple[Beyond, ...]]:
-    """Write CSV or Parquet, as the name ends, from pieces of a table.
+    """Write CSV or Parquet, as the name ends, from pieces of a table, whole or not at all.
 
     Return the points by status, and what is beyond its bound.
-
-    The file appears complete or not at all.
     """
     counts, first, found = Counter[str](), next(tables), list[Beyond]()
     with whole_file(path) as draft, ExitStack() as stack:

@@ -14,7 +14,7 @@ from thrustwasher.fmu.documentation.html_page import accuracy, page, slope
 from thrustwasher.fmu.documentation.markup import markup
 from thrustwasher.fmu.package import licences as module
 from thrustwasher.fmu.package.licences import PLACE, licences, listed_licences
-from thrustwasher.fmu.package.model_sources import model_folder, source_folder
+from thrustwasher.fmu.package.model_sources import Order, model_folder, source_folder
 from thrustwasher.ladder.error_table import load_tables
 from thrustwasher.model.registry import all_specs, find_spec
 
@@ -36,14 +36,9 @@ _pages = {}
 
 def shown(spec, target="native"):
     if (spec.name, target) not in _pages:
-        _pages[spec.name, target] = page(
-            interface(spec),
-            model_folder(spec, source_folder()),
-            target=target,
-            fmi=2,
-            guid="1234abcd",
-            platforms=("linux64", "win64"),
-        )
+        order = Order(target, 2, ("linux64", "win64"), print)
+        folder = model_folder(spec, source_folder())
+        _pages[spec.name, target] = page(interface(spec), folder, order, "1234abcd")
     return _pages[spec.name, target]
 
 

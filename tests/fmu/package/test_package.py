@@ -11,7 +11,7 @@ from toy.spec import SPEC as TOY
 from thrustwasher.errors import ParameterError
 from thrustwasher.fmu.build import build
 from thrustwasher.fmu.description.interface import interface
-from thrustwasher.fmu.package.model_sources import identifier
+from thrustwasher.fmu.package.model_sources import Order, identifier
 from thrustwasher.model.registry import all_specs
 from thrustwasher.native.files import write
 
@@ -33,9 +33,8 @@ def test_the_guid_follows_the_content(tmp_path):
         (name / "text.c").write_text("one")
 
     def guid(target="native", fmi=2, tools="numba 1"):
-        return identifier(
-            interface(TOY), folder, shared=tmp_path, target=target, fmi=fmi, tools=tools
-        )
+        order = Order(target, fmi, (), print)
+        return identifier(interface(TOY), folder, order, tools, tmp_path)
 
     first = guid()
     assert first == guid() and len(first) == 32

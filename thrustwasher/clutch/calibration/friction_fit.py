@@ -65,7 +65,7 @@ class LawCalibration(Calibration):
         speed = np.abs(np.atleast_1d(np.asarray(slip_speed, float)))
         values = self._problem.values(self._best)
         rows = law.friction_slopes(values, speed, self._problem.names)
-        half = np.array([self._told.half_width_of(row) for row in rows])
+        half = np.array([self._learned.half_width_of(row) for row in rows])
         if any(e.name == "stick_speed" and not e.identifiable for e in self.estimates):
             half[speed < self._problem.speed.min()] = np.inf
         return self._problem.curve_over(values, speed), half
@@ -103,7 +103,7 @@ class FrictionFit(FrictionProblem):
         self, params: Any, found: Mapping[str, Any], first: Array, judged: list[Verdict]
     ) -> LawCalibration:
         """Return the calibration, with the ends of the curve and the test of load."""
-        best, told = found["_best"], found["_told"]
+        best, told = found["_best"], found["_learned"]
         return LawCalibration(
             params=params,
             points=self.points,

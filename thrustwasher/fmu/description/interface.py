@@ -6,6 +6,7 @@ are the same for every target and FMI version.
 """
 
 import sys
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import MISSING, Field, dataclass, fields
 from functools import cached_property
@@ -45,14 +46,14 @@ class Variable:
 
     name: str
     reference: int
-    type: str  # Real, Integer, Boolean or Enumeration
-    causality: str  # independent, input, parameter or output
-    variability: str
-    initial: str | None
-    unit: str
-    help: str
     store: str
     slot: int
+    help: str
+    type: str = "Real"  # or Integer, Boolean, Enumeration
+    causality: str = "parameter"  # or independent, input, output
+    variability: str = "fixed"
+    initial: str | None = "exact"
+    unit: str = "1"
     type_name: str | None = None  # of an enumeration
     low: float | None = None
     high: float | None = None
@@ -68,7 +69,7 @@ class Variable:
         return low, LARGEST if self.high is None else self.high
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Interface:
     """All that an FMU shows of a model; ``interface`` makes it, whatever writes or runs takes it.
 
@@ -77,25 +78,10 @@ class Interface:
 
     spec: ModelSpec
     variables: tuple[Variable, ...]
+    inputs: tuple[Variable, ...]
+    parameters: tuple[Variable, ...]
+    outputs: tuple[Variable, ...]
     enumerations: dict[str, tuple[Item, ...]]
-
-    @cached_property
-    def inputs(self) -> tuple[Variable, ...]:
-        """The inputs."""
-        return self._of("input")
-
-    @cached_property
-    def parameters(self) -> tuple[Variable, ...]:
-        """The parameters."""
-        return self._of("parameter")
-
-    @cached_property
-    def outputs(self) -> tuple[Variable, ...]:
-        """The outputs."""
-        return self._of("output")
-
-    def _of(self, causality: str) -> tuple[Variable, ...]:
-        return tuple(v for v in self.variables if v.causality == causality)
 
     @cached_property
     def status_slot(self) -> int | None:
@@ -151,34 +137,38 @@ _made: dict[int, Interface] = {}
 def interface(spec: ModelSpec) -> Interface:
     """Return the interface of a model, made once for each record."""
     if id(spec) not in _made:
-        items = _enumerations(spec)
-        entries = list(_entries(spec))
-        for entry in entries:
-            if entry["type"] == "Enumeration":
+        items, slots = _enumerations(spec), Counter[str]()
+        made: list[Variable] = []
+        for store, entry in _entries(spec):
+            if entry.get("type") == "Enumeration":
                 numbers = [item.value for item in items[entry["type_name"]]]
-                entry["low"], entry["high"] = min(numbers), max(numbers)
-        made = tuple(Variable(reference=i, **entry) for i, entry in enumerate(entries))
-        _made[id(spec)] = Interface(spec=spec, variables=made, enumerations=items)
+                entry |= {"low": min(numbers), "high": max(numbers)}
+            made.append(Variable(reference=len(made), store=store, slot=slots[store], **entry))
+            slots[store] += 1
+        inputs, parameters, outputs = (
+            tuple(v for v in made if v.causality == kind)
+            for kind in ("input", "parameter", "output")
+        )
+        _made[id(spec)] = Interface(spec, tuple(made), inputs, parameters, outputs, items)
     return _made[id(spec)]
 
 
-def _entries(spec: ModelSpec) -> Iterator[dict[str, Any]]:
-    """Give what variables are made of, in the order of their value references."""
-    yield {
-        "name": "time",
-        "type": "Real",
-        "causality": "independent",
-        "store": "time",
-        "slot": 0,
-        "variability": "continuous",
-        "initial": None,
-        "unit": "s",
-        "help": "time of the present communication point",
-    }
-    yield from (_signal(s, "inp", i) for i, s in enumerate(spec.inputs))
-    yield from (_parameter(i, f) for i, f in enumerate(fields(spec.params)))
-    yield _fidelity(spec)
-    yield from _outputs(spec)
+def _entries(spec: ModelSpec) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Give store and fields of the variables, in the order of their value references."""
+    clock = Signal(name="time", unit="s", help="time of the present communication point")
+    yield "time", _signal(clock, causality="independent", initial=None)
+    for signal in spec.inputs:
+        yield "inp", _signal(signal, causality="input", initial=None, start=signal.start or 0.0)
+    for f in fields(spec.params):
+        yield "par", _parameter(f)
+    rung = list(spec.fidelities).index(spec.default_fidelity) + 1.0
+    kind = {"type": "Enumeration", "type_name": "Fidelity"}
+    words = "how finely the model is resolved"
+    yield "par", kind | {"name": "fidelity", "help": words, "start": rung}
+    for signal in spec.outputs:
+        store = "out" if signal.kind == "real" else "iout"
+        own = {"causality": "output", "initial": "calculated", "depends": signal.depends}
+        yield store, _signal(signal, **own)
 
 
 def _enumerations(spec: ModelSpec) -> dict[str, tuple[Item, ...]]:
@@ -186,12 +176,8 @@ def _enumerations(spec: ModelSpec) -> dict[str, tuple[Item, ...]]:
     for f in fields(spec.params):
         if f.metadata["kind"] == "enumeration":
             found[f.metadata["type"]] = _counted(f.metadata["options"])
-    shared = {
-        "Regime": _counted(REGIMES),
-        "SolverStatus": tuple(
-            Item(name=s.name, value=int(s), help=s.advice) for s in sorted(Status)
-        ),
-    }
+    statuses = tuple(Item(name=s.name, value=int(s), help=s.advice) for s in sorted(Status))
+    shared = {"Regime": _counted(REGIMES), "SolverStatus": statuses}
     used = {signal.type for signal in (*spec.inputs, *spec.outputs)}
     return found | {name: items for name, items in shared.items() if name in used}
 
@@ -200,72 +186,33 @@ def _counted(options: dict[str, str]) -> tuple[Item, ...]:
     return tuple(Item(name=n, value=i, help=t) for i, (n, t) in enumerate(options.items(), 1))
 
 
-def _outputs(spec: ModelSpec) -> Iterator[dict[str, Any]]:
-    """Real outputs fill ``out``, the others ``iout``, both in the order of the list."""
-    filled = {"out": 0, "iout": 0}
-    for signal in spec.outputs:
-        store = "out" if signal.kind == "real" else "iout"
-        yield _signal(signal, store, filled[store])
-        filled[store] += 1
-
-
-def _signal(signal: Signal, store: str, slot: int) -> dict[str, Any]:
-    start = signal.start or 0.0
-    own = (
-        {"causality": "input", "initial": None, "start": start}
-        if store == "inp"
-        else {"causality": "output", "initial": "calculated", "depends": signal.depends}
+def _signal(signal: Signal, **own: Any) -> dict[str, Any]:
+    same = ("name", "unit", "help", "low", "high", "nominal", "relative")
+    return (
+        own
+        | {name: getattr(signal, name) for name in same}
+        | {
+            "type": signal.kind.capitalize(),
+            "type_name": signal.type,
+            "variability": "continuous" if signal.kind == "real" else "discrete",
+        }
     )
-    return own | {
-        "name": signal.name,
-        "type": signal.kind.capitalize(),
-        "unit": signal.unit,
-        "help": signal.help,
-        "type_name": signal.type,
-        "low": signal.low,
-        "high": signal.high,
-        "nominal": signal.nominal,
-        "relative": signal.relative,
-        "store": store,
-        "slot": slot,
-        "variability": "continuous" if signal.kind == "real" else "discrete",
-    }
 
 
-def _parameter(slot: int, f: "Field[Any]") -> dict[str, Any]:
+def _parameter(f: "Field[Any]") -> dict[str, Any]:
     m = f.metadata
     assert f.default is not MISSING, "every parameter has a default"
     start = list(m["options"]).index(f.default) + 1 if "options" in m else f.default
     return {
         "name": f.name,
         "type": m["kind"].capitalize(),
-        "causality": "parameter",
         "variability": "tunable" if m.get("tunable") else "fixed",
-        "initial": "exact",
         "unit": m["unit"],
         "help": m["help"],
-        "store": "par",
-        "slot": slot,
         "type_name": m.get("type"),
         "low": m["min"],
         "high": m["max"],
         "nominal": m.get("nominal") or abs(float(start)) or None,
         "start": float(start),
         "relative": m.get("relative", False),
-    }
-
-
-def _fidelity(spec: ModelSpec) -> dict[str, Any]:
-    return {
-        "name": "fidelity",
-        "type": "Enumeration",
-        "causality": "parameter",
-        "variability": "fixed",
-        "initial": "exact",
-        "unit": "1",
-        "store": "par",
-        "slot": len(fields(spec.params)),
-        "type_name": "Fidelity",
-        "help": "how finely the model is resolved",
-        "start": float(list(spec.fidelities).index(spec.default_fidelity) + 1),
     }

@@ -33,6 +33,7 @@ DISPLAY = {
 }
 # Declared types of real variables: name -> attributes.
 REAL_TYPES: dict[str, dict[str, Any]] = table_beside(__file__, "real_types.toml")
+DECLARED = {(a["unit"], "relativeQuantity" in a): name for name, a in REAL_TYPES.items()}
 
 
 def description(shown: Interface, *, fmi: int, guid: str, derivatives: bool = False) -> bytes:
@@ -60,14 +61,7 @@ def terminals_and_icons(shown: Interface, *, icon: bool = True) -> bytes:
 
 def declared_type(v: Variable) -> str | None:
     """Return the declared type of a real variable, if its unit has one."""
-    return next(
-        (
-            name
-            for name, said in REAL_TYPES.items()
-            if said["unit"] == v.unit and ("relativeQuantity" in said) == v.relative
-        ),
-        None,
-    )
+    return DECLARED.get((v.unit, v.relative))
 
 
 def display_unit(v: Variable) -> str | None:

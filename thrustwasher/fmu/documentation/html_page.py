@@ -1,6 +1,5 @@
 """documentation/index.html of an FMU: the template in fmu_src filled from the model's lists."""
 
-from collections.abc import Sequence
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
@@ -15,7 +14,7 @@ from ...templates import filled
 from ..description.interface import Interface, interface
 from ..model_kernels import package_version
 from ..package.licences import listed_licences
-from ..package.model_sources import source_folder
+from ..package.model_sources import Order, source_folder
 from ..running.direct_instance import DirectInstance
 from .markup import data_uri, markup
 from .reference_results import FOLDER
@@ -24,30 +23,19 @@ Rows = list[tuple[str, ...]]
 WIDTH = 1e-3  # rad/s, of the central difference: small beside every smoothing
 
 
-def page(
-    shown: Interface,
-    folder: Path,
-    *,
-    target: str,
-    fmi: int,
-    guid: str,
-    platforms: Sequence[str],
-    runs: bool = True,
-) -> str:
-    """Return the page.
+def page(shown: Interface, folder: Path, order: Order, guid: str, *, runs: bool = True) -> str:
+    """Return the page; ``folder`` holds the model's icon and readme, its title in the first line.
 
-    ``folder`` holds the model's icon and readme, whose first line is the title. With ``runs`` =
-    False the model is not run for the slope of its torque, and need not be compiled for this
-    Python.
+    With ``runs`` = False the model is not run for the slope of its torque.
     """
     spec, icon = shown.spec, folder / "icon.png"
     return filled(
         source_folder() / "documentation" / "index.html",
         spec=spec,
-        target=target,
-        fmi=fmi,
+        target=order.target,
+        fmi=order.fmi,
         guid=guid,
-        platforms=platforms,
+        platforms=order.platforms,
         version=package_version(),
         reference=FOLDER,
         icon=data_uri(icon) if icon.is_file() else "",
@@ -60,7 +48,7 @@ def page(
         accuracy_head=("fidelity", "within", "points", *QUANTITIES, "measured with"),
         accuracy=accuracy(spec),
         equations=equations(folder),
-        licences=listed_licences(target, platforms),
+        licences=listed_licences(order.target, order.platforms),
     ).decode()
 
 
@@ -131,11 +119,11 @@ def _slope_words(spec: ModelSpec, runs: bool) -> str | None:
     if not runs:
         return ""
     point = {s.name: s.usual for s in spec.inputs}
-    said = [
+    slopes = [
         f"{slope(spec, point | {'speed': v}):.1e} at {v:g} rad/s" for v in (0.0, point["speed"])
     ]
     others = ", ".join(f"{n} = {x:g} {inputs[n].unit}" for n, x in point.items() if n != "speed")
-    return f"Here c [N.m.s/rad] is {' and '.join(said)}, with {others}."
+    return f"Here c [N.m.s/rad] is {' and '.join(slopes)}, with {others}."
 
 
 def slope(spec: ModelSpec, point: dict[str, float]) -> float:

@@ -50,8 +50,10 @@ def _block(kind: str, lines: list[str], folder: Path, level: int) -> str:
         return "<ul>" + "".join(f"<li>{_inline(item)}</li>" for item in items) + "</ul>"
     picture = re.fullmatch(r"!\[(.*)\]\((.*)\)", " ".join(lines))
     if picture:
-        said, file = escape(picture[1]), data_uri(folder / picture[2])
-        return f'<figure><img alt="{said}" src="{file}"><figcaption>{said}</figcaption></figure>'
+        caption, file = escape(picture[1]), data_uri(folder / picture[2])
+        return (
+            f'<figure><img alt="{caption}" src="{file}"><figcaption>{caption}</figcaption></figure>'
+        )
     return f"<p>{_inline(whole)}</p>"
 
 

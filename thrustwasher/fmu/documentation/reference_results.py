@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...model.spec import ModelSpec
+from ...model.spec import ModelSpec, Signal
 from ...templates import filled
 from ..description.interface import interface
 from ..running.direct_instance import DirectInstance
@@ -23,28 +23,19 @@ def reference_files(spec: ModelSpec) -> dict[str, bytes]:
     millionth of the nominal value.
     """
     rows = reference_run(spec)
-    told = [
-        (
-            "in",
-            "testcase",
-            "inputs of the default experiment, linear between the rows",
-            spec.inputs,
-            input_rows(spec),
-        ),
-        (
-            "out",
-            "result",
-            "outputs of the default experiment, at the ends of some of its steps",
-            spec.outputs,
-            rows[:: max(1, len(rows) // ROWS)],
-        ),
+    kept = rows[:: max(1, len(rows) // ROWS)]
+    what = "of the default experiment"
+    listed: list[tuple[str, str, str, tuple[Signal, ...], Rows]] = [
+        ("out", "result", f"outputs {what}, at the ends of some of its steps", spec.outputs, kept)
     ]
-    told = told if spec.course else told[1:]
-    related = [(f"{spec.name}_{ending}.csv", role, meaning) for ending, role, meaning, *_ in told]
-    files = {
-        name: table([signal.name for signal in signals], shown)
-        for (name, *_), (*_, signals, shown) in zip(related, told, strict=True)
-    }
+    if spec.course:
+        words = f"inputs {what}, linear between the rows"
+        listed.insert(0, ("in", "testcase", words, spec.inputs, input_rows(spec)))
+    related, files = [], {}
+    for ending, role, meaning, signals, shown in listed:
+        name = f"{spec.name}_{ending}.csv"
+        related.append((name, role, meaning))
+        files[name] = table([signal.name for signal in signals], shown)
     manifest = Path(__file__).with_name("fmi-ls-manifest.xml.jinja")
     files["fmi-ls-manifest.xml"] = filled(manifest, related=related)
     return {f"{FOLDER}/{name}": content for name, content in files.items()}
@@ -57,10 +48,7 @@ def input_rows(spec: ModelSpec) -> Rows:
 
 
 def reference_run(spec: ModelSpec) -> Rows:
-    """Return rows of time and all outputs over the default experiment.
-
-    Numbers of less than a millionth of the nominal value become 0.
-    """
+    """Return rows of time and all outputs over the default experiment."""
     stop, h = interface(spec).experiment
     course = np.array(input_rows(spec))
     times = h * np.arange(round(stop / h) + 1)

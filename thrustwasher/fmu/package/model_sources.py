@@ -2,12 +2,15 @@
 
 import hashlib
 import re
+from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
+from typing import NamedTuple
 
 from ...errors import EnvironmentProblem
 from ...model.registry import MODELS as HOMES
 from ...model.spec import ModelSpec
+from ...native.files import Note
 from ..description.interface import Interface
 from ..model_kernels import content_digest, package_version
 
@@ -38,27 +41,31 @@ def model_folder(spec: ModelSpec, sources: Path) -> Path:
     return sources / re.sub(r"(?<=[a-z])(?=[A-Z])", "_", spec.kind or spec.name).lower()
 
 
+class Order(NamedTuple):
+    """What kind of FMU is built: ``local``: compiled for the processor of this machine."""
+
+    target: str
+    fmi: int
+    platforms: Sequence[str]
+    note: Note
+    local: bool = False
+
+
 def identifier(
-    shown: Interface,
-    folder: Path,
-    *,
-    target: str,
-    fmi: int,
-    tools: str = "",
-    shared: Path | None = None,
+    shown: Interface, folder: Path, order: Order, tools: str = "", shared: Path | None = None
 ) -> str:
     """Return 32 hex digits over all that decides what an FMU contains.
 
-    That is the interface, the kernels, the model's own files in ``folder``, what the models share
-    (C shell and documentation, in ``shared``, by default ``source_folder()``), this package's
-    packing, target, FMI version, package version and ``tools``: the versions of the compilers, and
-    whatever else goes in. No clock, no path, no chance.
+    ``folder`` holds the model's own files, ``shared`` (by default ``source_folder()``) C shell and
+    documentation; ``tools``: the versions of the compilers, and whatever else goes in. No clock, no
+    path, no chance.
     """
     spec = shown.spec
     own = spec.name, spec.help, spec.box, spec.notes, spec.course, spec.stop_time, spec.step_size
-    said = shown.variables, shown.enumerations, spec.terminals, own
-    hashed = hashlib.sha256(repr(said).encode())
-    hashed.update(f"{content_digest(spec)} {target} {fmi} {package_version()} {tools}".encode())
+    content = shown.variables, shown.enumerations, spec.terminals, own
+    hashed = hashlib.sha256(repr(content).encode())
+    hashed.update(f"{content_digest(spec)} {package_version()} {tools}".encode())
+    hashed.update(f"{order.target} {order.fmi}".encode())
     beside = shared or source_folder()
     for root in (*OWN, folder, *(beside / name for name in SHARED)):
         for file in sorted(f for f in root.rglob("*") if f.suffix in TEXTS and f.is_file()):

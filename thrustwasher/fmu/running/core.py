@@ -16,7 +16,7 @@ from ...model.rungs import gone_rung
 from ...native.load import bound
 from ..description.interface import Interface, Variable
 from ..model_kernels import content_digest
-from .snapshot import Snapshot
+from .snapshot import ARRAYS, Snapshot
 
 # What is said of an input outside the part's box, and outside what was verified: before it, behind.
 RANGES = (
@@ -55,18 +55,11 @@ class Core:
         self.state, self.work = np.zeros(kernel.NSTATE), np.zeros(kernel.NWORK)
         self.out, self.iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
         self._step_into = partial(kernel.step, self.par, self.inp, self.state, self.work)
-        self._step = bound(
-            kernel.step,
-            par=self.par,
-            inp=self.inp,
-            state=self.state,
-            work=self.work,
-            out=self.out,
-            iout=self.iout,
-        )
+        names = ("par", "inp", "state", "work", "out", "iout")
+        self._arrays = {name: getattr(self, name) for name in names}
+        self._step = bound(kernel.step, **self._arrays)
         self._undo = self.state.copy(), self.out.copy(), self.iout.copy()
         self._zeros = np.zeros(kernel.NOUT)
-        self._arrays = {name: getattr(self, name) for name in ("par", "inp", "out", "iout")}
         self._ranges = shown.ranges()
         self._beyond = [[False] * len(own) for own in self._ranges]
         self._warned = -1  # the status that was last told, -1: nothing yet
@@ -262,10 +255,10 @@ class Core:
 
     def messages(self) -> list[tuple[str, str]]:
         """Return (category, text) of all that a host has to be told after a step."""
-        told = [("logStatusWarning", self.late)] + [("logEvents", text) for text in self.events]
-        told.append(("logNonlinearSystems", self.effort))
-        told += [("logStatusWarning", text) for text in self.advice()]
-        return [(category, text) for category, text in told if text]
+        sent = [("logStatusWarning", self.late)] + [("logEvents", text) for text in self.events]
+        sent.append(("logNonlinearSystems", self.effort))
+        sent += [("logStatusWarning", text) for text in self.advice()]
+        return [(category, text) for category, text in sent if text]
 
     def note_switches(self) -> list[str]:
         """Return one sentence for each event since the last communication point."""
@@ -316,7 +309,7 @@ class Core:
 
     def advice(self) -> list[str]:
         """Return what the host has to be warned of now, each once until it has passed."""
-        said, unverified, begin = [], False, f"{self._here}: "
+        outside, unverified, begin = [], False, f"{self._here}: "
         for k, (name, words) in enumerate(RANGES):
             for i, (v, (low, high)) in enumerate(
                 zip(self.shown.inputs, self._ranges[k], strict=True)
@@ -326,15 +319,15 @@ class Core:
                 unverified |= bool(k) and beyond
                 if beyond and not self._beyond[k][i]:
                     span = f"is outside {low:g} .. {high:g}{unit}, {words}"
-                    said.append((i, k, f"{begin}{name}{v.name} = {value:g}{unit} {span}"))
+                    outside.append((i, k, f"{begin}{name}{v.name} = {value:g}{unit} {span}"))
                 self._beyond[k][i] = beyond
-        status, found = self.status, [text for *_, text in sorted(said)]
+        status, found = self.status, [text for *_, text in sorted(outside)]
         if self._warned < 0:
             number = int(self.par.item(len(fields(self.spec.params))))
             rung = list(self.spec.fidelities)[number - 1]
             found = [*(begin + text for text in gone_rung(self.spec, rung)), *found]
-        told = status == self._warned or (status is Status.OUTSIDE_VERIFIED and unverified)
-        if not told and Status.OK < status < FIRST_FAILURE:
+        is_known = status == self._warned or (status is Status.OUTSIDE_VERIFIED and unverified)
+        if not is_known and Status.OK < status < FIRST_FAILURE:
             found.append(f"{begin}{status.name}: {status.advice}; {self._point(self.shown.point)}")
         self._warned = status
         return found
@@ -350,11 +343,7 @@ class Core:
         """Copy all that decides what comes next."""
         return Snapshot(
             identity=content_digest(self.spec),
-            par=self.par.copy(),
-            inp=self.inp.copy(),
-            state=self.state.copy(),
-            out=self.out.copy(),
-            iout=self.iout.copy(),
+            **{name: self._arrays[name].copy() for name in ARRAYS},
             time=self.time,
             mode=int(self.mode),
             dirty=self.dirty,
@@ -366,19 +355,15 @@ class Core:
 
     def restore(self, snapshot: Snapshot) -> None:
         """Go back to a snapshot of this model and version, or raise ParameterError."""
-        names = ("par", "inp", "state", "out", "iout")
         mine = content_digest(self.spec)
-        if (
-            snapshot.identity != mine
-            or any(getattr(snapshot, n).shape != getattr(self, n).shape for n in names)
-            or len(snapshot.seen) != len(self._seen)
-        ):
+        fits = all(getattr(snapshot, n).shape == self._arrays[n].shape for n in ARRAYS)
+        if snapshot.identity != mine or not fits or len(snapshot.seen) != len(self._seen):
             raise ParameterError(
                 f"FMU state of another model or version ({snapshot.identity}), "
                 f"allowed: {self.spec.name} {mine}"
             )
-        for name in names:
-            getattr(self, name)[:] = getattr(snapshot, name)
+        for name in ARRAYS:
+            self._arrays[name][:] = getattr(snapshot, name)
         self.time, self.mode = snapshot.time, Mode(snapshot.mode)
         self.dirty, self.prepared = snapshot.dirty, snapshot.prepared
         self.latch, self._unsolved = snapshot.latch, ""

@@ -14,7 +14,25 @@ from .core import Core
 from .snapshot import from_bytes
 
 
-class DirectInstance:
+class Stepped:
+    """What all instances have: counters, and their end at that of a ``with``."""
+
+    calls, wall_time, initialize_time = 0, 0.0, 0.0
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def free_state(self, state: Any) -> None:
+        """Do nothing: a state is an ordinary object."""
+
+    def close(self) -> None:
+        """Do nothing: the memory goes with the object."""
+
+
+class DirectInstance(Stepped):
     """The kernels of a model in this process, without an FMU."""
 
     def __init__(self, spec: ModelSpec, *, parameters: Mapping[str, Any] | None = None) -> None:
@@ -26,17 +44,10 @@ class DirectInstance:
         self.input_names = [s.name for s in spec.inputs]
         self.output_names = [s.name for s in spec.outputs]
         self._parameters = dict(parameters or {})
-        self.calls, self.wall_time, self.initialize_time = 0, 0.0, 0.0
         self._sens = getattr(kernel_of(spec), "sens", None)
         self.saves_state, self.gives_derivatives = True, self._sens is not None
         self.reset()
         self.instantiate_time = perf_counter() - start
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
 
     def reset(self) -> None:
         """Go back to the start values and the parameters given at construction."""
@@ -123,9 +134,6 @@ class DirectInstance:
         """Go back to a state."""
         self.core.restore(state)
 
-    def free_state(self, state: Any) -> None:
-        """Do nothing: the state is an ordinary object."""
-
     def serialize(self, state: Any) -> bytes:
         """Return a state as bytes."""
         data: bytes = state.to_bytes()
@@ -134,9 +142,6 @@ class DirectInstance:
     def deserialize(self, data: bytes) -> Any:
         """Return the state in bytes of ``serialize``."""
         return from_bytes(data)
-
-    def close(self) -> None:
-        """Do nothing: the memory goes with the object."""
 
 
 def unknown(name: str, known: list[str]) -> Any:

@@ -6,37 +6,23 @@ import hashlib
 import os
 import platform
 import re
-import shutil
-import struct
 import sys
 import tempfile
-import time
 import zipfile
-import zlib
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from ...errors import EnvironmentProblem, ParameterError, naming
-from ...native.files import code_folder
+from ...native.files import DAMAGED, code_folder, forget_old
 
 KEPT = 20  # unpacked FMUs
 IN_USE = 86400.0  # s; a folder used within this time may be open in another process
 # The disk's or the user's trouble; other errors come of a damaged archive.
 DISK = {
     getattr(errno, name, None)
-    for name in (
-        "ENOSPC",
-        "EDQUOT",
-        "EFBIG",
-        "EIO",
-        "EROFS",
-        "EACCES",
-        "EPERM",
-        "EMFILE",
-        "ENFILE",
-    )
+    for name in "ENOSPC EDQUOT EFBIG EIO EROFS EACCES EPERM EMFILE ENFILE".split()
 }
 WARNING = 1  # of both FMI versions; what is above carries the reason of a failure
 # Arguments behind "..." lie where named ones would: everywhere but on Apple's ARM.
@@ -52,11 +38,11 @@ class Message(NamedTuple):
 
 
 class Messages(list[Message]):
-    """What an FMU said and nobody has looked at yet; ``said`` is 1 once there was something."""
+    """What an FMU said and nobody has looked at yet; ``logged`` is 1 once there was something."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.said = ctypes.c_int64(0)
+        self.logged = ctypes.c_int64(0)
 
 
 def unpack(path: str | os.PathLike[str]) -> Path:
@@ -100,17 +86,7 @@ def _extract(path: str, folder: Path) -> None:
         with zipfile.ZipFile(path) as archive:
             archive.getinfo("modelDescription.xml")
             archive.extractall(folder)
-    except (
-        OSError,
-        zipfile.BadZipFile,
-        zlib.error,
-        struct.error,
-        EOFError,
-        KeyError,
-        ValueError,
-        OverflowError,
-        RuntimeError,
-    ) as problem:
+    except (OSError, *DAMAGED) as problem:
         if isinstance(problem, OSError) and problem.errno in DISK:
             raise
         raise ParameterError(
@@ -120,17 +96,7 @@ def _extract(path: str, folder: Path) -> None:
 
 def prune(home: Path, kept: int = KEPT) -> None:
     """Remove folders that were not used for a day, except the ``kept`` used last."""
-    used = []
-    for folder in home.iterdir():
-        with suppress(OSError):  # another process prunes too
-            if folder.is_dir():
-                used.append((folder.stat().st_mtime, folder))
-    for last, folder in sorted(used, reverse=True)[kept:]:
-        if time.time() - last > IN_USE:
-            gone = folder.with_name(f".{folder.name}.{os.getpid()}")
-            with suppress(OSError):
-                folder.rename(gone)  # nobody finds half a folder
-                shutil.rmtree(gone, ignore_errors=True)
+    forget_old(home, "*", kept, IN_USE)
 
 
 @cache
@@ -151,10 +117,10 @@ def capabilities(folder: Path) -> tuple[bool, bool]:
 
     root = ElementTree.parse(folder / "modelDescription.xml").getroot()
     found = root.find("CoSimulation")
-    flags = {} if found is None else {name.lower(): said for name, said in found.attrib.items()}
+    flags = {} if found is None else {name.lower(): value for name, value in found.attrib.items()}
     slope = "providesdirectionalderivative"
-    said = flags.get("cangetandsetfmustate"), flags.get(f"{slope}s") or flags.get(slope)
-    return said[0] in ("true", "1"), said[1] in ("true", "1")
+    states, slopes = flags.get("cangetandsetfmustate"), flags.get(f"{slope}s") or flags.get(slope)
+    return states in ("true", "1"), slopes in ("true", "1")
 
 
 def instantiate(folder: Path, described: Any, name: str, messages: Messages) -> Any:
@@ -183,7 +149,7 @@ def instantiate(folder: Path, described: Any, name: str, messages: Messages) -> 
         ctypes.CDLL(fmu.dll._name, mode=os.RTLD_NOLOAD | os.RTLD_NODELETE | os.RTLD_NOW)
     try:
         if third:  # its logger gets a plain text
-            fmu.instantiate(loggingOn=True, logMessage=lambda _, *told: _keep(messages, *told))
+            fmu.instantiate(loggingOn=True, logMessage=lambda _, *rest: _keep(messages, *rest))
         else:
             _begin2(fmu, messages)
     except Exception as problem:
@@ -206,8 +172,8 @@ def _begin2(fmu: Any, messages: Messages) -> None:
     if VARIADIC_AS_USUAL:
 
         def log(_: Any, _name: bytes, status: int, category: bytes, text: bytes, more: int) -> None:
-            told = ctypes.string_at(more) if text == b"%s" and more else text
-            _keep(messages, status, category, told)
+            sent = ctypes.string_at(more) if text == b"%s" and more else text
+            _keep(messages, status, category, sent)
 
         pointers = ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int, ctypes.c_char_p, ctypes.c_char_p
         logger = ctypes.CFUNCTYPE(None, *pointers, ctypes.c_void_p)(log)
@@ -215,7 +181,7 @@ def _begin2(fmu: Any, messages: Messages) -> None:
     else:
         from fmpy.logging import addLoggerProxy
 
-        logger = fmi2CallbackLoggerTYPE(lambda _e, _n, *told: _keep(messages, *told))
+        logger = fmi2CallbackLoggerTYPE(lambda _e, _n, *rest: _keep(messages, *rest))
         callbacks.logger = logger
         addLoggerProxy(ctypes.byref(callbacks))  # it knows one logger per process: the last
     fmu.kept_logger = logger  # alive as long as the FMU
@@ -223,6 +189,6 @@ def _begin2(fmu: Any, messages: Messages) -> None:
 
 
 def _keep(messages: Messages, status: int, category: bytes | None, text: bytes | None) -> None:
-    told = [(x or b"").decode("utf-8", "replace") for x in (category, text)]
-    messages.append(Message(status, *told))
-    messages.said.value = 1
+    texts = [(x or b"").decode("utf-8", "replace") for x in (category, text)]
+    messages.append(Message(status, *texts))
+    messages.logged.value = 1

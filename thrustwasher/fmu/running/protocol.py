@@ -6,30 +6,26 @@ through FMPy. FMPy has declared the argument types of all functions when it load
 
 import ctypes
 from collections.abc import Callable, Sequence
+from ctypes import c_bool, c_double, c_int, c_int32, c_int64
+from functools import partial
 from operator import itemgetter
 from typing import Any, NamedTuple
 
 # C types of values -> how a compiled loop calls them.
-KINDS = {
-    ctypes.c_double: "REAL",
-    ctypes.c_int: "INT32",
-    ctypes.c_int32: "INT32",
-    ctypes.c_int64: "INT64",
-    ctypes.c_bool: "BYTE",
-}
+KINDS = {c_double: "REAL", c_int: "INT32", c_int64: "INT64", c_bool: "BYTE"}
 # Of both versions: type of a variable -> (name in calls, C type).
 TYPES: dict[int, dict[str, tuple[str, Any]]] = {
     2: {
-        "Real": ("Real", ctypes.c_double),
-        "Integer": ("Integer", ctypes.c_int),
-        "Enumeration": ("Integer", ctypes.c_int),
-        "Boolean": ("Boolean", ctypes.c_int),
+        "Real": ("Real", c_double),
+        "Integer": ("Integer", c_int),
+        "Enumeration": ("Integer", c_int),
+        "Boolean": ("Boolean", c_int),
     },
     3: {
-        "Float64": ("Float64", ctypes.c_double),
-        "Int32": ("Int32", ctypes.c_int32),
-        "Enumeration": ("Int64", ctypes.c_int64),
-        "Boolean": ("Boolean", ctypes.c_bool),
+        "Float64": ("Float64", c_double),
+        "Int32": ("Int32", c_int32),
+        "Enumeration": ("Int64", c_int64),
+        "Boolean": ("Boolean", c_bool),
     },
 }
 
@@ -42,8 +38,8 @@ class Protocol:
         self.types = TYPES[version]
         self.lengths = version - 2  # times the number of values is handed over beside the values
         self._do_step = self.function("DoStep")
-        self._told = (ctypes.c_bool(), ctypes.c_bool(), ctypes.c_bool(), ctypes.c_double())
-        self._rest = (0,) if version == 2 else (False, *(ctypes.byref(x) for x in self._told))
+        self._early = (c_bool(), c_bool(), c_bool(), c_double())
+        self._rest = (0,) if version == 2 else (False, *(ctypes.byref(x) for x in self._early))
 
     def begin(self, start_time: float) -> None:
         """Enter initialization at a time."""
@@ -56,10 +52,6 @@ class Protocol:
     def step(self, t: float, h: float) -> int:
         """Advance and return the status."""
         return self._do_step(self.fmu.component, t, h, *self._rest)
-
-    def is_whole(self, variable: Any) -> bool:
-        """Tell if a variable takes whole numbers only."""
-        return self.types[variable.type][1] is not ctypes.c_double
 
     def function(self, name: str) -> Callable[..., int]:
         """Return a function of the library; it returns the status as a number."""
@@ -80,24 +72,12 @@ class Group:
         self.references = _references([found[i] for i in places])
         self.places = list(places)
         self.values = (c_type * n)()
-        self.whole = c_type is not ctypes.c_double
-        self._arguments = (
-            protocol.fmu.component,
-            self.references,
-            n,
-            self.values,
-            *(n,) * protocol.lengths,
-        )
-        self.set_function = protocol.function(f"Set{kind}")
-        self.get_function = protocol.function(f"Get{kind}")
-
-    def set(self) -> int:
-        """Hand the values over and return the status."""
-        return self.set_function(*self._arguments)
-
-    def get(self) -> int:
-        """Fetch the values and return the status."""
-        return self.get_function(*self._arguments)
+        self.whole = c_type is not c_double
+        lengths = (n,) * protocol.lengths
+        call = (protocol.fmu.component, self.references, n, self.values, *lengths)
+        # hand the values over, fetch them; both return the status
+        self.set = partial(protocol.function(f"Set{kind}"), *call)
+        self.get = partial(protocol.function(f"Get{kind}"), *call)
 
 
 class Table:
@@ -132,25 +112,14 @@ class Direction:
     """Derivatives of some outputs along a direction of some inputs; the arrays are made once."""
 
     def __init__(self, protocol: Protocol, unknowns: Sequence[Any], knowns: Sequence[Any]) -> None:
-        self.seed = (ctypes.c_double * len(knowns))()
-        self.slope = (ctypes.c_double * len(unknowns))()
-        self._call = protocol.function("GetDirectionalDerivative")
+        self.seed = (c_double * len(knowns))()
+        self.slope = (c_double * len(unknowns))()
         n_unknown, n_known = len(unknowns), len(knowns)
-        self._arguments = (
-            protocol.fmu.component,
-            _references(unknowns),
-            n_unknown,
-            _references(knowns),
-            n_known,
-            self.seed,
-            *(n_known,) * protocol.lengths,
-            self.slope,
-            *(n_unknown,) * protocol.lengths,
-        )
-
-    def get(self) -> int:
-        """Compute the derivatives and return the status."""
-        return self._call(*self._arguments)
+        named = _references(unknowns), n_unknown, _references(knowns), n_known
+        seed = self.seed, *(n_known,) * protocol.lengths
+        slope = self.slope, *(n_unknown,) * protocol.lengths
+        function = protocol.function("GetDirectionalDerivative")  # returns the status
+        self.get = partial(function, protocol.fmu.component, *named, *seed, *slope)
 
 
 class MachineGroup(NamedTuple):
@@ -171,18 +140,18 @@ class Machine(NamedTuple):
     step: int
     setters: list[MachineGroup]
     getters: list[MachineGroup]
-    said: int  # address of a number that is not 0 once the FMU has logged something
+    logged: int  # address of a number that is not 0 once the FMU has logged something
 
 
-def machine_of(protocol: Protocol, inputs: Table, outputs: Table, said: Any) -> Machine:
+def machine_of(protocol: Protocol, inputs: Table, outputs: Table, logged: Any) -> Machine:
     """Return the addresses of an instance."""
     return Machine(
         third=protocol.lengths > 0,
         component=int(protocol.fmu.component),
         step=_address(protocol.function("DoStep")),
-        setters=[_group(g, g.set_function) for g in inputs.groups],
-        getters=[_group(g, g.get_function) for g in outputs.groups],
-        said=ctypes.addressof(said),
+        setters=[_group(g, g.set.func) for g in inputs.groups],
+        getters=[_group(g, g.get.func) for g in outputs.groups],
+        logged=ctypes.addressof(logged),
     )
 
 

@@ -9,15 +9,8 @@ from numpy.typing import NDArray
 
 from ...errors import ParameterError
 
-TYPES = {
-    "par": float,
-    "inp": float,
-    "state": float,
-    "out": float,
-    "iout": np.int32,
-    "refused": np.int32,
-    "seen": np.int32,
-}
+ARRAYS = ("par", "inp", "state", "out", "iout")
+TYPES = dict.fromkeys(ARRAYS[:4], float) | dict.fromkeys(("iout", "refused", "seen"), np.int32)
 
 
 @dataclass(frozen=True, slots=True)

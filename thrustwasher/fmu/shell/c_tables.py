@@ -6,7 +6,7 @@ The tables are those of the model; they know no name, no start values and no ver
 import hashlib
 import struct
 import zlib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cache
 from typing import Any
 
@@ -22,20 +22,11 @@ from . import call_table
 SIZES = ("NPAR", "NINP", "NSTATE", "NWORK", "NOUT", "NIOUT")
 MOST_INPUTS = 32  # dependencies are bits of one word
 # The C files of a native FMU beside the generated ones and the dispatch to the kernels.
-SHELL_FILES = (
-    "lifecycle.c",
-    "resource.c",
-    "values.c",
-    "text.c",
-    "messages.c",
-    "state.c",
-    "derivative.c",
-    "fmi2.c",
-    "fmi2_values.c",
-    "fmi3.c",
-    "fmi3_values.c",
-    "fmi3_state.c",
-    "fmi3_declined.c",
+SHELL_FILES = tuple(
+    """
+    lifecycle.c resource.c values.c text.c messages.c state.c derivative.c fmi2.c fmi2_values.c
+    fmi3.c fmi3_values.c fmi3_state.c fmi3_declined.c
+    """.split()
 )
 VERSIONS = (2, 3)  # of FMI, both in one library
 PART, MAGIC, WORD = "part.bin", b"twpart2\0", 64  # as in shell.h
@@ -44,8 +35,7 @@ PART, MAGIC, WORD = "part.bin", b"twpart2\0", 64  # as in shell.h
 def sources(shown: Interface) -> dict[str, str]:
     """Return model.h and model.c, file name -> text."""
     header, tables = _texts(shown)
-    build = build_of(shown)
-    return {"model.h": header.replace("@BUILD@", build), "model.c": tables}
+    return {"model.h": header.replace("@BUILD@", build_of(shown)), "model.c": tables}
 
 
 @cache
@@ -75,86 +65,64 @@ def part_file(shown: Interface, guid: str) -> bytes:
     return body + struct.pack("<I", zlib.crc32(body))
 
 
+class _Code(str):
+    """A piece of C, where a plain text becomes a literal."""
+
+
 def _lists(shown: Interface) -> dict[str, tuple[str, list[str]]]:
     """Return name of the table -> (C type, rows).
 
     Categories, types and causalities are in the order of the enums in tables.h.
     """
-    names = list(shown.enumerations)
+    calls, names = call_table.CALLS, list(shown.enumerations)
     inputs = [v.name for v in shown.inputs]
     assert len(inputs) <= MOST_INPUTS, "dependencies are bits of one word"
-    return {
+    rungs = enumerate(shown.spec.fidelities, 1)
+    tables: dict[str, tuple[str, Iterable[Iterable[Any]]]] = {
         "VARIABLES": ("Variable", [_variable(v, inputs, names) for v in shown.variables]),
         "ENUMERATIONS": (
             "Enumeration",
-            [
-                _row(_text(name), len(items), f"ITEMS_{name}")
-                for name, items in shown.enumerations.items()
-            ],
+            [(n, len(items), _Code(f"ITEMS_{n}")) for n, items in shown.enumerations.items()],
         ),
-        "STATUSES": (
-            "StatusText",
-            [_row(int(s), _text(s.name), _text(s.advice)) for s in sorted(Status)],
-        ),
-        "SWITCHES": (
-            "Switch",
-            [_row(slot, *map(_text, events)) for slot, events in shown.switches],
-        ),
-        "COUNTS": ("Count", [_row(_text(text), place) for text, place in shown.counts]),
-        "RULES": ("Rule", [_row(_text(rule.text)) for rule in shown.spec.rules]),
-        "GONE_RUNGS": (
-            "Item",
-            [
-                _row(number, _text(line))
-                for number, name in enumerate(shown.spec.fidelities, 1)
-                for line in gone_rung(shown.spec, name)
-            ],
-        ),
-        "CATEGORIES": (
-            "Category",
-            [_row(_text(name), int(name in shown.categories)) for name in LOG_CATEGORIES],
-        ),
-        "TYPES": ("TypeText", [_row(*map(_text, names)) for names in TYPES.items()]),
-        "ACCESS": ("Access", [_row(*modes) for modes in call_table.ACCESS.values()]),
-        "MODES": (
-            "ModeText",
-            [
-                _row(mode, _text(name), _text(leave))
-                for mode, (name, leave) in call_table.MODES.items()
-            ],
-        ),
+        "STATUSES": ("StatusText", [(int(s), s.name, s.advice) for s in sorted(Status)]),
+        "SWITCHES": ("Switch", [(slot, *events) for slot, events in shown.switches]),
+        "COUNTS": ("Count", shown.counts),
+        "RULES": ("Rule", [(rule.text,) for rule in shown.spec.rules]),
+        "GONE_RUNGS": ("Item", [(k, t) for k, name in rungs for t in gone_rung(shown.spec, name)]),
+        "CATEGORIES": ("Category", [(n, int(n in shown.categories)) for n in LOG_CATEGORIES]),
+        "TYPES": ("TypeText", TYPES.items()),
+        "ACCESS": ("Access", call_table.ACCESS.values()),
+        "MODES": ("ModeText", [(mode, *texts) for mode, texts in call_table.MODES.items()]),
         "CALLS": (
             "Call",
             [
-                _row(_text(f"fmi{fmi}{name}"), modes, _text(call_table.DECLINED[fmi].get(name)))
+                (f"fmi{fmi}{name}", modes, call_table.DECLINED[fmi].get(name))
                 for fmi in VERSIONS
-                for name, modes in call_table.CALLS[fmi].items()
+                for name, modes in calls[fmi].items()
             ],
         ),
-        **{
-            f"ITEMS_{name}": ("Item", [_row(item.value, _text(item.name)) for item in items])
-            for name, items in shown.enumerations.items()
-        },
     }
+    for name, items in shown.enumerations.items():
+        tables[f"ITEMS_{name}"] = "Item", [(item.value, item.name) for item in items]
+    return {name: (kind, [_row(row) for row in rows]) for name, (kind, rows) in tables.items()}
 
 
-def _variable(v: Variable, inputs: Sequence[str], names: Sequence[str]) -> str:
-    kind, cause = v.type.upper(), v.causality.upper()
+def _variable(v: Variable, inputs: Sequence[str], names: Sequence[str]) -> list[Any]:
+    kind, cause = f"TYPE_{v.type.upper()}", f"CAUSE_{v.causality.upper()}"
     depends = sum(1 << inputs.index(name) for name in v.depends)
-    return _row(
-        _text(v.name),
-        _text(v.unit),
-        *(float(x).hex() for x in v.bounds),
-        f"0x{depends:x}u",
+    codes = (kind, cause, f"STORE_{v.store.upper()}")
+    return [
+        v.name,
+        v.unit,
+        *(_Code(float(x).hex()) for x in v.bounds),
+        _Code(f"0x{depends:x}u"),
         v.slot,
         names.index(v.type_name) if v.type_name else -1,
-        f"TYPE_{kind}",
-        f"CAUSE_{cause}",
-        f"STORE_{v.store.upper()}",
+        *map(_Code, codes),
         int(v.relative),
         int(v.variability == "tunable"),
-        f"TYPE_BIT(TYPE_{kind}) | CAUSE_BIT(CAUSE_{cause})",
-    )
+        _Code(f"TYPE_BIT({kind}) | CAUSE_BIT({cause})"),
+    ]
 
 
 def _header(shown: Interface, lists: dict[str, tuple[str, list[str]]]) -> str:
@@ -207,13 +175,15 @@ def _tables(lists: dict[str, tuple[str, list[str]]]) -> str:
     return "\n".join([*parts, ""])
 
 
-def _row(*values: Any) -> str:
-    return "{" + ", ".join(map(str, values)) + "}"
+def _row(values: Iterable[Any]) -> str:
+    return "{" + ", ".join(map(_text, values)) + "}"
 
 
-def _text(value: str | None) -> str:
-    """Return a C literal; whatever C might read as something else is written as octal digits."""
+def _text(value: Any) -> str:
+    """Return a value in C; in a literal all that C might read otherwise is octal digits."""
     if value is None:
         return "0"
+    if isinstance(value, _Code) or not isinstance(value, str):
+        return str(value)
     plain = set(range(0x20, 0x7F)) - set(b'"\\?')
     return '"' + "".join(chr(b) if b in plain else f"\\{b:03o}" for b in value.encode()) + '"'

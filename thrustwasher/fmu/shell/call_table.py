@@ -1,7 +1,7 @@
 """Which FMI function may be called when: one table, as data, in ``calls.toml``.
 
 The C tables of the native shell are written from it, and the tests walk through it: every function
-in every mode.
+in every mode. A mode there is a name of here in small letters.
 """
 
 from ...model.toml_tables import table_beside
@@ -28,29 +28,21 @@ ACCESS = {
     "output": (NEVER, SOLVABLE | TERMINATED),
 }
 
-_NAMED = {
-    "instantiated": INSTANTIATED,
-    "stepping": STEPPING,
-    "initializing": INITIALIZING,
-    "terminated": TERMINATED,
-    "events": EVENTS,
-    "solvable": SOLVABLE,
-    "always": ALWAYS,
-}
 _TABLE = table_beside(__file__, "calls.toml")
 
 # Version -> functions without an instance.
-FREE: dict[int, list[str]] = {fmi: _TABLE["free"][f"fmi{fmi}"] for fmi in (2, 3)}
+FREE: dict[int, list[str]] = {fmi: _TABLE["free"][f"fmi{fmi}"].split() for fmi in (2, 3)}
 # Version -> function that only says why it does nothing -> why.
 DECLINED: dict[int, dict[str, str]] = {
-    fmi: {n: why for why, names in _TABLE["declined"][f"fmi{fmi}"].items() for n in names}
+    fmi: {n: why for why, names in _TABLE["declined"][f"fmi{fmi}"].items() for n in names.split()}
     for fmi in (2, 3)
 }
 # Version -> function with an instance -> modes it is allowed in.
 CALLS: dict[int, dict[str, int]] = {
     fmi: {
-        name: sum(_NAMED[mode] for mode in modes.split())
-        for name, modes in _TABLE[f"fmi{fmi}"].items()
+        name: sum(globals()[mode.upper()] for mode in modes.split())
+        for modes, names in _TABLE["calls"][f"fmi{fmi}"]
+        for name in names.split()
     }
     | dict.fromkeys(DECLINED[fmi], ALWAYS)
     for fmi in (2, 3)

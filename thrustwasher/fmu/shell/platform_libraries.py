@@ -23,7 +23,7 @@ from ...native.link import COMMON, Linker, find_linker, local_linker, this_level
 from ...native.objects import kept_folder, objects
 from ...native.targets import PLATFORMS, Platform
 from ..description.interface import Interface, interface
-from ..package.model_sources import source_folder
+from ..package.model_sources import Order, source_folder
 from . import c_tables, call_table
 
 CURE = "pip install 'thrustwasher[build]'"
@@ -67,7 +67,7 @@ def tools(linker: Linker) -> str:
     return f"fmpy {metadata.version('fmpy')}, {linker.name} {linker.version}"
 
 
-def made_of(spec: ModelSpec, *, local: bool) -> str:
+def library_identity(spec: ModelSpec, *, local: bool) -> str:
     """Return what decides a model's libraries beside the FMU's own texts."""
     if is_shipped(spec):
         return library_digest(spec)
@@ -75,29 +75,21 @@ def made_of(spec: ModelSpec, *, local: bool) -> str:
     return f"{library_digest(spec)} {tools(linker)} {local_level(spec) if local else ''}"
 
 
-def native_contents(
-    shown: Interface,
-    *,
-    fmi: int,
-    guid: str,
-    platforms: Sequence[str],
-    note: Note,
-    local: bool = False,
-) -> dict[str, bytes]:
+def native_contents(shown: Interface, order: Order, guid: str) -> dict[str, bytes]:
     """Return the libraries, each at its place, and the resources that they read.
 
-    The two libraries of macOS share one file in FMI 2. ``local``: if they have to be linked and
-    compiled, then for use on this machine only, the soonest way.
+    The two libraries of macOS share one file in FMI 2. What has to be linked and compiled for this
+    machine only is made the soonest way.
     """
     spec, found = shown.spec, dict[str, list[bytes]]()
-    for name in platforms:
-        made = library(spec, platform=name, local=local, note=note)
+    for name in order.platforms:
+        made = library(spec, platform=name, local=order.local, note=order.note)
         target = PLATFORMS[name]
-        folder = target.fmi2 if fmi == 2 else target.fmi3
+        folder = target.fmi2 if order.fmi == 2 else target.fmi3
         found.setdefault(f"binaries/{folder}/{spec.name}.{target.extension}", []).append(made)
     return {
         f"resources/{c_tables.PART}": c_tables.part_file(shown, guid),
-        **{f"resources/map-{k}.bin": data for k, data in enumerate(_maps(spec, local))},
+        **{f"resources/map-{k}.bin": data for k, data in enumerate(_maps(spec, order.local))},
         **{p: parts[0] if len(parts) == 1 else universal(parts) for p, parts in found.items()},
     }
 
@@ -153,15 +145,9 @@ def library(
 def linked(spec: ModelSpec, platform: Platform, linker: Linker, note: Note = to_stderr) -> bytes:
     """Link the shared library of a model for one platform; nothing that was made before is used."""
     exports = [name for fmi in c_tables.VERSIONS for name in call_table.functions(fmi)]
-    return linked_objects(
-        {**sources(spec), **headers()},
-        objects(spec.kernel, [platform], note),
-        platform,
-        shipped.short(spec.kernel),
-        exports,
-        linker=linker,
-        note=note,
-    )
+    parts, code = {**sources(spec), **headers()}, objects(spec.kernel, [platform], note)
+    name = shipped.short(spec.kernel)
+    return linked_objects(parts, code, platform, name, exports, linker=linker, note=note)
 
 
 def library_digest(spec: ModelSpec) -> str:
@@ -175,14 +161,9 @@ def library_digest(spec: ModelSpec) -> str:
 def sources(spec: ModelSpec) -> dict[str, bytes]:
     """Return the C files of a model's libraries, but the standard's headers."""
     tables = {name: text.encode() for name, text in c_tables.sources(interface(spec)).items()}
-    return {**shell(), **dispatch(), **tables}
-
-
-def shell() -> dict[str, bytes]:
-    """Return the C files of the shell and its headers."""
     folder = source_folder() / "shell"
     names = [*c_tables.SHELL_FILES, *(f.name for f in sorted(folder.glob("*.h")))]
-    return {name: digest.read(folder / name) for name in names}
+    return {name: digest.read(folder / name) for name in names} | dispatch() | tables
 
 
 def dispatch() -> dict[str, bytes]:

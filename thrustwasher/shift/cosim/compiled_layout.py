@@ -105,7 +105,7 @@ class CompiledLoop:
             self._played += count
             return
         fmu = capable(part.instance).machine()
-        call = {"component": fmu.component, "logged": fmu.said, "third": fmu.third}
+        call = {"component": fmu.component, "logged": fmu.logged, "third": fmu.third}
 
         def travel(kind: int, groups: Any, first: int) -> None:
             for group in groups:

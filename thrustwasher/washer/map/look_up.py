@@ -3,6 +3,7 @@
 import math
 import os
 import threading
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -104,12 +105,12 @@ class WasherMap:
         """
         if branch is not None and branch not in BRANCHES:
             raise ParameterError(f"branch = {branch!r}, allowed: 'film' or 'contact'")
-        wanted = L.ANY if branch is None else BRANCHES[branch]
+        required = L.ANY if branch is None else BRANCHES[branch]
         inputs = np.broadcast_arrays(load, speed, tilt, oil_temperature)
         rows = np.column_stack([np.asarray(x, dtype=np.float64).ravel() for x in inputs])
         out = np.empty((len(rows), L.N_ALL))
         found = np.empty((len(rows), 2))
-        look_up_rows(self.data, rows, wanted, self._own.work, out, found)
+        look_up_rows(self.data, rows, required, self._own.work, out, found)
         shape = inputs[0].shape
         columns = {n: out[:, k].reshape(shape) for n, k in zip(OUTPUTS, PLACES, strict=True)}
         columns["branch"] = found[:, 0].reshape(shape)
@@ -168,14 +169,11 @@ def _solver(params: WasherParams) -> _Solver:
 
 
 def solve_by_map(
-    params: WasherParams,
-    point: Inputs,
-    wanted: float,
-    start: WasherResult | None,
+    params: WasherParams, point: Inputs, required: float, start: WasherResult | None
 ) -> WasherResult | None:
     """Return the state at a point by look-up, None where the map says nothing.
 
-    ``wanted`` is 0, 1 (film) or 3 (contact); ``start`` an earlier result whose branch goes on.
+    ``required`` is 0, 1 (film) or 3 (contact); ``start`` an earlier result whose branch goes on.
     ParameterError: there is no map for these parameters.
     """
     if params.gear_far_face == "bulk":
@@ -192,45 +190,22 @@ def solve_by_map(
         if start.params is params or start.params == params:
             before, ratio = BRANCHES[start.branch], start.film_ratio
     solver.state[L.S_MAP_BRANCH], solver.state[L.S_MAP_RATIO] = before, ratio
-    status = solver.look_up(Point(*point), wanted)
+    status = solver.look_up(Point(*point), required)
     if status == NOT_HERE:
         return None
-    if status != Status.OK:
-        state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = before, ratio
-        return result_of(
-            params,
-            point,
-            NOTHING,
-            NOTHING,
-            "film",
-            False,
-            Status(status),
-            0,
-            "map",
-            NO_MESH,
-            BY_CARD,
-            state,
-        )
-    solver.tilt()
-    numbers, (branch, several) = solver.numbers.tolist(), solver.branch.tolist()
-    tilts = tuple(point[2] * turn for turn in solver.tilts.tolist())
-    state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = branch, numbers[L.O_RATIO]
-    lost = numbers[L.O_MEAN] - point[3] > LARGEST_RISE
-    lost = lost or (branch == L.CONTACT_BRANCH and several == 2.0)
-    return result_of(
-        params,
-        point,
-        numbers,
-        tilts,
-        BRANCH_NAMES[branch],
-        lost,
-        Status.OK,
-        0,
-        "map",
-        NO_MESH,
-        BY_CARD,
-        state,
-    )
+    numbers: Sequence[float] = NOTHING
+    tilts, lost = NOTHING, False
+    if status == Status.OK:
+        solver.tilt()
+        numbers, (before, several) = solver.numbers.tolist(), solver.branch.tolist()
+        tilts = tuple(point[2] * turn for turn in solver.tilts.tolist())
+        ratio = numbers[L.O_RATIO]
+        lost = numbers[L.O_MEAN] - point[3] > LARGEST_RISE
+        lost = lost or (before == L.CONTACT_BRANCH and several == 2.0)
+    state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = before, ratio
+    branch = BRANCH_NAMES[before] if status == Status.OK else "film"
+    how = Status(status), 0, "map", NO_MESH, BY_CARD
+    return result_of(params, point, numbers, tilts, branch, lost, *how, state)
 
 
 def outside_text(params: WasherParams, points: Array, what: str, most: float = 0.0) -> str:

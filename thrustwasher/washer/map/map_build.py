@@ -5,31 +5,34 @@ import os
 import platform
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ...errors import ParameterError, SolveError, naming
+from ...errors import ParameterError, SolveError
 from ...numerics.chebyshev import lines_of
 from ...numerics.jit import Array, kernel_digest
 from ...processes import Run, run_here, runner
 from ...storage.digests import params_digest
 from ...storage.journal import Journal
+from ...storage.whole_files import whole_file
 from ..kernels.layout import O_FLUID_LOAD
 from ..kernels.map import map_layout as L
 from ..parameters import SPEC, WasherParams
 from ..solve import GRIDS
 from .map_check import check_map, mesh_of
-from .map_file import SUFFIX, identity_of, pack
+from .map_file import identity_of, pack
 from .map_line import Curve, Line, LineTask, packed, solve_lines
-from .map_mesh import Change, NotSmooth, change_of_mesh
+from .map_mesh import Change, Grid, NotSmooth, change_of_mesh
 from .map_plan import COARSE, FIELD_FROM, SPARE, TOLERANCE, MapPlan, Place, plan_map
 from .map_survey import surveyed
 
 Progress = Callable[[int, int], None]
+Terms = tuple[int, ...]
+Solve = Callable[[Sequence[Sequence[Place]], Grid, Terms], list[list[Curve]]]
 POINTS = 60  # held out
 FIDELITIES = ("field", "fine")  # meshes to build from
 DIGIT = 2.0**-20  # of the logarithms; what is finer only makes the file large
@@ -70,47 +73,41 @@ def make_map(
     if fidelity not in (None, *FIDELITIES):
         raise ParameterError(f"fidelity = {fidelity!r}, allowed: {' or '.join(FIDELITIES)}")
     plan = plan_map(params, box, tolerance)
-    job = _Job(
-        plan,
-        out,
-        workers or os.cpu_count() or 1,
-        points,
-        progress or (lambda _label: lambda _done, _total: None),
-    )
+    show = progress or (lambda _label: lambda _done, _total: None)
+    made = partial(_made, plan, out, workers or os.cpu_count() or 1, points, show)
     usual = "field" if tolerance >= FIELD_FROM else "fine"
     raised = fidelity is None and usual == "field"
     try:
-        card = _made(job, fidelity or usual, raised=raised)
+        card = made(fidelity or usual, raised=raised)
         why = f"the map is {card['held_out']['torque']:.1%} off" if raised and _missed(card) else ""
     except NotSmooth as problem:
         why = str(problem)
     if why:
-        card = _made(job, "fine", raised=False, lines=f"{why}: all lines on the finer mesh,")
+        card = made("fine", raised=False, lines=f"{why}: all lines on the finer mesh,")
     if fidelity is None and _missed(card):
         out.unlink()
         raise SolveError(_too_coarse(card))
     return card
 
 
-@dataclass(frozen=True)
-class _Job:
-    plan: MapPlan
-    out: Path
-    workers: int
-    points: int
-    show: Callable[[str], Progress]
-
-
-def _made(job: _Job, fidelity: str, *, raised: bool, lines: str = "lines") -> dict[str, Any]:
+def _made(
+    plan: MapPlan,
+    out: Path,
+    workers: int,
+    points: int,
+    show: Callable[[str], Progress],
+    fidelity: str,
+    *,
+    raised: bool,
+    lines: str = "lines",
+) -> dict[str, Any]:
     """Build a map on a mesh, check and write it; return its card."""
-    plan, out, show = job.plan, job.out, job.show
-    draft = out.with_name(f".{out.name}.{os.getpid()}.draft{SUFFIX}")
     # Held to the end: another run that writes this map is refused before it has worked for nothing.
     journal = journal_for(out.with_name(f"{out.name}.journal"), plan, fidelity)
     finished = False
     try:
         began = time.perf_counter()
-        with runner(job.workers) as run:
+        with whole_file(out) as draft, runner(workers) as run:
             reach = find_reach(plan)
             plan = survey(plan, reach, run=run, progress=show("survey"))
             data = build_lines(
@@ -118,34 +115,27 @@ def _made(job: _Job, fidelity: str, *, raised: bool, lines: str = "lines") -> di
             )
             change = None
             if raised:
+                solve, fine = _solver(plan, reach, run, show("finer mesh")), GRIDS["fine"]
                 change = change_of_mesh(
-                    plan,
-                    GRIDS[fidelity],
-                    GRIDS["fine"],
-                    partial(_solved, plan, reach, plan.terms, run, show("finer mesh")),
+                    plan, GRIDS[fidelity], fine, lambda rows, grid: solve(rows, grid, plan.terms)
                 )
                 numbers = data[L.DATA :].reshape(-1, plan.line)
                 numbers += np.round(change.lines / DIGIT) * DIGIT
                 data[L.IDENTITY] = identity_of(data)
-            card = _card(plan, fidelity, change, time.perf_counter() - began, job.workers)
-            _write(draft, data, card)
+            card = _card(plan, fidelity, change, time.perf_counter() - began, workers)
+            draft.write_bytes(pack(data, card))
+            shown = show("held-out points")
+            grid = mesh_of(card)
             verdict = check_map(
-                plan.params,
-                str(draft),
-                grid=mesh_of(card),
-                run=run,
-                points=job.points,
-                progress=show("held-out points"),
+                plan.params, str(draft), grid=grid, run=run, points=points, progress=shown
             )
-        card["held_out"] = asdict(verdict)
-        _write(draft, data, card)
-        draft.replace(out)
+            card["held_out"] = asdict(verdict)
+            draft.write_bytes(pack(data, card))
         finished = True
     except SolveError:
         finished = True  # the same again would end here again
         raise
     finally:
-        draft.unlink(missing_ok=True)
         journal.close(finished=finished)
     return card
 
@@ -158,8 +148,9 @@ def _too_coarse(card: dict[str, Any]) -> str:
     held, units = card["held_out"], {s.name: s.unit for s in SPEC.inputs}
     where = ", ".join(f"{n} = {x:.4g} {units[n]}" for n, x in held["worst"].items())
     return (
-        f"map: its torque is {held['torque']:.2%} off at {where}; wanted: {card['tolerance']:.2%}. "
-        f"Leave that out of the box, or ask for {1.1 * held['torque']:.1g} (--tol)"
+        f"map: its torque is {held['torque']:.2%} off at {where}; required: "
+        f"{card['tolerance']:.2%}. Leave that out of the box, or ask for "
+        f"{1.1 * held['torque']:.1g} (--tol)"
     )
 
 
@@ -167,28 +158,23 @@ def survey(
     plan: MapPlan, reach: float, *, run: Run = run_here, progress: Progress | None = None
 ) -> MapPlan:
     """Return the plan with what its tolerance needs, measured on the coarse mesh."""
-    return surveyed(
-        plan, lambda rows, terms: _solved(plan, reach, terms, run, progress, rows, COARSE)
-    )
+    solve = _solver(plan, reach, run, progress)
+    return surveyed(plan, lambda rows, terms: solve(rows, COARSE, terms))
 
 
-def _solved(
-    plan: MapPlan,
-    reach: float,
-    terms: tuple[int, ...],
-    run: Run,
-    progress: Progress | None,
-    rows: Sequence[Sequence[Place]],
-    grid: tuple[int, int],
-) -> list[list[Curve]]:
-    """Return the curves of rows of neighbours on a grid."""
-    tasks = [[_task(plan, reach, grid, terms, *place) for place in row] for row in rows]
-    curves: list[list[Curve]] = []
-    for row in run(solve_lines, tasks, 1):
-        curves.append(row)
-        if progress is not None:
-            progress(len(curves), len(tasks))
-    return curves
+def _solver(plan: MapPlan, reach: float, run: Run, progress: Progress | None) -> Solve:
+    """Return what solves rows of neighbours on a grid, with so many coefficients."""
+
+    def solve(rows: Sequence[Sequence[Place]], grid: Grid, terms: Terms) -> list[list[Curve]]:
+        tasks = [[LineTask(plan, reach, grid, terms, place) for place in row] for row in rows]
+        curves: list[list[Curve]] = []
+        for row in run(solve_lines, tasks, 1):
+            curves.append(row)
+            if progress is not None:
+                progress(len(curves), len(tasks))
+        return curves
+
+    return solve
 
 
 def build_lines(
@@ -212,7 +198,7 @@ def build_lines(
     flags = np.zeros((len(places), 1), np.int32)
     done = journal.load(lines, flags) if journal else np.zeros(len(places), bool)
     rest = _neighbours(places, np.flatnonzero(~done).tolist())
-    tasks = [_task(plan, reach, GRIDS[fidelity], plan.terms, *places[i]) for i in rest]
+    tasks = [LineTask(plan, reach, GRIDS[fidelity], plan.terms, places[i]) for i in rest]
     count = len(places) - len(rest)
     numbers = iter(rest)
     batches = [tasks[k : k + BATCH] for k in range(0, len(tasks), BATCH)]
@@ -229,10 +215,10 @@ def build_lines(
     return data
 
 
-def _neighbours(places: Sequence[Place], wanted: Sequence[int]) -> list[int]:
+def _neighbours(places: Sequence[Place], required: Sequence[int]) -> list[int]:
     """Return numbers of places so that one is near the next: speeds up and down by turns."""
     rows: dict[tuple[float, float], list[int]] = {}
-    for i in sorted(wanted, key=lambda i: (places[i][1:], places[i][0])):
+    for i in sorted(required, key=lambda i: (places[i][1:], places[i][0])):
         rows.setdefault(places[i][1:], []).append(i)
     return [i for k, row in enumerate(rows.values()) for i in (row[::-1] if k % 2 else row)]
 
@@ -261,7 +247,7 @@ def find_reach(plan: MapPlan) -> float:
     for speed in {slow, 0.5 * (slow + fast), fast}:
         for tilt in set(tilts):
             for oil in set(oils):
-                task = _task(plan, 1.0, COARSE, (), *plan.at(speed, tilt, oil))
+                task = LineTask(plan, 1.0, COARSE, (), plan.at(speed, tilt, oil))
                 line = Line(task, COARSE)
                 load = line.at.outputs()[O_FLUID_LOAD]
                 if load <= light:
@@ -278,47 +264,14 @@ def find_reach(plan: MapPlan) -> float:
     return 1.05 * largest
 
 
-def _task(
-    plan: MapPlan,
-    reach: float,
-    grid: tuple[int, int],
-    terms: tuple[int, ...],
-    speed: float,
-    tilt: float,
-    oil: float,
-) -> LineTask:
-    scale = plan.viscosity(oil) * speed
-    return LineTask(
-        params=plan.params,
-        speed=speed,
-        tilt=tilt,
-        oil_temperature=oil,
-        scale=scale,
-        thickest=math.sqrt(L.LEAST_REACH**2 + reach * scale),
-        marks=plan.marks,
-        terms=terms,
-        grid=grid,
-        accuracy=max(1e-7, 2e-2 * plan.tolerance),
-    )
-
-
-def _write(path: Path, data: Any, card: dict[str, Any]) -> None:
-    with naming(path):
-        path.write_bytes(pack(data, card))
-
-
 def _card(
     plan: MapPlan, fidelity: str, change: Change | None, took: float, workers: int
 ) -> dict[str, Any]:
     """Return a map's card; ``change`` is what a finer mesh added."""
     mesh = (
-        {}
-        if change is None
-        else {
-            "finer_lines": change.solved,
-            "mesh_made_good": change.raised,
-            "mesh_left": change.left,
-        }
+        {"finer_lines": change.solved, "mesh_made_good": change.raised, "mesh_left": change.left}
+        if change
+        else {}
     )
     return {
         "kind": "washer map",

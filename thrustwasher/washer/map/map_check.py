@@ -78,6 +78,7 @@ def check_map(
             progress(k + 1, len(tasks))
     away = [h for h in held if not h.near_fold]
     torques = np.array([h.torque for h in away] or [0.0])
+    worst = max(away, key=lambda h: abs(h.torque), default=None)
     return Verdict(
         points=len(held),
         torque=_largest(h.torque for h in away),
@@ -89,9 +90,7 @@ def check_map(
         fold_load=_largest(folds),
         folds=len(folds),
         unanswered=unanswered,
-        worst=dict(zip(INPUTS, max(away, key=lambda h: abs(h.torque)).point, strict=True))
-        if away
-        else {},
+        worst=dict(zip(INPUTS, worst.point, strict=True)) if worst else {},
     )
 
 

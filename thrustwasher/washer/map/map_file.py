@@ -7,7 +7,6 @@ of the user's own washers in the user's cache, which belong to the kernels as th
 
 import json
 import os
-import struct
 import time
 import zipfile
 import zlib
@@ -21,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import ParameterError
-from ...native.files import user_cache, zipped
+from ...native.files import DAMAGED, user_cache, zipped
 from ...numerics.chebyshev import MOST_TERMS, lines_of
 from ...numerics.jit import Array, kernel_digest
 from ...storage.digests import DATA
@@ -110,19 +109,7 @@ def _read(path: str, _stamp: tuple[int, ...]) -> MapFile:
             data, card = unpack(archive.read(NUMBERS)), json.loads(archive.read(CARD))
         if not isinstance(card, dict):
             raise ValueError("its card is no JSON object")
-    except (
-        OSError,
-        zipfile.BadZipFile,
-        zipfile.LargeZipFile,
-        KeyError,
-        ValueError,
-        EOFError,
-        NotImplementedError,
-        RuntimeError,
-        OverflowError,
-        struct.error,
-        zlib.error,
-    ) as problem:
+    except (OSError, *DAMAGED) as problem:
         raise ParameterError(
             f"map = {path!r}: {problem}; allowed: a file written by `thrustwasher map build`"
         ) from None

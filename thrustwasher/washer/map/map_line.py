@@ -2,7 +2,9 @@
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -11,8 +13,8 @@ from ...numerics.jit import Array
 from ..kernels import layout as L
 from ..kernels.map import map_layout as M
 from ..load_curve import Continuation
-from ..parameters import WasherParams
-from .map_plan import COARSE, ONSET
+from ..washer_result import Inputs
+from .map_plan import COARSE, ONSET, MapPlan, Place
 
 TINY = 1e-290
 ENTRY = 6.0  # film ratio at which a walk begins
@@ -21,25 +23,30 @@ NUDGE = 2e-3  # film ratio: how far a solution is moved to be solved at another 
 MARK = 1e-3  # relative, of the contact load where a piece ends
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class LineTask:
     """Where a line lies and how its pieces are cut."""
 
-    params: WasherParams
-    speed: float  # rad/s
-    tilt: float  # rad
-    oil_temperature: float  # K
-    scale: float  # viscosity x speed [Pa]
-    thickest: float  # film ratio
-    marks: tuple[float, float, float]  # N
-    terms: tuple[int, ...]  # nodes of each piece
+    plan: MapPlan
+    reach: float  # 1/Pa, of thick films
     grid: tuple[int, int]
-    accuracy: float = 1e-7  # of Newton's method
+    terms: tuple[int, ...]  # nodes of each piece
+    place: Place
 
     @property
-    def inputs(self) -> tuple[float, float, float, float, float]:
+    def inputs(self) -> Inputs:
         """Return the inputs, of no load."""
-        return 1.0, self.speed, self.tilt, self.oil_temperature, 0.0
+        return 1.0, *self.place, 0.0
+
+    @cached_property
+    def scale(self) -> float:
+        """Viscosity x speed [Pa]."""
+        return self.plan.viscosity(self.place[2]) * self.place[0]
+
+    @property
+    def thickest(self) -> float:
+        """The largest film ratio."""
+        return math.sqrt(M.LEAST_REACH**2 + self.reach * self.scale)
 
 
 class Line:
@@ -47,13 +54,13 @@ class Line:
 
     def __init__(self, task: LineTask, grid: tuple[int, int]) -> None:
         self.task = task
-        self.at = Continuation(task.params, task.inputs, grid)
+        self.at = Continuation(task.plan.params, task.inputs, grid)
         m = self.at.m
         self.sigma = m.sigma1
         self.weight2, self.moment1, self.moment2 = (
             np.outer(m.weight_t, w).ravel() for w in (m.weight2, m.weight1 * m.r, m.weight2 * m.r)
         )
-        self.at.w.curve[L.ACCURACY] = task.accuracy
+        self.at.w.curve[L.ACCURACY] = max(1e-7, 2e-2 * task.plan.tolerance)  # of Newton's method
         self.at.start(ENTRY)
         self.slope = -2.5  # of ln(contact load) over the film ratio, where it was last sought
 
@@ -114,9 +121,9 @@ class Line:
         dry = float(f.small[L.FRICTION] * f.pc.dot(self.moment1))
         grip = float(f.pc2.dot(self.moment2) / f.pc2.dot(self.weight2))
         viscous, contact = out[L.O_TORQUE] - dry, out[L.O_CONTACT_LOAD]
-        power, speed, oil = out[L.O_POWER], self.task.speed, self.task.oil_temperature
+        power, (speed, tilt, oil) = out[L.O_POWER], self.task.place
         carried = 0.0
-        if self.task.params.oil_cooling:
+        if self.task.plan.params.oil_cooling:
             carried = math.log(max(out[L.O_THROUGHFLOW_HEAT], TINY) / (power * speed))
         return [
             math.log(out[L.O_FLUID_LOAD] / self.task.scale),
@@ -130,8 +137,8 @@ class Line:
             math.log(max(out[L.O_OIL_FLOW], TINY) / speed),
             carried,
             math.log(grip),
-            float(self.at.w.q[L.TILT_X]) / self.task.tilt,
-            float(self.at.w.q[L.TILT_Y]) / self.task.tilt,
+            float(self.at.w.q[L.TILT_X]) / tilt,
+            float(self.at.w.q[L.TILT_Y]) / tilt,
         ]
 
 
@@ -150,40 +157,32 @@ def solve_lines(tasks: Sequence[LineTask]) -> list[Curve]:
     SolveError: a node could not be solved, or the load of a thick film does not fall with its
     thickness.
     """
-    line, curves = None, []
+    line: Line | None = None
+    curves: list[Curve] = []
+    guesses, kept = list[float](), list[list[Array]]()
     for task in tasks:
-        try:
-            if line is None:
-                line, guesses = _entered(task)
-                curve, kept = _solved(line, guesses)
-            else:
+        curve = None
+        if line is not None:
+            with suppress(SolveError):
                 curve, kept = _solved(line, guesses, kept, task)
-        except SolveError:
+        if curve is None:
             try:
-                line, guesses = _entered(task)
+                coarse = Line(task, COARSE)  # its arrays are those of all lines on this grid
+                guesses = [coarse.to_contact(load) for load in task.plan.marks]
+                line = Line(task, task.grid)
                 curve, kept = _solved(line, guesses)
             except SolveError:
                 raise SolveError(
-                    f"map: no curve of solutions {_where(task)} up to {task.marks[-1]:.4g} N of "
-                    "contact load; leave that out of the box, by load first"
+                    f"map: no curve of solutions {_where(task)} up to {task.plan.marks[-1]:.4g} N "
+                    "of contact load; leave that out of the box, by load first"
                 ) from None
         curves.append(curve)
         guesses = curve.edges[3:]
     return curves
 
 
-def _entered(task: LineTask) -> tuple[Line, list[float]]:
-    """Return a line at its entry, and where its marks are about."""
-    coarse = Line(task, COARSE)  # its arrays are those of all lines on this grid
-    guesses = [coarse.to_contact(load) for load in task.marks]
-    return Line(task, task.grid), guesses
-
-
 def _solved(
-    line: Line,
-    guesses: list[float],
-    kept: Sequence[list[Array]] = (),
-    task: LineTask | None = None,
+    line: Line, guesses: list[float], kept: Sequence[list[Array]] = (), task: LineTask | None = None
 ) -> tuple[Curve, list[list[Array]]]:
     """Return a curve, and the solutions at onset and marks; ``kept`` are those of another task."""
     if task is not None:
@@ -200,7 +199,7 @@ def _solved(
         pieces[M.THICK][k] = line.values()
     line.at.come_back(found[0])
     marks: list[float] = []
-    for k, (load, guess) in enumerate(zip(task.marks, guesses, strict=True)):
+    for k, (load, guess) in enumerate(zip(task.plan.marks, guesses, strict=True)):
         if kept:
             line.take_over(task, kept[k + 1])
             marks.append(line.to_contact(load, line.ratio))
@@ -262,10 +261,8 @@ def _check(curve: Curve) -> None:
 
 
 def _where(task: LineTask) -> str:
-    return (
-        f"at speed = {task.speed:.4g} rad/s, tilt = {task.tilt:.4g} rad, "
-        f"oil_temperature = {task.oil_temperature:.4g} K"
-    )
+    speed, tilt, oil = task.place
+    return f"at speed = {speed:.4g} rad/s, tilt = {tilt:.4g} rad, oil_temperature = {oil:.4g} K"
 
 
 def packed(curve: Curve, more_terms: Sequence[int]) -> Array:

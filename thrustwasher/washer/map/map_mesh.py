@@ -5,7 +5,7 @@ which a coarse mesh may miss by half. At given contact loads the curves of two m
 and smoothly over speed, tilt and oil temperature: polynomials through some lines give all.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from itertools import product
 from typing import NamedTuple
@@ -29,6 +29,7 @@ MESH_SHARE = 0.25  # of the tolerance: what may be left between mesh and the fin
 Grid = tuple[int, int]
 Solve = Callable[[Sequence[Sequence[Place]], Grid], list[list[Curve]]]
 Where = tuple[float, float, float]
+Pairs = dict[Where, tuple[Curve, Curve]]  # on both meshes
 
 
 class NotSmooth(SolveError):
@@ -50,12 +51,21 @@ def change_of_mesh(plan: MapPlan, coarse: Grid, fine: Grid, solve: Solve) -> Cha
 
     NotSmooth: between the lines solved on both meshes the differences are something else.
     """
-    few = _both(plan, FEW, coarse, fine, solve, {})
+
+    def both(places: Iterable[Where]) -> Pairs:
+        """Return the curves on both meshes."""
+        listed = list(places)
+        rows = [[across(plan, where)] for where in listed]  # too far apart for one walk
+        lines = [[row[0] for row in solve(rows, grid)] for grid in (coarse, fine)]
+        return dict(zip(listed, zip(*lines, strict=True), strict=True))
+
+    few = both(_places(plan, FEW))
     raised = max(torque_difference(plan, *pair) for pair in few.values())
     if raised <= STRONG * plan.tolerance:
         return Change(_between(plan, FEW, few), fine, len(few), raised, None)
-    many = _both(plan, MANY, coarse, fine, solve, few)
-    others = _solved(plan, _held_out(plan), coarse, fine, solve)
+    many = few | both(where for where in _places(plan, MANY) if where not in few)
+    draws = np.random.default_rng(7).uniform(-1.0, 1.0, (HELD_OUT, 3)) * np.sign(plan.patches)
+    others = both((x, y, z) for x, y, z in draws.tolist())
     missed = max(_missed(plan, many, where, *pair) for where, pair in others.items())
     if missed > MISSED_SHARE * plan.tolerance:
         raise NotSmooth(f"the coarser mesh is {raised:.1%} off")
@@ -76,40 +86,15 @@ def _nodes(plan: MapPlan, counts: tuple[int, ...]) -> list[list[float]]:
     ]
 
 
-def _both(
-    plan: MapPlan,
-    counts: tuple[int, ...],
-    coarse: Grid,
-    fine: Grid,
-    solve: Solve,
-    known: dict[Where, tuple[Curve, Curve]],
-) -> dict[Where, tuple[Curve, Curve]]:
-    """Return the curves on both meshes at all nodes; those known are not solved again."""
+def _places(plan: MapPlan, counts: tuple[int, ...]) -> list[Where]:
     speeds, tilts, oils = _nodes(plan, counts)
-    rest = [where for where in product(speeds, tilts, oils) if where not in known]
-    return {**known, **_solved(plan, rest, coarse, fine, solve)}
+    return list(product(speeds, tilts, oils))
 
 
-def _solved(
-    plan: MapPlan, rest: Sequence[Where], coarse: Grid, fine: Grid, solve: Solve
-) -> dict[Where, tuple[Curve, Curve]]:
-    rows = [[across(plan, where)] for where in rest]  # too far apart to begin from one another
-    lines = [[row[0] for row in solve(rows, grid)] for grid in (coarse, fine)]
-    return dict(zip(rest, zip(*lines, strict=True), strict=True))
-
-
-def _held_out(plan: MapPlan) -> list[Where]:
-    """Return random places on the axes that are not fixed."""
-    places = np.random.default_rng(7).uniform(-1.0, 1.0, (HELD_OUT, 3)) * np.sign(plan.patches)
-    return [(float(x), float(y), float(z)) for x, y, z in places]
-
-
-def _missed(
-    plan: MapPlan, found: dict[Where, tuple[Curve, Curve]], where: Where, coarse: Curve, fine: Curve
-) -> float:
+def _missed(plan: MapPlan, found: Pairs, place: Where, coarse: Curve, fine: Curve) -> float:
     """Return how far the torque on a line is off after the differences found are added."""
-    shares = _shares(_nodes(plan, MANY), np.array([where]))[0]
-    pairs = [found[x, y, z] for x, y, z in product(*_nodes(plan, MANY))]
+    shares = _shares(_nodes(plan, MANY), np.array([place]))[0]
+    pairs = [found[where] for where in _places(plan, MANY)]
     pieces = [
         piece + np.tensordot(shares, [b.pieces[k] - a.pieces[k] for a, b in pairs], 1)
         for k, piece in enumerate(coarse.pieces)
@@ -117,15 +102,13 @@ def _missed(
     return torque_difference(plan, replace(coarse, pieces=pieces), fine)
 
 
-def _between(
-    plan: MapPlan, counts: tuple[int, ...], found: dict[Where, tuple[Curve, Curve]]
-) -> Array:
+def _between(plan: MapPlan, counts: tuple[int, ...], found: Pairs) -> Array:
     """Return the differences at all lines of the map: polynomials through those found."""
     nodes = _nodes(plan, counts)
     values = np.array(
         [
             packed(b, plan.more_terms) - packed(a, plan.more_terms)
-            for a, b in (found[x, y, z] for x, y, z in product(*nodes))
+            for a, b in (found[where] for where in _places(plan, counts))
         ]
     )
     ends = np.array(plan.axes)

@@ -52,23 +52,16 @@ def surveyed(plan: MapPlan, solve: Solve) -> MapPlan:
     n = (FEW_TERMS if plan.tolerance >= FIELD_FROM else FINE_TERMS,) * M.N_PIECES
     moved = [axis for axis, patches in enumerate(plan.patches) if patches]
     rows = [
-        [_place(plan, axis, x, across) for x in ends_of(NODES[axis])[::-1]]
+        [across(plan, [*rest[:axis], x, *rest[axis:]]) for x in ends_of(NODES[axis])[::-1]]
         for axis in moved
-        for across in ACROSS[axis]
+        for rest in ACROSS[axis]
     ]
-    curves = solve(rows or [[_place(plan, 0, MIDDLE, (MIDDLE, MIDDLE))]], n)
+    curves = solve(rows or [[across(plan, [MIDDLE] * 3)]], n)
     terms, more = _terms(plan, curves)
     plan = dataclasses.replace(plan, terms=terms, more_terms=more)
-    rest = iter(curves)
-    found = {axis: list(islice(rest, len(ACROSS[axis]))) for axis in moved}
+    left = iter(curves)
+    found = {axis: list(islice(left, len(ACROSS[axis]))) for axis in moved}
     return _cheapest(plan, found)
-
-
-def _place(plan: MapPlan, axis: int, x: float, rest: tuple[float, float]) -> Place:
-    """Return a place from -1 .. 1 along an axis and across the two others."""
-    shares = list(rest)
-    shares.insert(axis, x)
-    return across(plan, shares)
 
 
 def across(plan: MapPlan, shares: Sequence[float]) -> Place:
@@ -191,7 +184,7 @@ def _errors(
     there = np.polynomial.chebyshev.chebvander(warp(DENSE), n - 1)
     scale = np.array([[np.log(c.task.scale) for c in line] for line in lines])
     if speed is not None:
-        scale -= np.log([[c.task.speed for c in line] for line in lines])
+        scale -= np.log([[c.task.place[0] for c in line] for line in lines])
     scale = scale @ (there @ fit_of(n)[:, ::-1]).T
     if speed is not None:
         scale += np.log(speed(DENSE))

@@ -3,6 +3,7 @@
 import math
 import os
 import threading
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -195,41 +196,18 @@ def solve_by_map(
     status = solver.look_up(Point(*point), wanted)
     if status == NOT_HERE:
         return None
-    if status != Status.OK:
-        state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = before, ratio
-        return result_of(
-            params,
-            point,
-            NOTHING,
-            NOTHING,
-            "film",
-            False,
-            Status(status),
-            0,
-            "map",
-            NO_MESH,
-            BY_CARD,
-            state,
-        )
-    solver.tilt()
-    numbers, (branch, several) = solver.numbers.tolist(), solver.branch.tolist()
-    tilts = tuple(point[2] * turn for turn in solver.tilts.tolist())
-    state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = branch, numbers[L.O_RATIO]
-    lost = numbers[L.O_MEAN] - point[3] > LARGEST_RISE
-    lost = lost or (branch == L.CONTACT_BRANCH and several == 2.0)
+    numbers: Sequence[float] = NOTHING
+    tilts, name, lost = NOTHING[:2], "film", False
+    if status == Status.OK:
+        solver.tilt()
+        numbers, (branch, several) = solver.numbers.tolist(), solver.branch.tolist()
+        tilts = tuple(point[2] * turn for turn in solver.tilts.tolist())
+        before, ratio, name = branch, numbers[L.O_RATIO], BRANCH_NAMES[branch]
+        lost = numbers[L.O_MEAN] - point[3] > LARGEST_RISE
+        lost = lost or (branch == L.CONTACT_BRANCH and several == 2.0)
+    state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = before, ratio
     return result_of(
-        params,
-        point,
-        numbers,
-        tilts,
-        BRANCH_NAMES[branch],
-        lost,
-        Status.OK,
-        0,
-        "map",
-        NO_MESH,
-        BY_CARD,
-        state,
+        params, point, numbers, tilts, name, lost, Status(status), 0, "map", NO_MESH, BY_CARD, state
     )
 
 

@@ -349,6 +349,7 @@ def main() -> None:
     print(f"marks for the formatter: {format_marks(python_sources())}")
     print(f"widest folder: {wide}, {n} files")
     print(f"import circles: {len(found)}", *(" ".join(group) for group in found), sep="\n  ")
+    print(f"files that name modules in strings: {len(names_of_modules())}")
     print(f"names that occur twice: {len(repeated_stems())}: {' '.join(repeated_stems())}")
     if given.draw:
         draw(given.draw)

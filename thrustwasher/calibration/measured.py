@@ -46,7 +46,7 @@ class Measured:
 
     def computed(self, changes: Mapping[str, float]) -> tuple[Array, dict[int, Status]]:
         """Return the outputs [SI] with changed parameters, (n,), and the rows that failed, why."""
-        plan, own = self.plan, find_model(self.plan.spec.key).fits.outputs
+        plan, own = self.plan, find_model(self.plan.spec.key).fits
         sets = [_changed(params, changes) for params in plan.params]
         params = tuple(sets[i] for i in plan.params_of)
         starts = tuple(plan.starts.tolist())
@@ -79,9 +79,7 @@ def _changed(params: Any, changes: Mapping[str, float]) -> Any:
 
 def output_units(spec: ModelSpec) -> dict[str, str]:
     """Return the unit of every output that can be measured."""
-    return {s.name: s.unit for s in output_signals(spec)[0]} | dict(
-        find_model(spec.key).fits.outputs.units
-    )
+    return {s.name: s.unit for s in output_signals(spec)[0]} | dict(find_model(spec.key).fits.units)
 
 
 def column_units(spec: ModelSpec) -> dict[str, str]:
@@ -102,7 +100,7 @@ def measured(
 ) -> Measured:
     """Return measured points, or name the first thing that cannot be used."""
     spec = part.spec
-    units, known, own = output_units(spec), column_units(spec), find_model(spec.key).fits.outputs
+    units, known, own = output_units(spec), column_units(spec), find_model(spec.key).fits
     for name in data:
         if name not in known:
             hint = suggestion(name, known, "did you mean {}? ") + f"outputs: {', '.join(units)}"

@@ -141,7 +141,7 @@ class ModelProblem(Problem):
         row, name, own = (
             int(points.row[i]),
             points.output[i],
-            find_model(plan.spec.key).fits.outputs,
+            find_model(plan.spec.key).fits,
         )
         inputs = (f"{key} {plan.shown[key][row]:g}" for key in plan.shown if key in plan.units)
         where = f"point {row + 1} ({', '.join(inputs)}): {name}"
@@ -161,7 +161,7 @@ class ModelProblem(Problem):
 
     def drawn_over(self, output: str) -> dict[str, tuple[str, Array]]:
         """Return unit and values of the inputs of all measured values, over which one is drawn."""
-        plan, own = self.points.plan, find_model(self.points.plan.spec.key).fits.outputs
+        plan, own = self.points.plan, find_model(self.points.plan.spec.key).fits
         left_out = own.without if output in own.units else ""
         names = (name for name in plan.units if name != left_out)
         return {name: (plan.units[name], plan.shown[name][self.points.row]) for name in names}
@@ -318,7 +318,7 @@ def calibrate(
     spec = start.spec
     data, at = {**(data or {}), **columns}, at or {}
     model = find_model(spec.key)
-    own = model.fits.outputs
+    own = model.fits
     is_law = not own.computed and not own.units.keys().isdisjoint(data)
     kind: type[ModelProblem] = (model.fits.law if is_law else None) or ModelProblem
     points = measured(start, params, data, at, errors or {}, fidelity or start.fidelity)

@@ -84,23 +84,16 @@ class Ladder:
 
 
 @dataclass(frozen=True, kw_only=True)
-class OwnOutputs:
-    """Outputs of a model that can be measured beside those of its solutions at points."""
+class Fits:
+    """Outputs that can be measured and fitted beside those of a model's solutions at points."""
 
     units: Mapping[str, str] = field(default_factory=dict)
+    law: type[Any] | None = None
+    """The ``ModelProblem`` that fits these by a law of the model's own."""
     computed: Callable[[Any, Mapping[str, float], str], Mapping[str, float]] | None = None
     """Of parameters, point and rung, those that there are; None: a law of its own has them."""
     without: str = ""  # the input that these do not depend on
     none: str = ""  # what a point means that has none of them
-
-
-@dataclass(frozen=True, kw_only=True)
-class Fits:
-    """What can be fitted to measurements beside the model's outputs at its points."""
-
-    outputs: OwnOutputs = OwnOutputs()
-    law: type[Any] | None = None
-    """The ``ModelProblem`` that fits these by a law of the model's own."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import ParameterError, SolveError, Status
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
-from ..model.record import OwnOutputs
+from ..model.record import Fits
 from ..model.rungs import gone_rung, rung_named
 from ..numerics.jit import Array
 from ..numerics.status import OK
@@ -167,7 +167,7 @@ def fold_loads(params: WasherParams, point: Mapping[str, float], fidelity: str) 
     return {names[kind]: load for kind, load in found.items()}
 
 
-FOLDS = OwnOutputs(
+FITS = Fits(
     units={"film_loss_load": "N", "film_regain_load": "N"},
     computed=fold_loads,
     without="load",

@@ -122,9 +122,9 @@ class Washer(Model):
     @property
     def fits(self) -> Fits:
         """The loads of the folds."""
-        from .load_curve import FOLDS
+        from .load_curve import FITS
 
-        return Fits(outputs=FOLDS)
+        return FITS
 
 
 MODEL = Washer()

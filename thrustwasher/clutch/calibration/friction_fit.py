@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from ...calibration.estimates import Calibration, Estimate
 from ...calibration.identifiability import Information, Verdict
-from ...model.record import Fits, OwnOutputs
+from ...model.record import Fits
 from ...numerics.jit import Array
 from ...storage.digests import finite
 from . import friction_law as law
@@ -178,4 +178,4 @@ def _load_test(problem: FrictionProblem, best: Array, told: Information) -> Load
     return LoadTest(change, p_value, text)
 
 
-FITS = Fits(outputs=OwnOutputs(units={"friction": "1"}), law=FrictionFit)
+FITS = Fits(units={"friction": "1"}, law=FrictionFit)

@@ -194,18 +194,18 @@ def solve_by_map(
     if status == NOT_HERE:
         return None
     numbers: Sequence[float] = NOTHING
-    tilts, lost = NOTHING, False
+    tilts, name, lost = NOTHING[:2], "film", False
     if status == Status.OK:
         solver.tilt()
-        numbers, (before, several) = solver.numbers.tolist(), solver.branch.tolist()
+        numbers, (branch, several) = solver.numbers.tolist(), solver.branch.tolist()
         tilts = tuple(point[2] * turn for turn in solver.tilts.tolist())
-        ratio = numbers[L.O_RATIO]
+        before, ratio, name = branch, numbers[L.O_RATIO], BRANCH_NAMES[branch]
         lost = numbers[L.O_MEAN] - point[3] > LARGEST_RISE
-        lost = lost or (before == L.CONTACT_BRANCH and several == 2.0)
+        lost = lost or (branch == L.CONTACT_BRANCH and several == 2.0)
     state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = before, ratio
-    branch = BRANCH_NAMES[before] if status == Status.OK else "film"
-    how = Status(status), 0, "map", NO_MESH, BY_CARD
-    return result_of(params, point, numbers, tilts, branch, lost, *how, state)
+    return result_of(
+        params, point, numbers, tilts, name, lost, Status(status), 0, "map", NO_MESH, BY_CARD, state
+    )
 
 
 def outside_text(params: WasherParams, points: Array, what: str, most: float = 0.0) -> str:

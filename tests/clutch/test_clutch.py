@@ -107,15 +107,6 @@ def test_an_open_pack_has_no_asperity_torque_and_a_crushed_one_says_so():
     assert crushed.status.name == "OUTSIDE_VERIFIED" and crushed.film_ratio < -3.0
 
 
-def test_a_settled_film_without_shear_is_the_rung_below():
-    still = ClutchParams.preset("paper", film_dynamics=False, **SIZE)
-    at = {"load": 5898.0, "speed": 50.0}
-    assert (
-        solve_clutch(still, **at).friction_torque
-        == solve_clutch(PACK, **at, fidelity="stribeck").friction_torque
-    )
-
-
 def test_a_measured_curve_is_followed_and_held_beyond_its_end():
     rising = ClutchParams.with_table([0.0, 1.0, 5.0], [0.10, 0.11, 0.13], effective_radius=0.1)
     for slip, mu in ((0.0, 0.10), (5.0, 0.105), (-10.0, 0.11), (30.0, 0.12), (4000.0, 0.13)):

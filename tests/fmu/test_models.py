@@ -2,12 +2,11 @@
 
 import random
 
-import numpy as np
 import pytest
 
 from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.stepper import DirectInstance, Instance
-from thrustwasher.model.registry import all_specs, find_spec, kernel_of
+from thrustwasher.model.registry import all_specs, find_spec
 
 H = 1e-3
 NAMES = [spec.name for spec in all_specs()]
@@ -47,16 +46,6 @@ def drawn(spec, rng):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_the_kernel_has_the_lengths_of_the_list(name):
-    spec = find_spec(name)
-    kernel, found = kernel_of(spec), interface(spec).variables
-    held = {s: sum(v.store == s for v in found) for s in ("par", "inp", "out", "iout")}
-    lengths = (kernel.N_PARAM, kernel.NINP, kernel.NOUT, kernel.NIOUT)
-    assert tuple(held.values()) == lengths
-    assert kernel.NPAR >= kernel.N_PARAM
-
-
-@pytest.mark.parametrize("name", NAMES)
 def test_the_python_fmu_and_the_kernels_agree_to_the_bit(name, fmus):
     spec, rng = find_spec(name), random.Random(1)
     start = dict(zip((s.name for s in spec.inputs), drawn(spec, rng), strict=True))
@@ -69,91 +58,6 @@ def test_the_python_fmu_and_the_kernels_agree_to_the_bit(name, fmus):
                 instance.set_inputs(point)
                 instance.step(i * H, H)
             assert fmu.outputs() == direct.outputs()
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_state_and_readings(name):
-    spec = find_spec(name)
-    results = []
-    with DirectInstance(spec) as fmu:
-        fmu.initialize(inputs={})
-        for i in range(20):
-            fmu.step(i * H, H)
-        state = fmu.get_state()
-        for readings in (0, 2):
-            fmu.set_state(state)
-            rng = random.Random(2)
-            for i in range(20, 40):
-                fmu.set_inputs(drawn(spec, rng))
-                for _ in range(readings):
-                    fmu.outputs()
-                fmu.step(i * H, H)
-            results.append(fmu.outputs())
-        fmu.free_state(state)
-    assert results[0] == results[1]
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_whatever_work_holds_the_result_is_the_same(name):
-    spec, results = find_spec(name), []
-    for fill in (0.0, np.nan, 1e300):
-        rng = random.Random(3)
-        with DirectInstance(spec) as direct:
-            direct.initialize()
-            for i in range(20):
-                direct.set_inputs(drawn(spec, rng))
-                direct.core.work[:] = fill
-                direct.step(i * H, H)
-                results.append((i, direct.outputs()))
-    assert results[:20] == results[20:40] == results[40:]
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_a_solution_without_a_step_leaves_the_memory_alone(name):
-    spec, rng = find_spec(name), random.Random(4)
-    with DirectInstance(spec) as direct:
-        direct.initialize()
-        for i in range(10):
-            direct.step(i * H, H)
-            before = direct.core.state.tobytes()
-            direct.set_inputs(drawn(spec, rng))
-            direct.outputs()
-            assert direct.core.state.tobytes() == before
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_derivatives_after_steps_are_those_of_readings_and_leave_no_trace(name, natives):
-    """By central differences of readings at the same point, the memory held."""
-    spec, rng = find_spec(name), random.Random(6)
-    outputs = [s.name for s in spec.outputs if s.kind == "real"]
-    point, away = drawn(spec, rng), [1e-4 * (s.nominal or 1.0) for s in spec.inputs]
-    if name == "ThrustWasher":
-        away = [10.0 * dx for dx in away]  # solved to 5e-6 only
-    with Instance(natives[name]) as fmu, DirectInstance(spec) as direct:
-        if not fmu.gives_derivatives:
-            pytest.skip(f"{name} has no derivatives")
-        for instance in (fmu, direct):
-            instance.initialize()
-            for i in range(5):
-                instance.set_inputs(point)
-                instance.step(i * H, H)
-        state = fmu.get_state()
-        fmu.step(5 * H, H)
-        after = fmu.outputs()
-        fmu.set_state(state)
-        found = direct.directional_derivative(outputs, direct.input_names, away)
-        assert fmu.directional_derivative(outputs, fmu.input_names, away) == found
-        fmu.step(5 * H, H)
-        assert fmu.outputs() == after
-        ends = []
-        for sign in (1.0, -1.0):
-            fmu.set_state(state)
-            fmu.set_inputs([x + sign * dx for x, dx in zip(point, away, strict=True)])
-            ends.append(fmu.get(outputs))
-        fmu.free_state(state)
-    for output, slope, more, less in zip(outputs, found, *ends, strict=True):
-        rounding = 1e-9 * max(abs(more), abs(less))
-        assert slope == pytest.approx(0.5 * (more - less), rel=1e-3, abs=rounding), output
 
 
 # Listed dependencies of a discrete output that no point drawn here shows.

@@ -65,22 +65,6 @@ def test_asperities_and_allowable_ratios_of_both_steels(ratio, teeth, a, b, c, d
     )
 
 
-def test_flash_rise_grows_with_torque_and_speed_as_eq_3_says():
-    """T^(3/4) om^(1/2), so P^(3/4) om^(-1/4) at a given power; C^(-1/2) at a given power."""
-
-    def rise(power, speed, **changes):
-        params = paper(friction_law="constant", switch="none", viscosity_at="inlet", **changes)
-        return solve_gearmesh(params, power=power, speed=speed).flash_rise
-
-    base = rise(7500.0, 180.0)
-    assert rise(15000.0, 180.0) / base == pytest.approx(2.0**0.75, rel=1e-12)
-    assert rise(15000.0, 360.0) / base == pytest.approx(2.0**0.5, rel=1e-12)
-    assert rise(7500.0, 360.0) / base == pytest.approx(2.0**-0.25, rel=1e-12)
-    assert rise(7500.0, 180.0, centre_distance=0.508) / base == pytest.approx(2.0**-0.5, rel=1e-12)
-    assert rise(7500.0, 180.0, face_width=0.1) / base == pytest.approx(2.0**-0.75, rel=1e-12)
-    assert rise(7500.0, 180.0, youngs_modulus=410e9) / base == pytest.approx(2**0.25, rel=1e-12)
-
-
 @pytest.mark.parametrize(
     ("ratio", "surface", "f"),
     [(2, "fine", 0.020), (2, "rough", 0.028), (5, "fine", 0.029), (5, "rough", 0.041)],
@@ -111,13 +95,6 @@ def test_overrides_of_the_surface_replace_its_values():
     assert at(2, 20, "iso", mean_roughness=3.2e-6).friction_coefficient == pytest.approx(
         2**0.25 * at(2, 20, "iso", mean_roughness=1.6e-6).friction_coefficient, rel=1e-12
     )
-
-
-def test_load_share_and_face_width_enter_the_line_load_alike():
-    half = at(2, 20, load_share=0.5)
-    wide = at(2, 20, face_width=0.1)
-    assert half.contact_stress == pytest.approx(wide.contact_stress, rel=1e-14)
-    assert half.asperity_temperature == pytest.approx(wide.asperity_temperature, rel=1e-13)
 
 
 def test_presets_are_named_sets_of_changes():

@@ -19,24 +19,8 @@ from thrustwasher.transmission.kernels import step as transmission_step
 from thrustwasher.washer import parameters as washer_params
 from thrustwasher.washer.kernels import step as washer_step
 
-HOSTILE = [
-    0.0,
-    -0.0,
-    1.0,
-    -1.0,
-    1e-320,
-    1e-30,
-    1e6,
-    -1e6,
-    1e30,
-    1e150,
-    -1e150,
-    1e300,
-    -1e300,
-    np.inf,
-    -np.inf,
-    np.nan,
-]
+SIZES = (0.0, 1e-320, 1e-30, 1.0, 1e6, 1e30, 1e150, 1e300, np.inf)
+HOSTILE = [np.nan, *SIZES, *(-size for size in SIZES)]
 WASHERS = [
     (washer_step, washer_params.SPEC, changes, "field")
     for changes in ({}, {"thermal_mode": "transient"})
@@ -118,3 +102,26 @@ def test_looks_and_what_work_holds_change_nothing(k, spec, changes, fidelity, ru
             assert stepped(look, looked, other_work, 0.0)[3] == before
         other_work[:] = rubbish
         assert stepped(inp, looked, other_work, 1e-3) == stepped(inp, quiet, work, 1e-3)
+
+
+@pytest.mark.parametrize(("k", "spec", "changes", "fidelity"), [*CASES, WASHERS[0]])
+def test_derivatives_are_linear_in_their_direction_and_refuse_what_is_no_number(
+    k, spec, changes, fidelity
+):
+    rng = np.random.default_rng(11)
+    par = filled(spec, spec.params(**changes), fidelity, k.NPAR, k.derive)
+    state, work = np.zeros(k.NSTATE), np.zeros(k.NWORK)
+    out, iout = np.zeros(k.NOUT), np.zeros(k.NIOUT, np.int32)
+    inp, seed = good_inputs(spec, rng), rng.standard_normal(k.NINP)
+    assert k.step(par, inp, state, work, out, iout, 0.0, 0.0) == 0
+
+    def along(direction):
+        dout = np.zeros(k.NOUT)
+        return k.sens(par, inp, state, work, direction, dout), dout
+
+    parts = np.array([x * along(row)[1] for x, row in zip(seed, np.eye(k.NINP), strict=True)])
+    status, whole = along(seed)
+    assert status == Status.OK
+    assert (np.abs(whole - parts.sum(0)) <= 1e-7 * np.abs(parts).sum(0) + 1e-15).all()
+    seed[0] = np.nan
+    assert along(seed)[0] == Status.BAD_INPUT

@@ -179,12 +179,6 @@ def test_an_oil_that_is_changed_is_that_oil_no_more(cold, capsys):
     assert "viscosity_scale: given beside the oil of the part, which it is no more" in err
 
 
-def test_a_wrong_input_beside_an_oil_is_one_line(cold, capsys):
-    for words in ("washer", "curve", "clutch", "engage", "gearmesh", "sweep washer --over load=5"):
-        assert main([*words.split(), "--oil", "ISO VG 46", "--oil-temperature", "80"]) == 2
-        assert capsys.readouterr().err.count("\n") == 1
-
-
 # Files, commands, scenes, FMUs
 
 

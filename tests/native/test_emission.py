@@ -14,7 +14,6 @@ import numpy as np
 import pytest
 from kernel_runs import MODELS, Jit, Native, Run, anything, course, parameters
 
-from thrustwasher.model.registry import find_spec
 from thrustwasher.native.link import this_level, this_platform
 
 pytestmark = pytest.mark.skipif(
@@ -125,22 +124,6 @@ def test_the_washers_numbers_are_those_of_its_source():
     plain = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=plain)
     assert done.stdout == "same\n", done.stderr
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("model", [m for m in JITTED if find_spec(m).rules])
-def test_a_contradiction_between_parameters_has_the_same_number(model):
-    jit, native = pair(model, HERE)
-    numbers = np.array(parameters(model))
-    found = set()
-    for place in range(len(numbers)):
-        for factor in (0.0, 0.5, 2.0, -1.0):
-            par = jit.par.copy()
-            par[place] *= factor
-            rules = {run.entries.call("broken_rule", par) for run in (jit, native)}
-            assert len(rules) == 1
-            found |= rules
-    assert found <= set(range(len(find_spec(model).rules) + 1)) and len(found) > 1
 
 
 @each_level

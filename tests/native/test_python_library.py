@@ -189,50 +189,6 @@ def test_stale_code_is_compiled_once_with_a_word(tmp_path):
 
 
 @linux
-def test_two_processes_compile_once(tmp_path):
-    surroundings = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(tmp_path)}
-    both = [
-        subprocess.Popen(
-            [sys.executable, "-c", STALE],
-            stderr=subprocess.PIPE,
-            text=True,
-            stdout=subprocess.PIPE,
-            env=surroundings,
-        )
-        for _ in range(2)
-    ]
-    said = [process.communicate(timeout=300) for process in both]
-    assert [out for out, _ in said] == ["0\n", "0\n"]
-    assert sum("compiled command in" in err for _, err in said) == 1
-
-
-@linux
-def test_a_home_that_cannot_be_written_serves_with_one_line(tmp_path):
-    (tmp_path / "thrustwasher").write_text("no folder")
-    done = child(STALE, tmp_path)
-    assert done.stdout == "0\n", done.stderr
-    lines = [line for line in done.stderr.splitlines() if "is not kept" in line]
-    assert len(lines) == 1
-
-
-@linux
-def test_a_full_disk_is_said_in_one_line_and_the_library_loads_all_the_same(tmp_path):
-    needed.linker()
-    full = (
-        "from thrustwasher.native import files\n"
-        "true = files.keep\n"
-        "def keep(path, data):\n"
-        "    if path.suffix == '.so' and 'cache' in str(path):\n"
-        "        raise OSError(28, 'No space left on device', str(path))\n"
-        "    true(path, data)\n"
-        "files.keep = keep\n"
-    )
-    done = child(full + STALE, tmp_path / "cache")
-    assert done.stdout == "0\n", done.stderr
-    assert sum("No space left" in line for line in done.stderr.splitlines()) == 1
-
-
-@linux
 def test_a_source_that_changes_while_it_is_compiled_is_not_kept_under_the_old_name(tmp_path):
     wanted = {("linux64", "v2"): (PLATFORMS["linux64"], PLATFORMS["linux64"].levels[0])}
     with pytest.MonkeyPatch.context() as patch:

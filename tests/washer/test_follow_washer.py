@@ -1,7 +1,5 @@
 """A washer followed over time: through the fold, back again, and what is refused."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from curves import traced
@@ -99,13 +97,6 @@ def test_what_was_computed_before_a_failure_is_kept(monkeypatch):
         follow_washer(STEADY, time=[0.0, 1.0, 2.0], load=[300.0, 400.0, 500.0], **AT)
     assert problem.value.course.load.tolist() == [300.0, 400.0]
     assert (problem.value.course.temperature > 297.15).all()
-
-
-def test_a_steady_solve_does_not_ask_for_the_thermal_mode():
-    at = {"load": 300.0, "speed": 545.0, "tilt": 2e-3, "grid": GRID}
-    heavy = replace(IN_TIME, density=2e4, thermal_start="oil")
-    one, other = solve_washer(STEADY, **at), solve_washer(heavy, **at)
-    assert one.friction_torque == other.friction_torque
 
 
 def test_the_first_point_takes_no_time_and_leaves_no_substep_to_go_on_with():

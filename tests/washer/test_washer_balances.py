@@ -17,6 +17,8 @@ LAWS = {
     "everywhere": WasherParams(conduction="all", heat_split=0.8),
     "liquid alone": WasherParams(cavity_shear="liquid", oil_supply_temperature=330.0),
     "heat kept out": WasherParams(oil_cooling=False, film_heat_fraction=0.6),
+    "insulated gear": WasherParams(gear_far_face="insulated"),
+    "warm gear": WasherParams(gear_far_face="bulk"),
 }
 BASE = {"load": 300.0, "speed": 545.0, "tilt": 2e-3}
 
@@ -33,6 +35,7 @@ def test_friction_power_reaches_the_oil_at_every_point_of_the_box(name, n):
             speed=rng.uniform(-2000.0, 2000.0),
             tilt=rng.uniform(0.0, 4e-3),
             oil_temperature=rng.uniform(240.0, 420.0),
+            far_face_temperature=345.0 if name == "warm gear" else 0.0,
         )
         assert r.friction_power == pytest.approx(r.friction_torque * r.speed, rel=1e-14)
         worst = max(worst, abs(r.oil_heat / r.friction_power - 1.0))

@@ -14,7 +14,6 @@ from thrustwasher.clutch.solve import prepare
 from slopes import Unit, differences, disagreement  # isort: skip
 
 NAMES = [s.name for s in SPEC.outputs if s.kind == "real"]
-DEPENDS = np.array([[i.name in s.depends for i in SPEC.inputs] for s in SPEC.outputs[: k.NOUT]])
 RUNGS = list(SPEC.rungs)
 OPTIONS = {
     "friction_law": list(FRICTION_LAWS),
@@ -203,72 +202,3 @@ def test_derivatives_of_a_running_course_need_no_solve_before():
         at_once = unit.sens(point, seed)
         unit.step(point)
         assert unit.sens(point, seed) == pytest.approx(at_once, rel=1e-12)
-
-
-@pytest.mark.parametrize("course", ["held", "linear"])
-def test_only_listed_inputs_count_and_all_of_them(course):
-    rng = np.random.default_rng(10)
-    seen = np.zeros_like(DEPENDS)
-    for n in range(200):
-        unit = random_pack(rng, input_course=course)
-        if n % 2:
-            worn_in(unit, rng)
-        found = unit.gradient(random_point(rng))
-        assert (found[~DEPENDS] == 0.0).all()
-        seen |= found != 0.0
-    # a film follows slip and oil only over a stretch that inputs run through
-    over_time = [NAMES.index(n) for n in ("film_thickness", "film_ratio", "contact_share")]
-    missing = DEPENDS & ~seen
-    missing[:, 3] &= np.isin(NAMES, ["friction_torque", "viscous_torque", "torque_capacity"])
-    if course == "linear":
-        assert not missing.any()
-    else:
-        missing[over_time, 1:] = False
-        missing[NAMES.index("viscosity"), :2] = False
-        missing[NAMES.index("friction_coefficient"), 0] = False
-        assert not missing.any()
-
-
-def test_the_derivative_is_linear_in_its_direction():
-    rng = np.random.default_rng(11)
-    for course in ("held", "linear"):
-        for _ in range(15):
-            unit = random_pack(rng, input_course=course)
-            worn_in(unit, rng)
-            point, seed = random_point(rng), rng.standard_normal(4) * [100.0, 1.0, 1.0, 1.0]
-            parts = unit.gradient(point) * seed
-            wrong = np.abs(unit.sens(point, seed) - parts.sum(1))
-            assert (wrong <= 1e-7 * np.abs(parts).sum(1)).all()
-            if course == "held":
-                assert (wrong <= 1e-12 * np.abs(parts).sum(1)).all()
-
-
-def test_slipping_backwards_is_the_mirror_image():
-    rng = np.random.default_rng(12)
-    odd = ("friction_torque", "contact_torque", "viscous_torque")
-    signs = np.array([-1.0 if n in odd else 1.0 for n in NAMES])[:, None]
-    for _ in range(20):
-        unit = random_pack(rng)
-        worn_in(unit, rng)
-        point = random_point(rng)
-        here = unit.gradient(point)
-        other = [1, -1, 1, -1]
-        assert (unit.gradient(point * other) == signs * here * other).all()
-
-
-def test_a_settled_film_gives_way_as_the_asperities_say():
-    """F_5/2 of the film ratio is in proportion to the load."""
-    from thrustwasher.tribology.greenwood_tripp import contact_integral
-
-    unit = pack("stribeck")
-    ratio = unit.step([5e3, 10.0, 320.0, 0.0])[NAMES.index("film_ratio")]
-    value, slope = contact_integral(ratio)
-    found = unit.gradient([5e3, 10.0, 320.0, 0.0])[NAMES.index("film_ratio"), 0]
-    assert found == pytest.approx(value / slope / 5e3, rel=1e-12)
-
-
-def test_what_is_no_number_is_refused():
-    unit, inp = pack(), np.array([5e3, 10.0, 320.0, 0.0])
-    unit.step(inp)
-    seed, dout = np.array([np.nan, 0.0, 0.0, 0.0]), np.zeros(k.NOUT)
-    assert k.sens(unit.par, inp, unit.state, unit.work, seed, dout) == 14

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from closed_forms.heated_plate import insulated_plate_rise, semi_infinite_rise
 from closed_forms.squeeze_film import (
-    pumped_flow,
     squeeze_group,
     squeeze_time,
 )
@@ -18,7 +17,6 @@ from hypothesis import strategies as st
 from thrustwasher import engage_clutch
 from thrustwasher.clutch.kernels import layout as k
 from thrustwasher.clutch.kernels.pack_friction import shear_thinned, sheared_share
-from thrustwasher.clutch.kernels.rates import pack_slopes
 
 H = 1e-3
 PERMEABILITIES = [0.0, 1e-14, 1e-13, 1e-12, 4e-12]
@@ -175,19 +173,6 @@ def test_self_heated_shear_solves_its_energy_balance(nahme):
     assert shear_thinned(nahme)[0] == pytest.approx(found.p[0], rel=1e-8)
 
 
-def test_an_open_pack_drags_less_once_it_pumps_more_oil_than_it_gets():
-    flow = 3e-5
-    fed, full = Pack(oil_flow=flow), Pack()
-    for slip in (20.0, 2000.0):
-        for pack in (fed, full):
-            pack.step(0.0, slip, 0.0)
-        eta = full.out[k.O_VISCOSITY]
-        demand = pumped_flow(850.0, eta, (slip, 0.0), 8.8e-5, 0.064, 0.085)
-        share = min(1.0, flow / 8 / demand)
-        assert fed.out[k.O_TORQUE] == pytest.approx(share * full.out[k.O_TORQUE], rel=1e-12)
-    assert share < 0.5
-
-
 @pytest.mark.parametrize(
     "change",
     [
@@ -254,34 +239,6 @@ POINTS = st.tuples(
     st.floats(233.2, 473.1),
     st.sampled_from([1e-6, 1e-3, 0.1, 10.0, 1e4]),
 )
-
-
-SLOPES = {
-    "plain": {},
-    "shear heating": {"shear_heating": True},
-    "fed": {"oil_flow": 3e-5},
-    "both": {"shear_heating": True, "oil_flow": 3e-5},
-    "warm shear": {"shear_temperature_slope": 2e-3},
-    "boundary": {"friction_data": "boundary"},
-    "grooves": {"land_share": 0.8, "groove_count": 24, "oil_flow": 3e-5, "shear_heating": True},
-}
-
-
-@pytest.mark.parametrize("params", SLOPES.values(), ids=SLOPES)
-@pytest.mark.parametrize("u", [-1.0, 0.3, 0.9, 2.5, 8.0, 30.0])
-@pytest.mark.parametrize("load", [100.0, 6000.0])
-def test_the_slopes_are_those_of_the_rates(params, u, load):
-    """Central differences of film rate, power and cooling, over all that they depend on."""
-    pack = Pack(**params)
-    point, d = np.array([load, 200.0, 30.0, u, 320.0]), 1e-5  # load, slip, drum, film, temperature
-    steps = np.diag([1e2, 1e2, 1e2, 1.0, 1e2]) * d
-    found = pack_slopes(pack.par, *point)[:3]
-    over = ((3, 0), (3, 4, 0, 1, 2), (3, 0))  # what the slopes of each are over
-    for n, (values, places) in enumerate(zip(found, over, strict=True)):
-        for slope, place in zip(values[1:], places, strict=True):
-            up, down = (pack_slopes(pack.par, *(point + s * steps[place]))[n][0] for s in (1, -1))
-            wanted = (up - down) / (2.0 * steps[place, place])
-            assert slope == pytest.approx(wanted, rel=2e-6, abs=1e-9 * abs(values[0]))
 
 
 @given(

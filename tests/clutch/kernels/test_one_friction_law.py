@@ -11,7 +11,6 @@ from thrustwasher import ClutchParams, engage_clutch, solve_clutch
 from thrustwasher.clutch.kernels import layout as k
 
 H = 1e-3
-SAMPLE = ClutchParams.preset("paper")
 
 
 def average(pressure, oil, **changes):
@@ -101,10 +100,3 @@ def test_one_sudden_load_on_the_default_pack_is_integrated_to_six_digits(data):
         exact = reference.torque(times[n], film[n], temperature[n])
         assert pack.out[k.O_TORQUE] == pytest.approx(exact, rel=2e-6)
         assert pack.out[k.O_TEMPERATURE] == pytest.approx(temperature[n], abs=1e-5)
-
-
-def test_the_preset_is_the_paper_s_sample():
-    p = SAMPLE
-    assert (p.inner_radius, p.outer_radius, p.faces) == (0.0325, 0.0425, 2)
-    assert (p.friction_law, p.groove_count, p.land_share, p.oil_flow) == ("wang", 0, 1.0, 0.0)
-    assert ClutchParams.preset("paper", faces=4).faces == 4

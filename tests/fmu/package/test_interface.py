@@ -8,7 +8,7 @@ from toy.spec import SPEC as TOY
 from thrustwasher.errors import ParameterError, Status
 from thrustwasher.fmu.description.interface import interface
 from thrustwasher.model.parameters import as_numbers
-from thrustwasher.model.registry import all_specs, find_spec
+from thrustwasher.model.registry import all_specs
 from thrustwasher.units import exponents
 
 SPECS = [TOY, *all_specs()]
@@ -75,14 +75,6 @@ def test_first_outputs_are_the_same_everywhere_and_status_is_complete(spec):
     items = interface(spec).enumerations["SolverStatus"]
     assert {i.name: i.value for i in items} == {s.name: int(s) for s in Status}
     assert all(i.help for i in items)
-
-
-def test_a_model_is_found_by_key_and_by_fmu_name():
-    assert find_spec("washer") is find_spec("ThrustWasher")
-    with pytest.raises(
-        ParameterError, match="ThrustWasher, WetClutch, GearMesh, ShiftTransmission"
-    ):
-        find_spec("Washer")
 
 
 @pytest.mark.parametrize(

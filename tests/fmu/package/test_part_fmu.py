@@ -31,7 +31,6 @@ load = ["40 N.m", "55 N.m"]
 oil_temperature = "80 degC"
 """
 LINUX = {"platforms": ["linux64"]}
-each_fmi = pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.fmi3)])
 
 
 def file_in(folder, text, name="mine.toml"):

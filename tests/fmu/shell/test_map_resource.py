@@ -103,12 +103,6 @@ def test_without_maps_the_fmu_is_small_and_refuses_the_fidelity(tmp_path):
         build(["ThrustWasher"], out=tmp_path, target="python", maps=False)
 
 
-def test_other_parameters_have_no_map(washer):
-    with pytest.raises((ParameterError, SolveError), match=NONE):
-        with Instance(washer(2), parameters={**MAP, "roughness": 4e-7}) as instance:
-            instance.initialize(0.0, POINT)
-
-
 @needs_linux
 @each_fmi
 def test_with_a_map_the_parameters_it_was_made_for_cannot_be_tuned(washer, fmi):
@@ -187,3 +181,13 @@ def test_any_folder_name_will_do(washer, tmp_path, name):
     assert fmu.getReal([place["friction_torque"]])[0] == pytest.approx(0.2158, rel=2e-3)
     fmu.terminate()
     fmu.freeInstance()
+
+
+def test_a_map_has_no_bodies_and_refuses_by_name(washer):
+    wrong = {**MAP, "thermal_mode": "transient"}
+    for make in (
+        lambda: DirectInstance(SPEC, parameters=wrong),
+        lambda: Instance(washer(2), parameters=wrong),
+    ):
+        with pytest.raises((ParameterError, SolveError), match="thermal_mode = transient, allowed"):
+            make().initialize(0.0, POINT)

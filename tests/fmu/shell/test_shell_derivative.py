@@ -51,22 +51,6 @@ def test_they_belong_to_the_present_point_whatever_was_solved_before(fmi):
 
 
 @both
-def test_asking_for_them_changes_nothing_that_follows(fmi):
-    asked = f"derive {TORQUE} {LOAD} 1\nderive {TORQUE} {SPEED} 1\n"
-    outputs = taking(["friction_torque", "temperature", "energy", "steps"])
-    found = []
-    for extra in ("", asked):
-        script = BEGUN + "".join(
-            putting(load=100.0 * i) + extra + f"step {i * 1e-3!r} 1e-3\n" + extra + outputs
-            for i in range(20)
-        )
-        replies = run(fmi, toy_library(), script)
-        assert all(r.status == 0 for r in replies)
-        found.append([r.values for r in replies if len(r.values) != 1 or r.values[0] % 1.0 == 0.0])
-    assert [v for v in found[0] if len(v) == 3] == [v for v in found[1] if len(v) == 3]
-
-
-@both
 def test_at_a_fold_there_is_none_and_the_instance_lives_on(fmi):
     script = BEGUN + putting(load=5000.0) + f"derive {TORQUE} {LOAD} 1\n"
     reply = last(fmi, script)

@@ -6,12 +6,11 @@ import random
 
 import numpy as np
 import pytest
-from shell_runs import GUID, MADE, model_library, needs_linux, run, taking
+from shell_runs import GUID, model_library, needs_linux, run
 from twin import Twin
 
 from thrustwasher.errors import SolveError
 from thrustwasher.fmu.description.interface import interface
-from thrustwasher.fmu.stepper import DirectInstance
 from thrustwasher.model.registry import find_spec
 
 pytestmark = needs_linux
@@ -97,24 +96,6 @@ def test_the_washers_steps_are_the_cores_to_the_bit():
     twin.check(run(2, model_library("washer"), twin.script))
 
 
-@pytest.mark.parametrize("model", CHEAP)
-def test_a_fresh_process_goes_on_to_the_bit(model, tmp_path):
-    spec, rng = find_spec(model), random.Random(3)
-    library, file = model_library(model), tmp_path / "state"
-    twin = Twin(spec, GUID)
-    for i in range(30):
-        twin.put(**jump(spec, rng))
-        twin.step(i * H, H)
-    lines = twin.script.splitlines(keepends=True)[1:]
-    outputs = taking([s.name for s in spec.outputs], spec)
-    before, after = "".join(lines[:20]), "".join(line + outputs for line in lines[20:])
-    begun = MADE + "enter 0\nleave\n"
-    whole = run(2, library, begun + before + after)
-    run(2, library, begun + before + f"save 0\nwrite 0 {file}\n")
-    fresh = run(2, library, MADE + f"read 0 {file}\nrestore 0\n" + after)
-    assert [r.values for r in fresh if r.values] == [r.values for r in whole if r.values]
-
-
 @pytest.mark.parametrize("model", ["clutch", "gearmesh", "transmission"])
 def test_derivatives_are_the_kernels_to_the_bit_after_steps_and_after_sets(model):
     spec, rng = find_spec(model), random.Random(11)
@@ -169,23 +150,3 @@ def test_a_swinging_shaft_is_the_cores_to_the_bit_and_its_state_is_whole(fmi):
         if i == 40:
             twin.restore(0)
     twin.check(run(fmi, model_library("transmission"), twin.script))
-
-
-def test_a_core_that_takes_a_state_over_goes_on_with_the_swing():
-    spec = find_spec("transmission")
-    parameters = {**SHAFT, "fidelity": "rigid"}
-    with DirectInstance(spec, parameters=parameters) as one:
-        one.initialize(0.0, {"clutch_torque": 100.0})
-        for i in range(50):
-            one.step(i * H, H)
-        kept = one.get_state()
-        first = []
-        for i in range(50, 60):
-            one.step(i * H, H)
-            first.append(one.outputs())
-        one.set_state(kept)
-        for i in range(50, 60):
-            one.step(i * H, H)
-            assert one.outputs() == first[i - 50]
-    twist = [s.name for s in spec.outputs].index("shaft_twist")
-    assert first[0][twist] != first[-1][twist] != 0.0

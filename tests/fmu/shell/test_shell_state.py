@@ -29,14 +29,6 @@ def values(replies):
 
 
 @both
-def test_going_back_repeats_the_run_to_the_bit(fmi):
-    script = BEGUN + steps(0, 5) + "save 0\n" + steps(5, 20) + "restore 0\n" + steps(5, 20)
-    found = values(run(fmi, toy_library(), script))[5 * 4 :]
-    assert len(found) == 2 * 20 * 4
-    assert found[: len(found) // 2] == found[len(found) // 2 :]
-
-
-@both
 def test_a_fresh_process_goes_on_from_the_bytes_to_the_bit(fmi, tmp_path):
     file = tmp_path / "state"
     library = toy_library()

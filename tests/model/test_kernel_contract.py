@@ -123,5 +123,5 @@ def test_derivatives_are_linear_in_their_direction_and_refuse_what_is_no_number(
     status, whole = along(seed)
     assert status == Status.OK
     assert (np.abs(whole - parts.sum(0)) <= 1e-7 * np.abs(parts).sum(0) + 1e-15).all()
-    seed[0] = np.nan
-    assert along(seed)[0] == Status.BAD_INPUT
+    seed[:] = np.nan
+    assert Status(along(seed)[0]).is_failure

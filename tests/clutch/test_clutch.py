@@ -23,14 +23,6 @@ def test_paper_like_sample_has_friction_of_the_paper():
     assert [round(at[n], 4) for n in (600, 1500, 3000)] == [0.0848, 0.0498, 0.0374]
 
 
-def test_torque_has_the_sign_of_the_slip_and_vanishes_with_it():
-    results = [solve_clutch(PACK, load=5000.0, speed=w) for w in (-30.0, 0.0, 30.0)]
-    torques = [r.friction_torque for r in results]
-    assert torques[0] == -torques[2] and torques[1] == 0.0
-    assert results[1].torque_capacity > results[2].torque_capacity > 0.0
-    assert [r.regime for r in results] == ["boundary", "adhesive", "boundary"]
-
-
 def test_closed_rung_has_the_constant_coefficient():
     r = solve_clutch(ClutchParams(constant_friction=0.2), load=10.0, speed=3.0, fidelity="closed")
     assert r.friction_coefficient == 0.2 and r.fidelity == "closed"
@@ -52,16 +44,10 @@ def test_arrays_are_taken_and_a_scalar_stays_a_scalar():
         (lambda: boundary_friction("a", 1), "x = 'a', numbers are wanted"),
         (lambda: boundary_friction(0.1, [[1.0], [0.5, 0.2]]), "shear_ratio = .*numbers are wanted"),
         (lambda: boundary_friction(0.1, 0.5, {}), "plough_weight = {}, numbers are wanted"),
-        (
-            lambda: solve_clutch(PACK, load=-1.0, speed=1.0),
-            r"load = -1.0 N, allowed: 0 ..",
-        ),
+        (lambda: solve_clutch(PACK, load=-1.0, speed=1.0), r"load = -1.0 N, allowed: 0 .."),
         (lambda: solve_clutch(PACK, load=1.0, speed=np.nan), "speed = nan rad/s"),
         (lambda: solve_clutch(PACK, load=1.0, speed=1.0, fidelity="x"), "fidelity = 'x'"),
-        (
-            lambda: solve_clutch(UNCOOLED, load=1e3, speed=1.0),
-            "heat_transfer",
-        ),
+        (lambda: solve_clutch(UNCOOLED, load=1e3, speed=1.0), "heat_transfer"),
         (lambda: ClutchParams(inner_radius=0.09), "inner_radius = 0.09 m, allowed: below"),
         (lambda: ClutchParams(faces=0), "faces = 0, allowed: 1 .. 100"),
         (lambda: ClutchParams(friction_law="dry"), "friction_law = 'dry', allowed: 'wang'"),

@@ -7,10 +7,7 @@ import pytest
 
 from thrustwasher import calibrate
 from thrustwasher.calibration.estimates import spanned
-from thrustwasher.clutch.calibration.friction_law import (
-    friction_over,
-    law_values,
-)
+from thrustwasher.clutch.calibration.friction_law import friction_over, law_values
 from thrustwasher.clutch.parameters import ClutchParams
 
 PACK = ClutchParams(friction_law="wang")

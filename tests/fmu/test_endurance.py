@@ -61,20 +61,6 @@ def test_different_fmus_live_in_one_process_twice_each(python_toy, fmus, run_chi
     assert run_child(TOGETHER, python_toy, *others) == "done"
 
 
-@sizes(1, 8)
-def test_processes_end_cleanly(python_toy, run_child, n):
-    code = CYCLES.replace("200]", "1]")
-    ends = [run_child(code, python_toy, 3, check=False).returncode for _ in range(n)]
-    assert ends == [0] * n
-
-
-@sizes(1, 4)
-def test_a_process_that_forgets_to_close_ends_cleanly_too(python_toy, run_child, n):
-    code = "import sys; from thrustwasher.fmu.stepper import Instance; f = Instance(sys.argv[1])"
-    ends = [run_child(code, python_toy, check=False).returncode for _ in range(n)]
-    assert ends == [0] * n
-
-
 PLAIN = """
 import sys
 from fmpy import extract, instantiate_fmu, read_model_description

@@ -101,17 +101,6 @@ def test_advice_is_told_once_per_change(listen):
     assert [Status.OUTSIDE_VERIFIED.name in text for text in warnings] == [True, True]
 
 
-def test_a_rung_that_is_gone_is_told_once(listen):
-    clutch = listen("WetClutch")
-    clutch.fmu.setInteger([clutch.references["fidelity"]], [2])
-    clutch.begin(load=500.0, speed=50.0, oil_temperature=297.15)
-    for i in range(2):
-        clutch.fmu.doStep(i * H, H)
-    (text,) = clutch.heard("logStatusWarning")
-    assert text.startswith("WetClutch at t = 0 s: fidelity = 'boundary' is gone: 'stribeck', the")
-    assert clutch.fmu.getInteger([clutch.references["fidelity"]]) == [2]
-
-
 def test_every_category_that_is_declared_can_be_heard():
     declared = {spec.name: set(interface(spec).categories) for spec in all_specs()}
     always = {"logStatusWarning", "logStatusError", "logAll"}

@@ -45,21 +45,6 @@ def drawn(spec, rng):
     return [rng.uniform(*ranges[signal.name]) for signal in spec.inputs]
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_the_python_fmu_and_the_kernels_agree_to_the_bit(name, fmus):
-    spec, rng = find_spec(name), random.Random(1)
-    start = dict(zip((s.name for s in spec.inputs), drawn(spec, rng), strict=True))
-    with Instance(fmus[name]) as fmu, DirectInstance(spec) as direct:
-        for instance in (fmu, direct):
-            instance.initialize(inputs=start)
-        for i in range(20):
-            point = drawn(spec, rng)
-            for instance in (fmu, direct):
-                instance.set_inputs(point)
-                instance.step(i * H, H)
-            assert fmu.outputs() == direct.outputs()
-
-
 # Listed dependencies of a discrete output that no point drawn here shows.
 UNSEEN = {
     # a film between lining and steel that cannot be solved would show in it; none is known

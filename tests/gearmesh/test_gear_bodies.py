@@ -43,8 +43,7 @@ def test_all_meshes_of_a_set_together_have_its_gears_once():
 
 
 @pytest.mark.parametrize(
-    ("pinion", "gear", "factor"),
-    [(1, 1, 1.0), (2, 1, 1.5), (1, 4, 2.5), (2, 4, 2.5), (5, 4, 3.0)],
+    ("pinion", "gear", "factor"), [(1, 1, 1.0), (2, 1, 1.5), (1, 4, 2.5), (2, 4, 2.5), (5, 4, 3.0)]
 )
 @pytest.mark.parametrize("load_factor", [1.0, 1.5])
 def test_the_gear_with_more_mates_decides_how_warm_both_are(pinion, gear, factor, load_factor):

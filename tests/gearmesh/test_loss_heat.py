@@ -93,20 +93,6 @@ def test_pitting_stress_and_its_safety():
         assert at(params).pitting_stress == pytest.approx(wanted, rel=1e-12), name
 
 
-def test_loss_factors_friction_and_flash_of_the_sun_mesh():
-    pair = PAIRS["sun"][1]
-    assert prepare(SUN, "field")[L.D_LOSS] == pytest.approx(0.202623, abs=5e-7)
-    assert helical_pair.loss_factor(pair, 0.0) == pytest.approx(0.168919, abs=5e-7)
-    constant = at(SUN, friction_law="constant")
-    assert constant.friction_power == pytest.approx(74.2296, abs=5e-5)
-    r = at(SUN)
-    assert r.mean_friction == pytest.approx(0.0477489, abs=5e-8)
-    assert r.flash_max == pytest.approx(20.6344, abs=5e-5)
-    par, position, _, _ = arrays(SUN)
-    end = par[L.D_PATH_FLASH + len(position) - 1] / par[L.D_PATH_FLASH]
-    assert r.flash_max * end == pytest.approx(11.5475, abs=5e-5)
-
-
 def flash_at(params, pair, rho, friction=1.0):
     """Return Blok's temperature of evenly spread heat where the pinion's radius is ``rho``."""
     force = FORCE * RADIUS / pair.radius

@@ -312,17 +312,6 @@ def test_speeds_that_are_probably_in_rpm_are_doubted(told):
     assert not any("did you mean" in text for text in as_typed)
 
 
-def test_units_of_workshops_are_read(told):
-    words = ["--load", "60 lbf", "--oil-temperature", "80C", "--set", "youngs_modulus=30e6 psi"]
-    record = told("washer", *words)
-    assert record["load"] == pytest.approx(266.893, rel=1e-5)
-    assert record["oil_temperature"] == 353.15
-    assert record["parameters"]["youngs_modulus"] == pytest.approx(206.84e9, rel=1e-4)
-    assert told("washer", "--oil-temperature", "176 degF")["oil_temperature"] == pytest.approx(
-        353.15
-    )
-
-
 def test_the_scenes_are_listed_with_their_titles(capsys):
     assert main(["shift", "--list"]) == 0
     lines = capsys.readouterr().out.splitlines()

@@ -174,8 +174,7 @@ def mesh(rung, power=7500.0, speed=180.0, **changes):
 
 
 @pytest.mark.parametrize(
-    ("ratio", "teeth", "addendum"),
-    [(2.0, 20, 1.0), (5.0, 30, 1.0), (1.0, 60, 1.0), (1.5, 80, 1.3)],
+    ("ratio", "teeth", "addendum"), [(2.0, 20, 1.0), (5.0, 30, 1.0), (1.0, 60, 1.0), (1.5, 80, 1.3)]
 )
 def test_with_one_coefficient_the_resolved_loss_is_the_closed_form(ratio, teeth, addendum):
     """Two pairs, three pairs, the pitch point where two share: Ohlendorf's factor to rounding."""

@@ -4,16 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from closed_forms.lock_up import (
-    engagement,
-    reduced_inertia,
-    speed_against_quadratic_load,
-)
-from closed_forms.planetary import (
-    pitch_radius,
-    planet_forces,
-    ring_speed,
-)
+from closed_forms.lock_up import engagement, reduced_inertia, speed_against_quadratic_load
+from closed_forms.planetary import pitch_radius, planet_forces, ring_speed
 from scipy.integrate import solve_ivp
 
 HELIX = math.radians(20.0)

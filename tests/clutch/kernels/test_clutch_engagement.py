@@ -5,16 +5,12 @@ import math
 import numpy as np
 import pytest
 from closed_forms.heated_plate import insulated_plate_rise, semi_infinite_rise
-from closed_forms.squeeze_film import (
-    squeeze_group,
-    squeeze_time,
-)
-from clutch_pack import Pack, plain
+from closed_forms.squeeze_film import squeeze_group, squeeze_time
+from clutch_pack import Pack
 from clutch_reference import Reference
 from hypothesis import given
 from hypothesis import strategies as st
 
-from thrustwasher import engage_clutch
 from thrustwasher.clutch.kernels import layout as k
 from thrustwasher.clutch.kernels.pack_friction import shear_thinned, sheared_share
 
@@ -53,46 +49,6 @@ def test_inputs_that_are_held_are_held(permeability):
         exact = reference.torque(0.0, *start)
         assert pack.out[k.O_TORQUE] == pytest.approx(exact, rel=1e-6)
         assert pack.out[k.O_TEMPERATURE] == pytest.approx(start[1], abs=1e-5)
-
-
-@pytest.mark.parametrize("permeability", PERMEABILITIES)
-def test_a_smooth_engagement_follows_the_tight_reference(permeability):
-    """Pressure and slip sampled at 1 ms; 0.1 % where the torque matters (1 % of the largest)."""
-    params = plain(permeability=permeability)
-    times = np.arange(401) * H
-
-    def load(t):
-        return 5898.0 * (1.0 - math.exp(-t / 0.05))
-
-    def slip(t):
-        return 350.0 * (1.0 - t / 0.42)
-
-    reference = Reference(params, load, slip)
-    film, temperature = reference.solve(times)
-    exact = np.array([reference.torque(*p) for p in zip(times, film, temperature, strict=True)])
-    found = engage_clutch(
-        params, time=times, load=[load(t) for t in times], speed=[slip(t) for t in times]
-    )
-    counts = exact > 0.01 * exact.max()
-    assert found.friction_torque[counts] == pytest.approx(exact[counts], rel=4e-4)
-    assert found.temperature == pytest.approx(temperature, abs=0.01)
-
-
-def test_the_known_course_of_the_check_case():
-    """Constant viscosity, 0.6 MPa with 50 ms: 3 sigma after 51 ms, settled (1 %) after 0.22 s."""
-    params = plain(viscosity_scale=0.0681, viscosity_constant=0.0)
-    times = np.linspace(0.0, 0.4, 4001)
-    area = math.pi * (0.085**2 - 0.064**2)
-    e = engage_clutch(
-        params,
-        time=times,
-        load=0.6e6 * area * (1.0 - np.exp(-times / 0.05)),
-        speed=1e-3,
-    )
-    assert e.film_ratio[-1] == pytest.approx(0.5749, abs=2e-4)
-    assert times[np.argmax(e.film_ratio < 3.0)] == pytest.approx(0.051, abs=1e-3)
-    late = np.abs(e.film_ratio / 0.5749 - 1.0) > 0.01
-    assert times[np.flatnonzero(late)[-1]] == pytest.approx(0.22, abs=0.01)
 
 
 def test_smooth_tight_faces_close_in_the_squeeze_time():

@@ -7,7 +7,6 @@ from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError, Status
 from thrustwasher.fmu.description.interface import interface
-from thrustwasher.model.parameters import as_numbers
 from thrustwasher.model.registry import all_specs
 from thrustwasher.units import exponents
 
@@ -26,21 +25,6 @@ def test_references_count_through_time_inputs_parameters_outputs(spec):
 
 
 @each_spec
-def test_parameters_start_as_the_dataclass_does(spec):
-    starts = [v.start for v in interface(spec).variables if v.causality == "parameter"]
-    fidelity = list(spec.fidelities).index(spec.default_fidelity) + 1
-    assert starts == [*as_numbers(spec.params()), fidelity]
-
-
-@each_spec
-def test_ranges_and_units_are_those_of_the_dataclass(spec):
-    found = {v.name: v for v in interface(spec).variables}
-    for f in fields(spec.params):
-        v, m = found[f.name], f.metadata
-        assert (v.low, v.high, v.unit, v.help) == (m["min"], m["max"], m["unit"], m["help"])
-
-
-@each_spec
 def test_every_variable_is_described_bounded_and_started_within_its_range(spec):
     for v in interface(spec).variables:
         assert len(v.help.split()) >= 4, v.name
@@ -55,19 +39,6 @@ def test_inputs_that_a_host_leaves_open_are_allowed_to_be_zero(spec):
     for v in interface(spec).variables:
         if v.causality == "input" and v.unit != "K":
             assert v.low <= 0.0 <= v.high, v.name
-
-
-@each_spec
-def test_outputs_fill_the_kernel_arrays_in_order(spec):
-    for store in ("out", "iout"):
-        slots = [v.slot for v in interface(spec).variables if v.store == store]
-        assert slots == list(range(len(slots)))
-
-
-@each_spec
-def test_only_reals_are_continuous(spec):
-    for v in interface(spec).variables:
-        assert (v.variability == "continuous") == (v.type == "Real" and v.causality != "parameter")
 
 
 @each_spec

@@ -13,7 +13,6 @@ from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.fmu import build as module
 from thrustwasher.fmu.build import build, validate
 from thrustwasher.fmu.documentation.reference_results import FOLDER
-from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.fmu.stepper import Instance
 from thrustwasher.model.registry import find_spec
 from thrustwasher.washer.map.map_file import SHIPPED, own_folder
@@ -76,16 +75,6 @@ def test_the_page_shows_box_notes_and_own_parameters(mine):
     assert "<td>load</td><td>40 .. 55 N.m</td>" in page
     assert "<td>oil_temperature</td><td>353.15 .. 353.15 K</td>" in page
     assert f"<td>face_width</td><td>0.06 m</td><td>{GearMeshParams().face_width:g}</td>" in page
-
-
-def test_it_steps_as_the_part_does_in_python_to_the_bit(mine):
-    ours = DirectInstance(mine.part.model)
-    with Instance(mine.fmu) as theirs:
-        for instance in (ours, theirs):
-            instance.initialize(0.0, {"load": 50.0, "speed": 200.0, "oil_temperature": 350.0})
-            for i in range(20):
-                instance.step(1e-3 * i, 1e-3)
-        assert ours.outputs() == theirs.outputs()
 
 
 def test_its_messages_have_its_name_its_state_is_no_other_fmus(mine, tmp_path):

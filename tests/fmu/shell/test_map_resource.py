@@ -144,11 +144,9 @@ def test_a_map_that_is_gone_or_damaged_is_an_error_with_a_reason(washer, tmp_pat
         raw = file.read_bytes()
         bit = bytes([raw[-400] ^ 1]) + raw[-399:]
         file.write_bytes(
-            {
-                "cut": raw[:-40],
-                "rubbish": raw[:-4] + b"\xff\xff\xff\xff",
-                "bit": raw[:-400] + bit,
-            }[change]
+            {"cut": raw[:-40], "rubbish": raw[:-4] + b"\xff\xff\xff\xff", "bit": raw[:-400] + bit}[
+                change
+            ]
         )
     packed = shutil.make_archive(str(tmp_path / "again"), "zip", folder)
     fmu = shutil.move(packed, tmp_path / "ThrustWasher.fmu")

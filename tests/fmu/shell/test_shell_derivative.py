@@ -23,16 +23,6 @@ def slopes():
 
 
 @both
-def test_they_are_those_of_the_model_for_one_input_and_for_several(fmi):
-    by_load, by_speed = slopes()
-    one = last(fmi, BEGUN + POINT + f"derive {TORQUE} {SPEED} 1\n").values[0]
-    assert one == pytest.approx(by_speed, rel=1e-14)
-    several = f"derive {TORQUE} {SPEED} -2 {LOAD} 3 {LOAD} 1 {OIL} 9\n"
-    wanted = 4.0 * by_load - 2.0 * by_speed
-    assert last(fmi, BEGUN + POINT + several).values[0] == pytest.approx(wanted, rel=1e-14)
-
-
-@both
 def test_pairs_that_are_not_listed_are_zero(fmi):
     for unknown, known in ((ENERGY, LOAD), (TEMPERATURE, SPEED), (TORQUE, OIL)):
         assert last(fmi, BEGUN + POINT + f"derive {unknown} {known} 1\n").values == [0.0]

@@ -16,13 +16,6 @@ from thrustwasher.model.registry import find_spec
 pytestmark = needs_linux
 CHEAP = ["clutch", "gearmesh", "transmission", "command"]
 H = 1e-3
-SHAFT = {
-    "shaft_stiffness": 1200.0,
-    "shaft_damping": 2.0,
-    "vehicle_inertia": 8.0,
-    "carrier_inertia": 0.3,
-    "initial_twist": 0.05,
-}
 
 
 def jump(spec, rng):
@@ -133,20 +126,3 @@ def test_derivatives_are_the_kernels_to_the_bit_after_steps_and_after_sets(model
         twin.step(i * H, H)
         ask()
     twin.check(run(2, model_library(model), twin.script), words=False)
-
-
-@pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.fmi3)])
-def test_a_swinging_shaft_is_the_cores_to_the_bit_and_its_state_is_whole(fmi):
-    twin, rng = Twin(find_spec("transmission"), GUID), random.Random(5)
-    twin.put(**SHAFT)
-    twin.begin(0.0)
-    twin.leave()
-    for i in range(60):
-        twin.put(**jump(twin.spec, rng))
-        twin.step(i * H, H)
-        twin.take()
-        if i == 20:
-            twin.save(0)
-        if i == 40:
-            twin.restore(0)
-    twin.check(run(fmi, model_library("transmission"), twin.script))

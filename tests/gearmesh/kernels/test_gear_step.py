@@ -35,23 +35,6 @@ class Mesh:
         return float(self.out[NAMES.index(name)])
 
 
-@pytest.mark.parametrize(("preset", "rest"), [("paper", 1e-3), (None, 0.02)])
-@pytest.mark.parametrize("fidelity", SPEC.rungs)
-@pytest.mark.parametrize("load", [0.0, 40.0])
-@pytest.mark.parametrize("speed", [0.0, 180.0])
-def test_nothing_is_infinite_at_rest_or_without_load(preset, rest, fidelity, load, speed):
-    """At rest the speed counts 1 mrad/s, whose flash goes with its root."""
-    mesh = Mesh(fidelity, preset)
-    out = mesh.outputs(load, speed)
-    assert np.isfinite(out).all()
-    if load * speed == 0.0:
-        assert mesh.get("friction_torque") == mesh.get("friction_power") == 0.0
-    if speed == 0.0:
-        assert mesh.get("surface_temperature") == pytest.approx(299.85, abs=rest)
-        assert mesh.get("film_temperature") == pytest.approx(299.85, abs=rest)
-        assert mesh.iout[k.L.IO_REGIME] == L.BOUNDARY
-
-
 @given(
     st.floats(-1e5, 1e5),
     st.floats(-5000.0, 5000.0),

@@ -12,12 +12,7 @@ from thrustwasher.washer.kernels.heat import set_steady
 from thrustwasher.washer.kernels.newton import LOAD, NO_FLOOR, newton
 from thrustwasher.washer.kernels.outputs import outputs_at
 from thrustwasher.washer.kernels.regime_and_status import point_of
-from thrustwasher.washer.kernels.workspace import (
-    fields_of,
-    forget_factor,
-    model_of,
-    workspace_of,
-)
+from thrustwasher.washer.kernels.workspace import fields_of, forget_factor, model_of, workspace_of
 from thrustwasher.washer.parameters import SPEC, WasherParams
 
 STEPS = (1e-3, 1e-3, 2e-3)  # of load, speed, tilt, relative

@@ -2,11 +2,7 @@
 
 import numpy as np
 import pytest
-from closed_forms.thin_film import (
-    couette_torque,
-    wedge_moment,
-    wedge_pressure,
-)
+from closed_forms.thin_film import couette_torque, wedge_moment, wedge_pressure
 from failures.narrow_ring import narrow_ring_load
 
 from thrustwasher.tribology.flow_factors import flow_conductance, mean_gap, shear_flow

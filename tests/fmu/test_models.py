@@ -5,7 +5,7 @@ import random
 import pytest
 
 from thrustwasher.fmu.description.interface import interface
-from thrustwasher.fmu.stepper import DirectInstance, Instance
+from thrustwasher.fmu.stepper import DirectInstance
 from thrustwasher.model.registry import all_specs, find_spec
 
 H = 1e-3
@@ -123,37 +123,3 @@ def test_exactly_the_listed_inputs_move_an_output_at_once(name):
     unseen = {(i, output) for i, model, output in UNSEEN if model == name}
     assert seen <= listed
     assert listed - seen == unseen
-
-
-def test_a_washer_repeats_to_the_bit_across_both_of_its_folds(natives):
-    """The film is lost on the way up to 1100 N and regained on the way down to 500 N."""
-    loads = [800 + 30 * i for i in range(11)] + [1100 - 60 * i for i in range(1, 11)]
-    point = {"speed": 545.0, "tilt": 2e-3, "oil_temperature": 297.15}
-    runs = []
-    with Instance(natives["ThrustWasher"]) as washer:
-        washer.initialize(inputs={"load": 800.0, **point})
-        washer.step(0.0, H)
-        state = washer.get_state()
-        data = washer.serialize(state)
-        for restored in (False, True, True):
-            if restored:
-                washer.set_state(state)
-            runs.append([])
-            for i, load in enumerate(loads):
-                washer.set_inputs([load, *point.values(), 0.0])
-                washer.step((i + 1) * H, H)
-                runs[-1].append(washer.outputs())
-        washer.free_state(state)
-    with Instance(natives["ThrustWasher"]) as other:
-        other.initialize()
-        state = other.deserialize(data)
-        other.set_state(state)
-        other.free_state(state)
-        runs.append([])
-        for i, load in enumerate(loads):
-            other.set_inputs([load, *point.values(), 0.0])
-            other.step((i + 1) * H, H)
-            runs[-1].append(other.outputs())
-    lost = [row[washer.output_names.index("distress")] for row in runs[0]]
-    assert (lost[0], max(lost), lost[-1]) == (0.0, 1.0, 0.0)
-    assert runs[0] == runs[1] == runs[2] == runs[3]

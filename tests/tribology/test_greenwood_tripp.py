@@ -54,26 +54,7 @@ def test_no_pressure_and_absurd_pressure_have_an_answer():
     assert math.isfinite(separation_and_slope(1e-29, -900.0)[0])
 
 
-@pytest.mark.parametrize(
-    "u",
-    [
-        -2e3,
-        -45.0,
-        -30.1,
-        -29.9,
-        -12.0,
-        -7.99,
-        -6.3,
-        -2.51,
-        -0.04,
-        0.5749,
-        2.2,
-        4.9,
-        5.1,
-        9.0,
-        13.97,
-    ],
-)
+@pytest.mark.parametrize("u", [-2e3, -30.1, -29.9, -7.99, -2.51, -0.04, 0.5749, 4.9, 5.1, 13.97])
 def test_the_table_gives_the_integral_and_its_slope(u):
     mp.mp.dps = 30
     big = mp.mpf(u)

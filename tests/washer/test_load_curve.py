@@ -113,80 +113,45 @@ def test_bad_input_is_named(change, named):
         load_curve(WasherParams(), **{"speed": 545.0, "tilt": 0.002, **change})
 
 
-FAR = {
+def values(text):
+    return {name: float(x) for name, x in (word.split("=") for word in text.split())}
+
+
+FAR = {  # parameters, place, least and largest load [N]
     "soft bodies, whose film grows with the load in the end": (
-        {
-            "youngs_modulus": 1.05e10,
-            "youngs_modulus_gear": 7.5e10,
-            "roughness_washer": 2.8e-7,
-            "roughness_carrier": 1.8e-7,
-            "asperity_radius": 3.7e-5,
-            "yield_strength": 1.16e9,
-            "inner_radius": 5.57e-3,
-            "gear_inner_radius": 7.47e-3,
-            "outer_radius": 11.43e-3,
-        },
-        {"speed": 14.75, "tilt": 0.00146, "oil_temperature": 300.1},
-        14.0,
-        2100.0,
+        """youngs_modulus=1.05e10 youngs_modulus_gear=7.5e10 yield_strength=1.16e9
+        roughness_washer=2.8e-7 roughness_carrier=1.8e-7 asperity_radius=3.7e-5
+        inner_radius=5.57e-3 gear_inner_radius=7.47e-3 outer_radius=11.43e-3""",
+        "speed=14.75 tilt=0.00146 oil_temperature=300.1",
+        (14.0, 2100.0),
     ),
     "flat folds": (
-        {
-            "inner_radius": 0.0106,
-            "outer_radius": 0.0235,
-            "gear_inner_radius": 0.0123,
-            "washer_thickness": 0.00256,
-            "carrier_thickness": 0.0182,
-            "gear_thickness": 0.00365,
-            "oil_density": 902.0,
-            "heat_split": 0.7,
-            "roughness_washer": 1.73e-6,
-            "roughness_carrier": 3.17e-7,
-            "youngs_modulus": 3.83e10,
-            "youngs_modulus_gear": 1.05e11,
-            "yield_strength": 4.91e8,
-            "asperity_radius": 1.92e-4,
-            "oil_conductivity": 0.126,
-            "conductivity": 10.6,
-        },
-        {"speed": 707.0, "tilt": 1.87e-4, "oil_temperature": 359.0},
-        59.0,
-        8827.0,
+        """inner_radius=0.0106 outer_radius=0.0235 gear_inner_radius=0.0123
+        washer_thickness=0.00256 carrier_thickness=0.0182 gear_thickness=0.00365
+        oil_density=902 heat_split=0.7 roughness_washer=1.73e-6 roughness_carrier=3.17e-7
+        youngs_modulus=3.83e10 youngs_modulus_gear=1.05e11 yield_strength=4.91e8
+        asperity_radius=1.92e-4 oil_conductivity=0.126 conductivity=10.6""",
+        "speed=707 tilt=1.87e-4 oil_temperature=359",
+        (59.0, 8827.0),
     ),
     "much oil on a large disc": (
-        {
-            "inner_radius": 0.0222,
-            "outer_radius": 0.0502,
-            "gear_inner_radius": 0.0294,
-            "washer_thickness": 0.00163,
-            "carrier_thickness": 0.0117,
-            "gear_thickness": 0.00741,
-            "oil_density": 919.0,
-            "oil_heat_capacity": 2240.0,
-            "heat_split": 0.673,
-            "roughness_washer": 2.48e-7,
-            "roughness_carrier": 6.1e-7,
-            "youngs_modulus": 2.68e10,
-            "youngs_modulus_gear": 1.17e11,
-            "yield_strength": 7.6e8,
-            "asperity_radius": 1.15e-4,
-            "oil_conductivity": 0.177,
-            "conductivity": 11.1,
-        },
-        {"speed": 212.0, "tilt": 1.28e-4, "oil_temperature": 342.0},
-        269.0,
-        9000.0,
+        """inner_radius=0.0222 outer_radius=0.0502 gear_inner_radius=0.0294
+        washer_thickness=0.00163 carrier_thickness=0.0117 gear_thickness=0.00741
+        oil_density=919 oil_heat_capacity=2240 heat_split=0.673 roughness_washer=2.48e-7
+        roughness_carrier=6.1e-7 youngs_modulus=2.68e10 youngs_modulus_gear=1.17e11
+        yield_strength=7.6e8 asperity_radius=1.15e-4 oil_conductivity=0.177 conductivity=11.1""",
+        "speed=212 tilt=1.28e-4 oil_temperature=342",
+        (269.0, 9000.0),
     ),
 }
-
-
 *SHORT, LONG = FAR
 
 
 @pytest.mark.parametrize("name", [*SHORT, pytest.param(LONG, marks=pytest.mark.slow)])
 def test_curves_of_washers_far_from_the_default_reach_their_ends(name):
-    changes, place, low, high = FAR[name]
-    curve = load_curve(WasherParams(**changes), **place, load_min=low, load_max=high)
+    changes, place, (low, high) = FAR[name]
+    params = WasherParams(**values(changes))
+    curve = load_curve(params, **values(place), load_min=low, load_max=high)
     assert curve.points[0].load < low and curve.points[-1].load >= high
     kinds = [fold.kind for fold in curve.folds]
     assert kinds == ["film_lost", "film_regained"][: len(kinds)] and len(kinds) in (0, 2)

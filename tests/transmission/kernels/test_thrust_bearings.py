@@ -4,8 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from thrustwasher.transmission.bearings import BEARINGS, SHAFT
 from thrustwasher.transmission.parameters import TransmissionParams
@@ -160,48 +158,3 @@ def test_a_drum_that_a_bearing_turns_breaks_away_where_the_reaction_says():
         n += 1
         assert n < 60 and box.step(0.01, brake=404.0 - 10.0 * n) == 0
     assert box["release_time"] == pytest.approx((404.0 - reaction) / 1000.0, rel=1e-9)
-
-
-shafts = st.permutations(list(SHAFT)).map(lambda found: found[:2])
-coefficients = st.sampled_from([0.0, 0.004, 0.05])
-
-
-@settings(max_examples=60, deadline=None)
-@given(
-    shafts,
-    shafts,
-    coefficients,
-    coefficients,
-    st.floats(-400.0, 400.0),
-    st.sampled_from([0.0, 90.0, -200.0]),
-    st.sampled_from([0.0, 0.01]),
-    st.sampled_from(["sun-input", "ring-input"]),
-    st.sampled_from([0.0, 2e3]),
-    st.lists(
-        st.tuples(st.floats(1.0, 500.0), st.floats(1.0, 500.0), st.floats(-200.0, 200.0)),
-        min_size=3,
-        max_size=25,
-    ),
-)
-def test_bearings_only_take_energy_and_the_book_closes(
-    sun, ring, low, high, engine, drum, inertia, arrangement, stiffness, received
-):
-    box = Gearbox(
-        **between("sun_bearing", *sun, low),
-        **between("ring_bearing", *ring, high),
-        initial_engine_speed=engine,
-        initial_drum_speed=drum,
-        drum_inertia=inertia,
-        arrangement=arrangement,
-        shaft_stiffness=stiffness,
-        engine_torque=0.0,
-    )
-    turnover, heat = 1.0, 0.0
-    for clutch, brake, torque in received:
-        assert (
-            box.step(5e-3, clutch=clutch, brake=brake, engine_torque_input=torque, washer=0.02) == 0
-        )
-        turnover = max(turnover, abs(box["engine_work"]) + box["kinetic_energy"])
-        assert box["bearing_heat"] >= heat - 1e-9 * turnover
-        heat = box["bearing_heat"]
-        assert abs(box["energy_residual"]) <= 1e-9 * turnover

@@ -13,6 +13,7 @@ from pathlib import Path
 import damage
 import numpy as np
 from calls import REFUSED, RIGHT, Wrong, say_if_wrong
+from chart_records import cell, group, record, sample
 
 from thrustwasher import ParameterError, SolveError
 from thrustwasher.cli import main
@@ -317,70 +318,6 @@ class Archives:
 
 def chart_record():
     """Return a small record, as ``thrustwasher chart`` measures it."""
-    quantity = {"name": "friction_torque", "kind": "relative", "unit": "1", "floor": 1e-3}
-    samples = [
-        {
-            "family": "rungs",
-            "label": label,
-            "knob": "rung",
-            "value": label,
-            "cases": "0",
-            "errors": {"friction_torque": {"worst": error, "rms": 0.4 * error, "case": "a"}},
-            "ref_uncertainty": {"friction_torque": 1e-5},
-            "call_median": cost,
-            "call_iqr": 0.05 * cost,
-            "call_min": cost,
-            "repeats": 9,
-            "first_call_s": cost,
-            "setup_s": 1e-3,
-            "count": 3.0,
-            "count_of": "turns",
-            "n_cases": 2,
-            "n_failed": failed,
-            "failures": {"b": "SINGULAR"} if failed else {},
-            "is_rival": False,
-            "slowest_call_s": cost,
-            "slowest_case": "b",
-            "build_s": 0.0,
-        }
-        for label, cost, error, failed in (("closed", 1e-6, 0.5, 0), ("field", 2e-4, 2e-3, 1))
-    ]
-    survey = {
-        "cases": [{"name": "a", "point": [1.0], "before": []}],
-        "cases_digest": "0",
-        "cost_of": "a call [s]",
-        "quantities": [quantity],
-        "truths": [],
-        "samples": samples,
-    }
-    cell = {"verdict": "ok", "figure": "", "words": ""}
-    group = {
-        "name": "films",
-        "judged": "load off",
-        "methods": ["good"],
-        "hazards": ["a"],
-        "cells": [[cell]],
-    }
-    machine = {
-        "cpu": "a cpu",
-        "cores": 2,
-        "os": "an os",
-        "python": "3",
-        "numpy": "2",
-        "numba": "1",
-        "compiled": True,
-        "threads": {},
-        "load": 0.1,
-    }
-    return {
-        "schema": 1,
-        "command": "thrustwasher chart",
-        "date": "2026-11-21T18:00:00Z",
-        "machine": machine,
-        "calibration_s": 0.01,
-        "quick": False,
-        "run_s": 1.0,
-        "package": {"version": "0", "kernels": "0", "commit": "abc", "dirty": True},
-        "models": {"clutch": survey},
-        "stability": [group],
-    }
+    failed = {"n_failed": 1, "failures": {"b": "SINGULAR"}}
+    samples = [sample("closed", 1e-6, 0.5), sample("field", 2e-4, 2e-3, **failed)]
+    return record("clutch", samples, [group([cell()])])

@@ -44,13 +44,7 @@ def test_arrays_are_taken_and_a_scalar_stays_a_scalar():
         (lambda: boundary_friction("a", 1), "x = 'a', numbers are wanted"),
         (lambda: boundary_friction(0.1, [[1.0], [0.5, 0.2]]), "shear_ratio = .*numbers are wanted"),
         (lambda: boundary_friction(0.1, 0.5, {}), "plough_weight = {}, numbers are wanted"),
-        (lambda: solve_clutch(PACK, load=-1.0, speed=1.0), r"load = -1.0 N, allowed: 0 .."),
-        (lambda: solve_clutch(PACK, load=1.0, speed=np.nan), "speed = nan rad/s"),
-        (lambda: solve_clutch(PACK, load=1.0, speed=1.0, fidelity="x"), "fidelity = 'x'"),
         (lambda: solve_clutch(UNCOOLED, load=1e3, speed=1.0), "heat_transfer"),
-        (lambda: ClutchParams(inner_radius=0.09), "inner_radius = 0.09 m, allowed: below"),
-        (lambda: ClutchParams(faces=0), "faces = 0, allowed: 1 .. 100"),
-        (lambda: ClutchParams(friction_law="dry"), "friction_law = 'dry', allowed: 'wang'"),
     ],
 )
 def test_bad_input_is_named(call, message):

@@ -25,17 +25,8 @@ def clean(said):
 def test_every_fmu_runs_in_a_bare_host(spec, fmus):
     outputs = [v for v in interface(spec).variables if v.causality == "output" and v.type == "Real"]
     read = f"get_real {' '.join(str(v.reference) for v in outputs)}"
-    said = talk(
-        fmus[spec.name],
-        "version",
-        "instantiate",
-        "initialize",
-        read,
-        "steps 0 3",
-        read,
-        "last",
-        "release",
-    )
+    script = ["version", "instantiate", "initialize", read, "steps 0 3", read, "last", "release"]
+    said = talk(fmus[spec.name], *script)
     assert said.code == 0 and not any(rc for _, rc, _ in said.calls), said
     direct = DirectInstance(spec)
     direct.initialize()

@@ -1,13 +1,10 @@
 """The library that Python loads: shipped, kept, linked or loaded by llvmlite; always the same."""
 
-import os
 import shutil
-import subprocess
-import sys
-from pathlib import Path
 
 import needed
 import pytest
+from children import child
 
 from ship import pack
 from thrustwasher.errors import EnvironmentProblem
@@ -18,7 +15,6 @@ from thrustwasher.native.link import this_platform
 from thrustwasher.native.load import python_function
 from thrustwasher.native.targets import PLATFORMS, TARGETS
 
-ROOT = Path(__file__).parents[2]
 KERNELS = libraries()
 GEAR = "thrustwasher.gearmesh.kernels.step"
 LARGEST = 3_000_000  # bytes of compiled files in the repository
@@ -28,15 +24,8 @@ linux = pytest.mark.skipif(
 )
 
 
-def child(code, cache, **environment):
-    surroundings = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(cache)}
-    return subprocess.run(
-        [sys.executable, "-c", code],
-        capture_output=True,
-        text=True,
-        timeout=300,
-        env={**surroundings, **environment},
-    )
+def with_cache(code, cache, **environment):
+    return child(code, XDG_CACHE_HOME=str(cache), **environment)
 
 
 @pytest.mark.parametrize("kernel", KERNELS)
@@ -160,9 +149,9 @@ print("llvmlite" in sys.modules, "numba" in sys.modules)
 @pytest.mark.parametrize("no_linker", [False, True])
 def test_without_a_library_it_is_linked_or_loaded_by_llvmlite_and_kept(tmp_path, no_linker):
     needed.linker()
-    shown = child(WITHOUT.format(no_linker="False"), tmp_path / "a")
+    shown = with_cache(WITHOUT.format(no_linker="False"), tmp_path / "a")
     assert shown.returncode == 0, shown.stderr
-    done = child(WITHOUT.format(no_linker=no_linker), tmp_path / "b")
+    done = with_cache(WITHOUT.format(no_linker=no_linker), tmp_path / "b")
     assert done.returncode == 0, done.stderr
     number, modules = done.stdout.splitlines()
     assert number == shown.stdout.splitlines()[0]
@@ -182,7 +171,7 @@ print(k.derive(np.zeros(k.NPAR)))
 
 @linux
 def test_stale_code_is_compiled_once_with_a_word(tmp_path):
-    first, second = child(STALE, tmp_path), child(STALE, tmp_path)
+    first, second = with_cache(STALE, tmp_path), with_cache(STALE, tmp_path)
     assert first.stdout == second.stdout == "0\n", first.stderr
     assert "compiling command," in first.stderr and "compiled command in" in first.stderr
     assert second.stderr == ""
@@ -214,6 +203,6 @@ def test_a_machine_nothing_is_made_for_lets_numba_compile(tmp_path):
         "from thrustwasher.tribology.viscosity import viscosity\n"
         "print(viscosity(350.0, 6.3e-5, 3.5, 1.05)[0] > 0.0)\n"
     )
-    done = child(code, tmp_path, NUMBA_CACHE_DIR=str(tmp_path))
+    done = with_cache(code, tmp_path, NUMBA_CACHE_DIR=str(tmp_path))
     assert done.stdout == "True\n", done.stderr
     assert done.stderr.count("\n") == 1 and "riscv64" in done.stderr

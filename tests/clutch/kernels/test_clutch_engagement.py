@@ -35,22 +35,6 @@ def test_a_pack_under_sudden_load_follows_the_tight_reference(permeability):
     assert substeps < 1.2 * len(times)
 
 
-@pytest.mark.parametrize("permeability", [0.0, 4e-12])
-def test_inputs_that_are_held_are_held(permeability):
-    """A ramp in steps, falling slip in steps: the reference sees the same staircase."""
-    pack = Pack(permeability=permeability)
-    start = [pack.params.initial_film / pack.params.roughness, 297.15]
-    for n in range(60):
-        load, slip = 6000.0 * min(1.0, n / 20), 300.0 - 4.0 * n
-        pack.step(load, slip, H)
-        reference = Reference(pack.params, lambda t, f=load: f, lambda t, w=slip: w)
-        film, temperature = reference.solve(np.array([n * H, (n + 1) * H]), start)
-        start = [film[-1], temperature[-1]]
-        exact = reference.torque(0.0, *start)
-        assert pack.out[k.O_TORQUE] == pytest.approx(exact, rel=1e-6)
-        assert pack.out[k.O_TEMPERATURE] == pytest.approx(start[1], abs=1e-5)
-
-
 def test_smooth_tight_faces_close_in_the_squeeze_time():
     """Roughness and contact out of the way: t = 3 pi eta G/(4 F) (1/h^2 - 1/h0^2)."""
     params = {"roughness": 1e-8, "permeability": 0.0, "initial_film": 8e-5}
@@ -179,14 +163,6 @@ def test_a_pack_that_starts_pressed_holds_at_once_and_an_open_one_does_not():
         pack.step(5898.0, 0.0, 0.0)
     assert pressed.out[k.O_CAPACITY] == pytest.approx(389.2, abs=0.1)
     assert opened.out[k.O_CAPACITY] < 1e-12
-
-
-def test_a_settled_film_carries_nothing_and_the_torque_is_boundary_friction():
-    pack = Pack(starts_pressed=True)
-    pack.step(5898.0, 1e-9, 0.1)
-    still = Pack("stribeck")
-    still.step(5898.0, 1e-9, 0.1)
-    assert pack.out[k.O_CAPACITY] == pytest.approx(still.out[k.O_CAPACITY], rel=1e-9)
 
 
 POINTS = st.tuples(

@@ -27,13 +27,9 @@ needs_valgrind = pytest.mark.skipif(
     not shutil.which("valgrind"), reason="needs valgrind (Debian package valgrind)"
 )
 VALGRIND = (
-    "valgrind",
-    "-q",
-    "--leak-check=full",
-    "--show-leak-kinds=all",
-    "--errors-for-leak-kinds=all",
-    "--error-exitcode=7",
-)
+    "valgrind -q --leak-check=full --show-leak-kinds=all --errors-for-leak-kinds=all "
+    "--error-exitcode=7"
+).split()
 
 
 @needs_gcc

@@ -131,14 +131,6 @@ def test_power_is_the_mean_of_the_step_and_heat_their_sum():
     assert box["bearing_heat"] == pytest.approx(heat, rel=1e-12) and heat > 1.0
 
 
-def test_without_a_coefficient_nothing_acts():
-    plain, other = Gearbox(), Gearbox(**between("sun_bearing", "ring", "case", 0.0))
-    for i in range(30):
-        for box in (plain, other):
-            box.step(1e-2, clutch=10.0 * i, brake=380.0 - 13.0 * i, washer=0.03, mesh=0.1)
-    assert plain.out.tobytes() == other.out.tobytes() and plain["bearing_heat"] == 0.0
-
-
 def test_a_drum_that_a_bearing_turns_breaks_away_where_the_reaction_says():
     """At constant torques the stuck brake carries the teeth and the bearing on its drum."""
     box = gearbox(

@@ -145,20 +145,6 @@ def test_torque_times_speed_is_the_heat_made(name):
     assert p.max() > 1e5
 
 
-@pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
-def test_only_the_wanted_share_of_film_heat_enters(share):
-    b = bench(GRID, film_heat_fraction=share, **DRY)
-    q = tilted(b.m, 20.0)  # no contact at all
-    made = evaluate(b.m, BASE, q, b.f, False)
-    whole = (
-        np.outer(b.m.weight1, b.m.weight_t)
-        * (BASE.speed * b.radius) ** 2
-        * b.node("mu")
-        / b.node("ht")
-    ).sum()
-    assert made == pytest.approx(share * whole, rel=1e-12)
-
-
 def test_dry_friction_has_its_published_ends_and_its_slope():
     m = bench((5, 8)).m
     assert dry_friction(m.par, 260.5)[0] == pytest.approx(0.201870, abs=5e-7)
@@ -170,29 +156,3 @@ def test_dry_friction_has_its_published_ends_and_its_slope():
     differences = (dry_friction(m.par, 900.01)[0] - dry_friction(m.par, 899.99)[0]) / 0.02
     assert slope == pytest.approx(differences, rel=1e-7)
     assert dry_friction(bench((5, 8), friction_law="constant").m.par, 900.0) == (0.15, 0.0)
-
-
-@pytest.mark.parametrize("option", ["carrier", "rotating"])
-def test_a_rings_balance_is_the_sum_of_its_nodes_balances(option):
-    """At temperatures that a body of rings can have, the 2-D body's nodes add up to its rings."""
-    rings, whole = bench(GRID, conduction=option), bench(GRID, conduction="all")
-    q, _ = at_random(rings)
-    column = whole.m.film_step
-    whole.f.temp[:] = 0.0
-    for j in range(rings.m.n_t):
-        whole.f.temp[j * column : j * column + GRID[0]] = rings.f.temp[j * rings.m.film_step :][
-            : GRID[0]
-        ]
-    for part, values in zip(
-        bodies(whole, np.arange(whole.f.temp.size)), bodies(rings), strict=True
-    ):
-        whole.f.temp[part] = values
-    evaluate(whole.m, BASE, q, whole.f, False)
-    even = (1, 2) if option == "carrier" else (0,)
-    for k, (mine, nodes) in enumerate(
-        zip(bodies(rings, rings.f.heat), bodies(whole, whole.f.heat), strict=True)
-    ):
-        if k in even:
-            assert np.ptp(mine, axis=1).max() == 0.0
-            mine, nodes = mine[:, 0], nodes.sum(axis=1)
-        np.testing.assert_allclose(mine, nodes, rtol=0, atol=1e-10 * np.abs(nodes).max())

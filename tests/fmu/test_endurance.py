@@ -3,7 +3,6 @@
 import json
 
 import pytest
-from sampling import sizes
 
 CYCLES = """
 import json, sys
@@ -59,22 +58,3 @@ def test_two_thousand_resets_keep_memory_flat(python_toy, run_child):
 def test_different_fmus_live_in_one_process_twice_each(python_toy, fmus, run_child):
     others = [fmus["WetClutch"], fmus["ShiftTransmission"]]
     assert run_child(TOGETHER, python_toy, *others) == "done"
-
-
-PLAIN = """
-import sys
-from fmpy import extract, instantiate_fmu, read_model_description
-md, folder = read_model_description(sys.argv[1]), extract(sys.argv[1], sys.argv[2])
-fmu = instantiate_fmu(folder, md, "CoSimulation")
-fmu.setupExperiment()
-fmu.enterInitializationMode()
-fmu.exitInitializationMode()
-fmu.doStep(0.0, 1e-3)
-fmu.freeInstance()
-"""
-
-
-@sizes(2, 12)
-def test_a_host_that_unloads_the_library_ends_cleanly(python_toy, run_child, tmp_path, n):
-    run = [run_child(PLAIN, python_toy, tmp_path / str(i), check=False) for i in range(n)]
-    assert [done.returncode for done in run] == [0] * n, run[-1].stderr

@@ -8,7 +8,6 @@ from thrustwasher.fmu.build import build
 from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.running.core import Core
 from thrustwasher.fmu.running.loading import Messages, description, instantiate, unpack
-from thrustwasher.model.registry import all_specs
 
 H = 1e-3
 
@@ -99,18 +98,6 @@ def test_advice_is_told_once_per_change(listen):
         washer.fmu.doStep(i * H, H)
     warnings = washer.heard("logStatusWarning")
     assert [Status.OUTSIDE_VERIFIED.name in text for text in warnings] == [True, True]
-
-
-def test_every_category_that_is_declared_can_be_heard():
-    declared = {spec.name: set(interface(spec).categories) for spec in all_specs()}
-    always = {"logStatusWarning", "logStatusError", "logAll"}
-    assert declared == {
-        "ThrustWasher": always | {"logEvents", "logNonlinearSystems"},
-        "ShiftTransmission": always | {"logEvents"},
-        "WetClutch": always,
-        "GearMesh": always | {"logNonlinearSystems"},
-        "OilSump": always,
-    }
 
 
 BOXED = """

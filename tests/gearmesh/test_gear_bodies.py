@@ -53,21 +53,6 @@ def test_the_gear_with_more_mates_decides_how_warm_both_are(pinion, gear, factor
     assert r.oil_heat == pytest.approx(r.friction_power, rel=1e-13)
 
 
-def test_the_bodies_take_longer_by_as_much_as_they_get_warmer():
-    """G = P/rise: the time constant goes with the rise at the same masses; an estimate."""
-    few, many = (
-        replace(PLANET, bulk_heat_capacity=100.0, mates_pinion=1, mates_gear=1),
-        replace(PLANET, bulk_heat_capacity=100.0),
-    )
-    conductances = [
-        prepare(replace(p, load_factor=1.0), "field")[L.D_CONDUCTANCE] for p in (few, many)
-    ]
-    assert conductances[0] / conductances[1] == pytest.approx(2.5, rel=1e-14)
-    assert prepare(many, "field")[L.D_CONDUCTANCE] * 1.5**0.75 == pytest.approx(
-        conductances[1], rel=1e-14
-    )
-
-
 def test_surfaces_that_cool_at_rest_are_shared_like_the_bodies():
     alone = prepare(replace(PLANET, mates_pinion=1, mates_gear=1), "field")[L.D_STILL]
     shared = prepare(PLANET, "field")[L.D_STILL]

@@ -8,10 +8,6 @@ from thrustwasher import (
     ClutchParams,
     GearMeshParams,
     WasherParams,
-    calibrate,
-    engage_clutch,
-    follow_washer,
-    load_curve,
     load_part,
     run_sweep,
     solve_clutch,
@@ -95,18 +91,3 @@ def test_in_an_fmu(model, name, number, rung):
     (out, said, later), (better, plain, _) = cores
     assert out == better and said == [f"{spec.name} at t = 0 s: {line(name, rung)}", *plain]
     assert not any("gone" in text for text in later)
-
-
-def test_in_courses_curves_and_fits():
-    at = {"speed": 545.0, "tilt": 2e-3}
-    told = line("coarse", "field")
-    course = follow_washer(WasherParams(), time=[0.0, 0.1], load=300.0, **at, fidelity="coarse")
-    assert (course.fidelity, course.warnings) == ("field", (told,))
-    curve = load_curve(WasherParams(), **at, fidelity="coarse", load_max=100.0)
-    assert curve.points[0].fidelity == "field" and curve.warnings[0] == told
-    pack = engage_clutch(ClutchParams(), time=[0.0, 0.1], load=1e3, speed=9.0, fidelity="boundary")
-    assert (pack.fidelity, pack.warnings[0]) == ("stribeck", line("boundary", "stribeck"))
-    mesh = GearMeshParams(friction_law="constant")
-    data = {"load": [10.0, 40.0], "speed": 100.0, "friction_torque": [0.05, 0.2]}
-    found = calibrate(mesh, data, fit="constant_friction", fidelity="closed")
-    assert line("closed", "field") in found.warnings

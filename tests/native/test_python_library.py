@@ -8,11 +8,8 @@ from children import child
 
 from ship import pack
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.gearmesh.kernels.constants import slide_roll
-from thrustwasher.native import digest, files, library, link, objects, shipped
-from thrustwasher.native.entries import called_modules, describe, libraries, symbols
-from thrustwasher.native.link import this_platform
-from thrustwasher.native.load import python_function
+from thrustwasher.native import digest, files, link, objects, shipped
+from thrustwasher.native.entries import called_modules, libraries
 from thrustwasher.native.targets import PLATFORMS, TARGETS
 
 KERNELS = libraries()
@@ -109,24 +106,6 @@ def test_an_edited_source_makes_the_shipped_code_stale(monkeypatch):
     assert shipped.record(GEAR) is None
     assert shipped.record("thrustwasher.command.kernels.step") is not None
     shipped.read_again()
-
-
-def call(addresses):
-    """Return what a gear function at its address returns."""
-    entry = describe(slide_roll, ())
-    return python_function(entry, addresses[entry.symbol])(2.0, 0.1, 1.0)
-
-
-@linux
-def test_a_linked_library_and_one_loaded_by_llvmlite_are_the_shipped_one(tmp_path):
-    platform = this_platform()
-    code = objects.objects(GEAR, [platform])
-    path = tmp_path / "gear.so"
-    path.write_bytes(library.linked_library(GEAR, platform, code, linker=link.local_linker()))
-    linked = library._loaded(GEAR, path)
-    loaded = library._by_llvm(GEAR, platform, code)
-    assert call(linked) == call(loaded) == call(library.addresses(GEAR))
-    assert linked.keys() == set(symbols(GEAR))
 
 
 WITHOUT = """

@@ -158,19 +158,10 @@ def test_a_map_that_is_gone_or_damaged_is_an_error_with_a_reason(washer, tmp_pat
 
 @pytest.mark.parametrize("name", ["with space", "per%20cent", "mäp 測定", "plus+and#hash"])
 def test_any_folder_name_will_do(washer, tmp_path, name):
-    from fmpy.fmi2 import FMU2Slave
-    from fmpy.model_description import read_model_description
-
     folder = moved(washer(2), name, tmp_path)
-    told = read_model_description(str(folder), validate=False)
+    told = loading.description(folder)
     place = {v.name: v.valueReference for v in told.modelVariables}
-    fmu = FMU2Slave(
-        guid=told.guid,
-        unzipDirectory=str(folder),
-        instanceName="washer",
-        modelIdentifier=told.coSimulation.modelIdentifier,
-    )
-    fmu.instantiate()
+    fmu = loading.instantiate(folder, told, "washer", loading.Messages())
     fmu.setupExperiment(startTime=0.0)
     fmu.enterInitializationMode()
     fmu.setInteger([place["fidelity"]], [1])

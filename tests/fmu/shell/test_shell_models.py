@@ -1,16 +1,13 @@
 """The models' own libraries: the same bits and words as the Python core, bare in a C host."""
 
-import importlib
 import math
 import random
 
-import numpy as np
 import pytest
 from sampling import jump
 from shell_runs import GUID, model_library, needs_linux, run
 from twin import Twin
 
-from thrustwasher.errors import SolveError
 from thrustwasher.fmu.description.interface import interface
 from thrustwasher.model.registry import find_spec
 
@@ -73,42 +70,3 @@ def test_300_steps_are_the_cores_to_the_bit(model, fmi):
 def test_the_washers_steps_are_the_cores_to_the_bit():
     twin = run_of(find_spec("washer"), 7, 30)
     twin.check(run(2, model_library("washer"), twin.script))
-
-
-@pytest.mark.parametrize("model", ["clutch", "gearmesh", "transmission"])
-def test_derivatives_are_the_kernels_to_the_bit_after_steps_and_after_sets(model):
-    spec, rng = find_spec(model), random.Random(11)
-    kernel = importlib.import_module(spec.kernel)
-    if not hasattr(kernel, "sens"):
-        pytest.skip(f"the kernel of {model} has no derivatives")
-    twin = Twin(spec, GUID)
-    outputs = [v for v in interface(spec).variables if v.store == "out" and v.depends]
-    inputs = [v for v in interface(spec).variables if v.causality == "input"]
-
-    def slope(unknown, seed):
-        core = twin.core
-        core.refresh()
-        core.solve_aside()
-        dout = np.zeros(kernel.NOUT)
-        status = kernel.sens(core.par, core.inp, core.state, core.work, np.array(seed), dout)
-        if status >= 10:
-            raise SolveError(status)
-        return [float(dout[unknown.slot])]
-
-    def ask():
-        for unknown in outputs:
-            known = rng.choice([v for v in inputs if v.name in unknown.depends])
-            seed = [float(v is known) for v in inputs]
-            twin._ask(
-                f"derive {unknown.reference} {known.reference} 1",
-                lambda u=unknown, s=seed: slope(u, s),
-            )
-
-    twin.begin()
-    twin.leave()
-    for i in range(40):
-        twin.put(**jump(spec, rng))
-        ask()
-        twin.step(i * H, H)
-        ask()
-    twin.check(run(2, model_library(model), twin.script), words=False)

@@ -7,43 +7,18 @@ from thrustwasher.model.part_file import preset_part
 from thrustwasher.numerics.status import MAX_ITERATIONS, NOT_FINITE, OK, SINGULAR
 from thrustwasher.washer.kernels import layout as L
 from thrustwasher.washer.kernels.continuation import cold_start
-from thrustwasher.washer.kernels.film import film_solve
-from thrustwasher.washer.kernels.heat_factor import solve_heat
 from thrustwasher.washer.kernels.newton import (
-    EXACT,
     LOAD,
     NO_FLOOR,
     _balance,
-    linearise,
-    make_factor,
     newton,
 )
-from thrustwasher.washer.kernels.workspace import Point, forget_factor, square, vector
+from thrustwasher.washer.kernels.workspace import Point, forget_factor, vector
 from thrustwasher.washer.parameters import SPEC
 
 from washer_setup import BASE, bench, full_gear, settle, tilted  # isort: skip
 
 GRID = (5, 12)  # what is tested holds on any mesh; these kernels run as plain Python
-DRY = {"oil_cooling": False, "pressure_flow_shear": False}  # the oil carries no heat
-STATES = {
-    "film": ({"ratio": 9.0}, {}),
-    "film, the paper's": ({"ratio": 9.0}, preset_part(SPEC, "paper").parameters),
-    "mixed, carrier turns": (
-        {"ratio": 2.3, "gy": 0.0019, "second": 2.6},
-        {"conduction": "rotating"},
-    ),
-    "mixed": ({"ratio": 2.3, "gy": 0.0019, "second": 2.6}, {}),
-    "boundary": ({"ratio": 0.35, "gy": 0.00168, "second": 1.0}, {}),
-    "boundary, uneven split": ({"ratio": 0.35, "gy": 0.00168, "second": 1.0}, {"heat_split": 0.3}),
-    "mixed, unequal surfaces": (
-        {"ratio": 2.3, "gy": 0.0019, "second": 2.6},
-        {"roughness_carrier": 9e-7, "roughness_gear": 3e-7},
-    ),
-}
-
-
-def unit(m, c):
-    return m.sigma1 * (1.0 if c < 2 else 1.0 / m.outer_radius)
 
 
 def balances(b, pt, q):
@@ -58,37 +33,6 @@ def converged(mode, target, b, pt, ratio=6.0, tolerance=1e-9, limit=60.0):
     settle(b.m, pt, b.w.q, b.f)
     status = newton(b.w, pt, mode, target, NO_FLOOR, tolerance, limit)
     return b.w.q.copy(), b.w.info, status
-
-
-@pytest.mark.parametrize(("oil", "close"), [(DRY, 2e-5), ({}, 2e-2)])
-@pytest.mark.parametrize("name", STATES)
-def test_slopes_of_the_balances_are_differences_with_film_and_heat_solved_again(name, oil, close):
-    """Everything counts: dmu/dT, df/dF, dR/dh, the faces' slopes, the active set at rest.
-
-    Where oil carries heat, the slopes of the temperatures are left approximate.
-    """
-    place, surfaces = STATES[name]
-    b = bench(GRID, **{**surfaces, **oil})
-    m, f = b.m, b.f
-    q = tilted(m, **place)
-    settle(m, BASE, q, f)
-    assert make_factor(m, BASE, q, f.temp, f, EXACT)
-    f.heat[:] *= -1.0
-    solve_heat(m, f.heat, f.dtemp, f)
-    film_solve(m, f)
-    linearise(m, f)
-    told = square(f.small, L.SLOPES).copy()
-    scaled = np.array([1.0, 1.0, 1.0 / m.outer_radius, 1.0 / m.outer_radius])
-    for c in range(4):
-        e = 2e-5 * unit(m, c)
-        found = []
-        for sign in (1.0, -1.0):
-            moved = q.copy()
-            moved[c] += sign * e
-            found.append(balances(b, BASE, moved))
-        differences = (found[0] - found[1]) / (2.0 * e) * scaled
-        column = told[:, c] * scaled
-        np.testing.assert_allclose(column, differences, rtol=0, atol=close * np.abs(column).max())
 
 
 def residuals_from_near_by(**changes):

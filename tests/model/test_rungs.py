@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from kernel_part import Part
 
 from thrustwasher import (
     ClutchParams,
@@ -24,7 +25,6 @@ from thrustwasher.gearmesh import parameters as gearmesh_params
 from thrustwasher.gearmesh.kernels import layout as gear_layout
 from thrustwasher.gearmesh.kernels import step as gear_step
 from thrustwasher.model.parameters import as_numbers
-from thrustwasher.model.prepare import fill_table, filled
 from thrustwasher.washer import parameters as washer_params
 from thrustwasher.washer.kernels import layout as washer_layout
 from thrustwasher.washer.kernels import step as washer_step
@@ -51,29 +51,6 @@ POINTS = {
     "clutch": [(500.0, 150.0, 330.0, 0.0), (5e3, 40.0, 353.15, 0.0), (2e4, 5.0, 353.15, 0.0)],
     "gearmesh": [(5.0, 300.0, 300.0), (40.0, 180.0, 299.85), (400.0, 40.0, 350.0)],
 }  # fmt: skip
-
-
-class Part:
-    """A model at a rung: one step of its kernel from nothing."""
-
-    def __init__(self, model, rung, **changes):
-        self.spec, self.k = SPECS[model]
-        self.par = filled(self.spec, self.spec.params(**changes), rung, self.k.NPAR, self.k.derive)
-        self.state, self.work = np.zeros(self.k.NSTATE), np.zeros(self.k.NWORK)
-        fill_table(self.spec, self.spec.params(**changes), self.par, self.work)
-        reals = [s.name for s in self.spec.outputs if s.kind == "real"]
-        self.place = {name: i for i, name in enumerate(reals)}
-        whole = [s.name for s in self.spec.outputs if s.kind != "real"]
-        self.status = whole.index("solver_status")
-
-    def step(self, inputs, dt=0.0):
-        self.inp, self.out = np.array(inputs, float), np.full(self.k.NOUT, np.nan)
-        self.iout = np.full(self.k.NIOUT, -7, np.int32)
-        arrays = (self.par, self.inp, self.state, self.work, self.out, self.iout)
-        return self.k.step(*arrays, 0.0, dt)
-
-    def __getitem__(self, name):
-        return float(self.out[self.place[name]])
 
 
 def settled(model, rung, **changes):
@@ -121,7 +98,7 @@ def test_the_torque_is_odd_in_speed_and_all_else_even(model, rung):
         one.step(inputs)
         inputs[1] *= -1.0
         other.step(inputs)
-        for name in one.place:
+        for name in one.reals:
             assert other[name] == pytest.approx(-one[name] if name in odd else one[name], rel=1e-5)
 
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from closed_forms.lock_up import engagement, reduced_inertia, speed_against_quadratic_load
-from closed_forms.planetary import pitch_radius, planet_forces
+from closed_forms.planetary import pitch_radius, planet_forces, ring_speed
 from scipy.integrate import solve_ivp
 
 HELIX = math.radians(20.0)
@@ -26,6 +26,10 @@ def test_forces_on_a_helical_planet_at_150_n_m():
     assert f.sun_thrust == pytest.approx(2280.0, abs=0.5)
     assert f.planet_torque == pytest.approx(22.5, rel=1e-12)
     assert f.pin_load == 2.0 * f.tangential
+
+
+def test_in_first_gear_the_ring_is_at_rest():
+    assert ring_speed(2.2, 350.0, 350.0 / 3.2) == pytest.approx(0.0, abs=1e-13)
 
 
 def test_reduced_inertias():

@@ -18,12 +18,19 @@ class Part:
         fill_table(self.spec, self.params, self.par, self.work)
         self.out, self.iout = np.full(k.NOUT, np.nan), np.full(k.NIOUT, -7, np.int32)
         self.reals = [s.name for s in self.spec.outputs if s.kind == "real"]
+        self.others = [s.name for s in self.spec.outputs if s.kind != "real"]
+        self.time = 0.0
 
     def step(self, inputs, dt=0.0):
         """Step on or, without time, look; inputs left out are 0. Return the status."""
         inp = np.zeros(self.k.NINP)
         inp[: len(inputs)] = inputs
-        return self.k.step(self.par, inp, self.state, self.work, self.out, self.iout, 0.0, dt)
+        arrays = (self.par, inp, self.state, self.work, self.out, self.iout)
+        status = self.k.step(*arrays, self.time, dt)
+        self.time += dt if status == 0 else 0.0
+        return status
 
     def __getitem__(self, name):
-        return float(self.out[self.reals.index(name)])
+        if name in self.reals:
+            return float(self.out[self.reals.index(name)])
+        return float(self.iout[self.others.index(name)])

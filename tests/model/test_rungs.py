@@ -15,26 +15,14 @@ from thrustwasher import (
     solve_gearmesh,
     solve_washer,
 )
-from thrustwasher.clutch import parameters
 from thrustwasher.clutch.kernels import layout
-from thrustwasher.clutch.kernels import step as clutch_step
 from thrustwasher.clutch.kernels.constants import derive_rings
 from thrustwasher.errors import Status
 from thrustwasher.fmu.description.interface import interface
-from thrustwasher.gearmesh import parameters as gearmesh_params
-from thrustwasher.gearmesh.kernels import layout as gear_layout
-from thrustwasher.gearmesh.kernels import step as gear_step
 from thrustwasher.model.parameters import as_numbers
-from thrustwasher.washer import parameters as washer_params
-from thrustwasher.washer.kernels import layout as washer_layout
-from thrustwasher.washer.kernels import step as washer_step
+from thrustwasher.model.registry import find_spec, kernel_of
 from thrustwasher.washer.map.map_file import find_map
 
-SPECS = {
-    "washer": (washer_params.SPEC, washer_step),
-    "clutch": (parameters.SPEC, clutch_step),
-    "gearmesh": (gearmesh_params.SPEC, gear_step),
-}
 LADDER = {
     "washer": ["map", "field", "fine"],
     "clutch": ["closed", "stribeck", "field", "fine"],
@@ -63,14 +51,14 @@ def settled(model, rung, **changes):
 
 
 def test_the_ladder_has_its_rungs_in_this_order():
-    assert {model: list(spec.rungs) for model, (spec, _) in SPECS.items()} == LADDER
+    assert {model: list(find_spec(model).rungs) for model in LADDER} == LADDER
 
 
 def test_kernels_count_rungs_as_the_fmu_does():
-    of = {"washer": washer_layout, "clutch": layout, "gearmesh": gear_layout}
     for model, rung in RUNGS:
-        items = {i.name: i.value for i in interface(SPECS[model][0]).enumerations["Fidelity"]}
-        assert items[rung] == getattr(of[model], rung.upper())
+        spec = find_spec(model)
+        items = {i.name: i.value for i in interface(spec).enumerations["Fidelity"]}
+        assert items[rung] == getattr(kernel_of(spec).L, rung.upper())
 
 
 @pytest.mark.parametrize(("model", "rung"), RUNGS)

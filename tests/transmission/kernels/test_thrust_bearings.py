@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from thrustwasher.transmission.bearings import BEARINGS, SHAFT
-from thrustwasher.transmission.parameters import TransmissionParams
 
 from test_transmission_step import FREE, Gearbox  # isort: skip
 
@@ -65,12 +64,6 @@ def newton(box, clutch, brake, engine=150.0, load=250.0):
     return teeth, float(found[4]), float(found[5])
 
 
-def gearbox(**params):
-    box = Gearbox(**params)
-    box.params = TransmissionParams(**params)
-    return box
-
-
 @pytest.mark.parametrize("arrangement", [{}, SIMPSON])
 @pytest.mark.parametrize(
     "ends", [("sun", "carrier"), ("ring", "case"), ("carrier", "ring"), ("case", "sun")]
@@ -86,7 +79,7 @@ def test_torques_are_those_of_newtons_law_for_every_body(arrangement, ends, mode
     more["initial_drum_speed"] = {"brake sticks": 0.0, "both slip": 90.0, "clutch sticks": 350.0}[
         modes
     ]
-    box = gearbox(**arrangement | more)
+    box = Gearbox(**arrangement | more)
     given = {"clutch": 60.0, "brake": 40.0}
     free = {"clutch": 60.0, "brake": 40.0}
     if modes != "both slip":
@@ -122,7 +115,7 @@ def test_power_is_the_mean_of_the_step_and_heat_their_sum():
 
 def test_a_drum_that_a_bearing_turns_breaks_away_where_the_reaction_says():
     """At constant torques the stuck brake carries the teeth and the bearing on its drum."""
-    box = gearbox(
+    box = Gearbox(
         **FREE
         | {
             "engine_torque": 150.0,

@@ -3,46 +3,29 @@
 import math
 from dataclasses import fields
 
-import numpy as np
 import pytest
 from closed_forms.lock_up import engagement, reduced_inertia
 from closed_forms.planetary import pitch_radius, planet_forces
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from kernel_part import Part
 
 from thrustwasher.errors import Status
-from thrustwasher.model.parameters import as_numbers
 from thrustwasher.transmission.bearings import SHAFT
 from thrustwasher.transmission.kernels import layout as L
-from thrustwasher.transmission.kernels import step as k
 from thrustwasher.transmission.parameters import SPEC, TransmissionParams
 
+NAMES = [s.name.removesuffix("_torque").replace("shift_", "") for s in SPEC.inputs]
 
-class Gearbox:
-    """A transmission with its arrays."""
 
+class Gearbox(Part):
     def __init__(self, **params):
-        self.par = np.zeros(k.NPAR)
-        self.par[: k.N_PARAM] = [*as_numbers(TransmissionParams(**params)), 1.0]
-        assert k.derive(self.par) == 0
-        self.state, self.work = np.zeros(k.NSTATE), np.full(k.NWORK, np.nan)
-        self.out, self.iout = np.zeros(k.NOUT), np.zeros(k.NIOUT, np.int32)
-        self.time = 0.0
+        super().__init__("transmission", "rigid", **params)
+        self.out[:], self.iout[:] = 0.0, 0
 
     def step(self, dt, **inputs):
-        names = [s.name.removesuffix("_torque").replace("shift_", "") for s in SPEC.inputs]
-        assert set(inputs) <= set(names), names
-        inp = np.array([inputs.get(name, 0.0) for name in names])
-        status = k.step(self.par, inp, self.state, self.work, self.out, self.iout, self.time, dt)
-        self.time += dt if status == 0 else 0.0
-        return status
-
-    def __getitem__(self, name):
-        reals = [s.name for s in SPEC.outputs if s.kind == "real"]
-        others = [s.name for s in SPEC.outputs if s.kind != "real"]
-        return float(
-            self.out[reals.index(name)] if name in reals else self.iout[others.index(name)]
-        )
+        assert set(inputs) <= set(NAMES), NAMES
+        return super().step([inputs.get(name, 0.0) for name in NAMES], dt)
 
 
 FREE = {"engine_torque": 0.0, "load_torque": 0.0, "washers": 0}

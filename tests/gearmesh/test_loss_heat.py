@@ -9,12 +9,12 @@ import pytest
 from closed_forms.flash_temperature import blok_flash
 from closed_forms.line_contact import full_width
 from helical_pair import Pair
+from kernel_part import Part
 from scipy.integrate import quad
 
 from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
 from thrustwasher.gearmesh.kernels import constants
 from thrustwasher.gearmesh.kernels import layout as L
-from thrustwasher.gearmesh.kernels import step as k
 from thrustwasher.gearmesh.parameters import SPEC
 from thrustwasher.gearmesh.solve import prepare
 
@@ -129,10 +129,10 @@ def test_loss_and_flash_are_those_of_the_closed_forms(name, fidelity):
 def test_the_heat_of_all_positions_is_the_friction_power(name, law, fidelity):
     params = replace(PAIRS[name][0], friction_law=law, sigma_rms=0.1e-6, load_factor=1.4)
     pair = PAIRS[name][1]
-    par, position, weight, share = arrays(params, fidelity)
-    work, out = np.zeros(k.NWORK), np.zeros(k.NOUT)
-    point = np.array([FORCE * RADIUS, SPEED, OIL])
-    assert k.step(par, point, np.zeros(3), work, out, np.zeros(2, np.int32), 0.0, 0.0) == 0
+    _, position, weight, share = arrays(params, fidelity)
+    part, torque = Part("gearmesh", fidelity, params), FORCE * RADIUS
+    assert part.step((torque, SPEED, OIL)) == 0
+    work, out = part.work, part.out
     friction = work[L.W_FRICTION : L.W_FRICTION + len(position)]
     if law in ("constant", "iso"):
         friction = np.full(len(position), work[L.F_FRICTION])
@@ -140,7 +140,7 @@ def test_the_heat_of_all_positions_is_the_friction_power(name, law, fidelity):
         assert np.ptp(friction) > 1e-3
     rho = pair.radius * math.sin(pair.angle) + position * pair.base_pitch
     sliding = np.abs(np.subtract(*helical_pair.rolling(pair, rho, SPEED)))
-    load = share * point[0] / (pair.radius * math.cos(pair.angle) * params.face_width)
+    load = share * torque / (pair.radius * math.cos(pair.angle) * params.face_width)
     q = friction * load * sliding  # W per metre of path and contact line
     total = (q * weight).sum() * params.face_width / math.cos(pair.base_helix)
     assert total == pytest.approx(out[L.F_POWER], rel=1e-12)
@@ -180,18 +180,16 @@ def test_the_path_of_a_spur_pair_is_that_of_the_papers_geometry():
     assert prepare(by_module, "field")[L.D_CENTRE] == pytest.approx(0.254, rel=1e-14)
 
 
-class Run:
+class Run(Part):
     """A mesh stepped through time, with the heat made and that handed to the oil."""
 
-    def __init__(self, params, fidelity="field"):
-        self.par = prepare(params, fidelity)
+    def __init__(self, params):
+        super().__init__("gearmesh", "field", params)
         self.par[L.P_THERMAL_MODE] = 2.0  # which a solution without a past is not
-        self.state, self.work, self.out = np.zeros(k.NSTATE), np.zeros(k.NWORK), np.zeros(k.NOUT)
         self.made = self.handed = 0.0
 
     def step(self, load, speed, oil, dt):
-        point, flags = np.array([load, speed, oil]), np.zeros(k.NIOUT, np.int32)
-        assert k.step(self.par, point, self.state, self.work, self.out, flags, 0.0, dt) == 0
+        assert super().step((load, speed, oil), dt) == 0
         self.made += self.out[L.F_POWER] * dt
         self.handed += self.out[L.F_OIL_HEAT] * dt
 

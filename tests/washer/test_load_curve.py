@@ -62,16 +62,10 @@ def test_bisection_in_load_finds_the_fold_of_the_continuation(curve, kind):
     fold = next(f for f in curve.folds if f.kind == kind)
     there, gone = (-1.0, 1.0) if kind == "film_lost" else (1.0, -1.0)
     branch = "film" if kind == "film_lost" else "contact"
+    at = {"speed": 545.0, "tilt": 0.002, "branch": branch, "throw": False}
     for _ in range(12):
         middle = 0.5 * (there + gone)
-        r = solve_washer(
-            WasherParams(),
-            load=fold.load + middle,
-            speed=545.0,
-            tilt=0.002,
-            branch=branch,
-            throw=False,
-        )
+        r = solve_washer(WasherParams(), load=fold.load + middle, **at)
         assert r.status is Status.NO_BRANCH or not r.status.is_failure
         if not r.status.is_failure:
             there = middle

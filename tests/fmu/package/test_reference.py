@@ -9,7 +9,7 @@ from fmpy.util import read_csv
 from lxml import etree
 
 from thrustwasher.fmu.description.interface import interface
-from thrustwasher.fmu.documentation.reference_results import FOLDER, reference_files
+from thrustwasher.fmu.documentation.reference_results import FOLDER
 from thrustwasher.model.registry import all_specs, find_spec
 
 NAMES = [spec.name for spec in all_specs()]
@@ -51,11 +51,6 @@ def test_the_manifest_names_the_files(name, fmus, tmp_path):
     named = {e.get("source"): e.get("role") for e in root}
     assert named == {f"{name}_in.csv": "testcase", f"{name}_out.csv": "result"}
     assert {p.name for p in folder.iterdir()} == {*named, "fmi-ls-manifest.xml"}
-
-
-@pytest.mark.parametrize("name", ["WetClutch", "ShiftTransmission"])
-def test_the_reference_run_repeats_to_the_byte(name):
-    assert reference_files(find_spec(name)) == reference_files(find_spec(name))
 
 
 @each_model

@@ -71,15 +71,9 @@ def bodies_of(m):
     return [ladder.body_of(m, body) for body in ladder.BODIES]
 
 
-def steady(params=IN_TIME, load=300.0, speed=545.0, tilt=2e-3, oil=OIL, grid=GRID):
-    return solve_washer(
-        replace(params, thermal_mode="quasi_steady"),
-        load=load,
-        speed=speed,
-        tilt=tilt,
-        oil_temperature=oil,
-        grid=grid,
-    )
+def steady(params=IN_TIME, load=300.0, speed=545.0):
+    at = {"load": load, "speed": speed, "tilt": 2e-3, "oil_temperature": OIL, "grid": GRID}
+    return solve_washer(replace(params, thermal_mode="quasi_steady"), **at)
 
 
 def matrices(w):

@@ -184,44 +184,6 @@ class MapJournals:
         return RIGHT
 
 
-class States:
-    """Serialised states: refused, or the state that was written; the run goes on in any case.
-
-    ``telling``: outputs by which a refusal is told, where no call can return an error.
-    """
-
-    def __init__(self, instance, others=(), telling=()):
-        self.telling = telling
-        self.instance, self.others = instance, list(others)
-        instance.initialize()
-        instance.step(0.0, 1e-3)
-        self.state = instance.get_state()
-        self.whole = instance.serialize(self.state)
-        self.outputs = self._shown()
-
-    def _shown(self):
-        named = zip(self.instance.output_names, self.instance.outputs(), strict=True)
-        return {name: value for name, value in named if name not in self.telling}
-
-    def __call__(self, rng):
-        foreign = self.others and rng.random() < 0.1
-        data = rng.choice(self.others) if foreign else damage.bits(rng, self.whole)
-        result = RIGHT
-        try:
-            found = self.instance.deserialize(data)
-            self.instance.set_state(found)
-            same = self.instance.serialize(found) == self.whole
-            say_if_wrong([] if same and not foreign else ["another state"])
-            self.instance.free_state(found)
-        except (ParameterError, SolveError) as error:
-            result = one_line(error, "FMU state")
-        say_if_wrong([] if self._shown() == self.outputs else ["outputs have changed"])
-        self.instance.set_state(self.state)
-        self.instance.step(0.001, 1e-3)
-        self.instance.set_state(self.state)
-        return result
-
-
 class Calibrations:
     """Measured points: refused with file and line, or fitted with finite numbers."""
 

@@ -17,21 +17,10 @@ def test_defaults_and_presets_have_nothing_idle_on_any_rung(model):
 
 
 PLOUGHED = ClutchParams(plough_weight=0.2, stick_speed=2.0)
+DRY = WasherParams(dry_friction=0.05)
 IDLE = [
-    (
-        "washer",
-        WasherParams(dry_friction=0.05),
-        "",
-        "dry_friction = 0.05",
-        "friction_law = constant",
-    ),
-    (
-        "clutch",
-        PLOUGHED,
-        "field",
-        "plough_weight = 0.2, stick_speed = 2 m/s",
-        "friction_law = wang",
-    ),
+    ("washer", DRY, "", "dry_friction = 0.05", "friction_law = constant only"),
+    ("clutch", PLOUGHED, "field", "plough_weight = 0.2, stick_speed = 2 m/s", "law = wang"),
     ("clutch", ClutchParams(table_friction_0=0.05), "closed", "table_friction_0", "stribeck or"),
     ("gearmesh", GearMeshParams(partition_share=0.3), "field", "partition_share", "is loss"),
 ]

@@ -88,10 +88,3 @@ def test_what_was_computed_before_a_failure_is_kept(monkeypatch):
         follow_washer(STEADY, time=[0.0, 1.0, 2.0], load=[300.0, 400.0, 500.0], **AT)
     assert problem.value.course.load.tolist() == [300.0, 400.0]
     assert (problem.value.course.temperature > 297.15).all()
-
-
-def test_the_first_point_takes_no_time_and_leaves_no_substep_to_go_on_with():
-    here = np.array([50.0, 500.0, 1e-3, 350.0, 0.0])
-    washer = follow.Follower(IN_TIME, GRID)
-    assert washer.go(here, here, 0.0) == 0 and washer.state[follow.L.S_SUBSTEP] == 0.0
-    assert washer.go(here, here, 0.1) == 0 and washer.state[follow.L.S_SUBSTEP] >= 0.1

@@ -119,9 +119,3 @@ def test_where_a_rule_is_near_the_difference_is_one_sided(fmi):
     reply = last(fmi, MADE + "enter 0\n" + POINT + near + f"derive {TORQUE} {RADIUS} 1\n")
     torque = 0.5 * 0.1 * 2.0 * 300.0 * (0.05 + 0.001 * 0.7) * math.tanh(0.7)
     assert reply.status == 0 and reply.values[0] == pytest.approx(torque / 0.1, rel=1e-5)
-
-
-def test_adjoint_derivatives_know_parameters_too():
-    here = MADE + "enter 0\n" + POINT
-    forward = last(3, here + f"derive {TORQUE} {RADIUS} 2\n").values
-    assert last(3, here + f"adjoint {RADIUS} {TORQUE} 2\n").values == pytest.approx(forward)

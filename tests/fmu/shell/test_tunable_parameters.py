@@ -145,16 +145,3 @@ def test_a_value_out_of_range_or_against_a_rule_is_refused(way):
     cooled = CASES[1]._replace(fixed={"oil_cooling": 1})
     said = [r.messages[-1] for r in refused(cooled, 0.5, "step 1e-3 1e-3\n") if r.status]
     assert len(said) == 1 and "film_heat_fraction = 0.5, allowed: 1 with oil_cooling" in said[0]
-
-
-@each_way
-def test_fixed_and_ended_are_refused_by_name(way):
-    spec = find_spec("clutch")
-    for change, words in (
-        (putting(spec, faces=6), "faces is a fixed parameter; it can be set before"),
-        ("end\n" + putting(spec, friction_scale=0.5), "not allowed in state terminated"),
-    ):
-        host = Host(CLUTCH, way).steps(1)
-        host.script += change
-        reply = run(host.fmi, model_library("clutch"), host.script)[-1]
-        assert reply.status == 3 and words in reply.messages[-1]

@@ -25,12 +25,15 @@ from importlib import metadata
 from pathlib import Path
 
 os.environ.setdefault("MPLBACKEND", "Agg")
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "abuse"))
 
 import calls
+import damage
 import files
 
 from thrustwasher.cli._fmu_cache import fmu_paths
+from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.fmu.build import build
 from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.running.loading import description, unpack
@@ -207,6 +210,45 @@ def soak(
     return row
 
 
+class States:
+    """Serialised states: refused, or the state that was written; the run goes on in any case.
+
+    ``telling``: outputs by which a refusal is told, where no call can return an error.
+    """
+
+    def __init__(self, instance: Instance, others: list[bytes], telling: tuple[str, ...]) -> None:
+        self.telling = telling
+        self.instance, self.others = instance, others
+        instance.initialize()
+        instance.step(0.0, 1e-3)
+        self.state = instance.get_state()
+        self.whole = instance.serialize(self.state)
+        self.outputs = self._shown()
+
+    def _shown(self) -> dict[str, float]:
+        named = zip(self.instance.output_names, self.instance.outputs(), strict=True)
+        return {name: value for name, value in named if name not in self.telling}
+
+    def __call__(self, rng: random.Random) -> str:
+        """Spoil the bytes of the state, or take another's; return how it ended."""
+        foreign = self.others and rng.random() < 0.1
+        data = rng.choice(self.others) if foreign else damage.bits(rng, self.whole)
+        result = calls.RIGHT
+        try:
+            found = self.instance.deserialize(data)
+            self.instance.set_state(found)
+            same = self.instance.serialize(found) == self.whole
+            calls.say_if_wrong([] if same and not foreign else ["another state"])
+            self.instance.free_state(found)
+        except (ParameterError, SolveError) as error:
+            result = files.one_line(error, "FMU state")
+        calls.say_if_wrong([] if self._shown() == self.outputs else ["outputs have changed"])
+        self.instance.set_state(self.state)
+        self.instance.step(0.001, 1e-3)
+        self.instance.set_state(self.state)
+        return result
+
+
 def fmu_of(model: str, kind: str, folder: Path) -> Path:
     target, fmi = kind.split("-fmi")
     name = find_spec(model).name
@@ -289,7 +331,7 @@ def spoiled(folder: Path, scale: float, seed: int) -> Iterator[Row]:
     for kind in KINDS:
         with Instance(fmu_of("clutch", kind, folder)) as instance:
             telling = ("solver_status",) if kind.startswith("python") else ()
-            states = files.States(instance, foreign, telling)
+            states = States(instance, foreign, telling)
             fault = f"spoiled state of {clutch.name}, {kind}"
             yield campaign(fault, states, round(scale * 10_000), seed)
 

@@ -51,5 +51,5 @@ def pytest_runtest_call(item):
 
 def pytest_collection_modifyitems(items):
     """Begin with what compiles for minutes, so that the processes end at about the same time."""
-    compiling = {"test_compiled_here", "test_emission"}
+    compiling = {"test_compiled_here"}
     items.sort(key=lambda item: item.path.stem not in compiling)

@@ -13,6 +13,7 @@ from pathlib import Path
 import damage
 import numpy as np
 from calls import REFUSED, RIGHT, Wrong, say_if_wrong
+from chart_records import cell, group, record, sample
 
 from thrustwasher import ParameterError, SolveError
 from thrustwasher.cli import main
@@ -183,44 +184,6 @@ class MapJournals:
         return RIGHT
 
 
-class States:
-    """Serialised states: refused, or the state that was written; the run goes on in any case.
-
-    ``telling``: outputs by which a refusal is told, where no call can return an error.
-    """
-
-    def __init__(self, instance, others=(), telling=()):
-        self.telling = telling
-        self.instance, self.others = instance, list(others)
-        instance.initialize()
-        instance.step(0.0, 1e-3)
-        self.state = instance.get_state()
-        self.whole = instance.serialize(self.state)
-        self.outputs = self._shown()
-
-    def _shown(self):
-        named = zip(self.instance.output_names, self.instance.outputs(), strict=True)
-        return {name: value for name, value in named if name not in self.telling}
-
-    def __call__(self, rng):
-        foreign = self.others and rng.random() < 0.1
-        data = rng.choice(self.others) if foreign else damage.bits(rng, self.whole)
-        result = RIGHT
-        try:
-            found = self.instance.deserialize(data)
-            self.instance.set_state(found)
-            same = self.instance.serialize(found) == self.whole
-            say_if_wrong([] if same and not foreign else ["another state"])
-            self.instance.free_state(found)
-        except (ParameterError, SolveError) as error:
-            result = one_line(error, "FMU state")
-        say_if_wrong([] if self._shown() == self.outputs else ["outputs have changed"])
-        self.instance.set_state(self.state)
-        self.instance.step(0.001, 1e-3)
-        self.instance.set_state(self.state)
-        return result
-
-
 class Calibrations:
     """Measured points: refused with file and line, or fitted with finite numbers."""
 
@@ -317,70 +280,6 @@ class Archives:
 
 def chart_record():
     """Return a small record, as ``thrustwasher chart`` measures it."""
-    quantity = {"name": "friction_torque", "kind": "relative", "unit": "1", "floor": 1e-3}
-    samples = [
-        {
-            "family": "rungs",
-            "label": label,
-            "knob": "rung",
-            "value": label,
-            "cases": "0",
-            "errors": {"friction_torque": {"worst": error, "rms": 0.4 * error, "case": "a"}},
-            "ref_uncertainty": {"friction_torque": 1e-5},
-            "call_median": cost,
-            "call_iqr": 0.05 * cost,
-            "call_min": cost,
-            "repeats": 9,
-            "first_call_s": cost,
-            "setup_s": 1e-3,
-            "count": 3.0,
-            "count_of": "turns",
-            "n_cases": 2,
-            "n_failed": failed,
-            "failures": {"b": "SINGULAR"} if failed else {},
-            "is_rival": False,
-            "slowest_call_s": cost,
-            "slowest_case": "b",
-            "build_s": 0.0,
-        }
-        for label, cost, error, failed in (("closed", 1e-6, 0.5, 0), ("field", 2e-4, 2e-3, 1))
-    ]
-    survey = {
-        "cases": [{"name": "a", "point": [1.0], "before": []}],
-        "cases_digest": "0",
-        "cost_of": "a call [s]",
-        "quantities": [quantity],
-        "truths": [],
-        "samples": samples,
-    }
-    cell = {"verdict": "ok", "figure": "", "words": ""}
-    group = {
-        "name": "films",
-        "judged": "load off",
-        "methods": ["good"],
-        "hazards": ["a"],
-        "cells": [[cell]],
-    }
-    machine = {
-        "cpu": "a cpu",
-        "cores": 2,
-        "os": "an os",
-        "python": "3",
-        "numpy": "2",
-        "numba": "1",
-        "compiled": True,
-        "threads": {},
-        "load": 0.1,
-    }
-    return {
-        "schema": 1,
-        "command": "thrustwasher chart",
-        "date": "2026-11-21T18:00:00Z",
-        "machine": machine,
-        "calibration_s": 0.01,
-        "quick": False,
-        "run_s": 1.0,
-        "package": {"version": "0", "kernels": "0", "commit": "abc", "dirty": True},
-        "models": {"clutch": survey},
-        "stability": [group],
-    }
+    failed = {"n_failed": 1, "failures": {"b": "SINGULAR"}}
+    samples = [sample("closed", 1e-6, 0.5), sample("field", 2e-4, 2e-3, **failed)]
+    return record("clutch", samples, [group([cell()])])

@@ -17,36 +17,11 @@ from thrustwasher.sweep import run_sweep as runs
 from thrustwasher.sweep.solve_rows import solve_task
 
 MEASURED = Path(__file__).with_name("measured.csv")
-SWEEP = [
-    "sweep",
-    "gearmesh",
-    "--over",
-    "load=10:200:10",
-    "--over",
-    "speed=50:300:50",
-    "--workers",
-    "1",
-    "--out",
-]
-MAP = [
-    "map",
-    "build",
-    "--load",
-    "300:400",
-    "--speed",
-    "540:550",
-    "--tilt",
-    "0.002",
-    "--oil-temperature",
-    "297.15",
-    "--fidelity",
-    "field",
-    "--workers",
-    "1",
-    "--points",
-    "2",
-    "--out",
-]
+SWEEP = "sweep gearmesh --over load=10:200:10 --over speed=50:300:50 --workers 1 --out".split()
+MAP = (
+    "map build --load 300:400 --speed 540:550 --tilt 0.002 --oil-temperature 297.15 "
+    "--fidelity field --workers 1 --points 2 --out"
+).split()
 
 
 def refused(folder, *words, left=()):
@@ -192,15 +167,15 @@ def test_standard_output_that_cannot_be_written_is_said(words, monkeypatch, caps
 @pytest.mark.parametrize(
     "words",
     [
-        ["curve", "--speed", "545", "--tilt", "0.002", "--out", "/proc/x/c.csv"],
-        ["calibrate", str(MEASURED), "--plot", "/proc/x/fit.png"],
-        ["shift", "--out", "/proc/x"],
-        ["shift", "--ssp", "/proc/x/s.ssp"],
-        ["build", "--out", "/proc/x"],
-        ["chart", "--out", "/proc/x"],
-        [*SWEEP, "/proc/x/t.csv"],
-        [*MAP, "/proc/x/m.twm"],
+        "curve --speed 545 --tilt 0.002 --out /proc/x/c.csv",
+        f"calibrate {MEASURED} --plot /proc/x/fit.png",
+        "shift --out /proc/x",
+        "shift --ssp /proc/x/s.ssp",
+        "build --out /proc/x",
+        "chart --out /proc/x",
+        f"{' '.join(SWEEP)} /proc/x/t.csv",
+        f"{' '.join(MAP)} /proc/x/m.twm",
     ],
 )
 def test_where_nothing_may_be_written_no_work_begins(words, tmp_path):
-    assert "/proc/x" in refused(tmp_path, *words)
+    assert "/proc/x" in refused(tmp_path, *words.split())

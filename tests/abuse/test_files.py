@@ -10,8 +10,6 @@ from hypothesis import strategies as st
 from sampling import sizes
 
 from examples import examples
-from thrustwasher.fmu.stepper import DirectInstance
-from thrustwasher.model.registry import find_spec
 
 randoms = st.randoms(use_true_random=False)
 MEASURED = Path(__file__).with_name("measured.csv")
@@ -72,28 +70,3 @@ def test_half_a_chart_is_refused_in_one_line(tmp_path):
 @sizes(5, 30, pytest.mark.abuse)
 def test_a_spoiled_fmu_is_refused_by_name(tmp_path, fmu_of, n):
     spoil(files.Archives(tmp_path, fmu_of("gearmesh", "native-fmi2")), n)
-
-
-@pytest.mark.parametrize(
-    ("kind", "n"),
-    [
-        ("direct", 15),
-        ("native-fmi2", 15),
-        *(
-            pytest.param(kind, 150, marks=pytest.mark.abuse)
-            for kind in ("direct", "native-fmi2", "native-fmi3", "python-fmi2")
-        ),
-    ],
-)
-def test_spoiled_states_are_refused_and_harm_nothing(kind, n, instance_of):
-    other = DirectInstance(find_spec("transmission"))
-    other.initialize()
-    foreign = [other.serialize(other.get_state()), b"", b"{}" * 500]
-    if kind.startswith("native"):
-        second = instance_of("transmission", "native-fmi2")
-        second.initialize()
-        foreign.append(second.serialize(second.get_state()))
-    clutch = find_spec("clutch")
-    one = DirectInstance(clutch) if kind == "direct" else instance_of("clutch", kind)
-    telling = ("solver_status",) if kind.startswith("python") else ()
-    spoil(files.States(one, foreign, telling), n)

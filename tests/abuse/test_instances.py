@@ -10,55 +10,34 @@ from examples import examples
 from thrustwasher.fmu.stepper import DirectInstance
 from thrustwasher.model.registry import find_spec
 
-KINDS = [
-    (model, kind)
-    for model in ("clutch", "gearmesh", "transmission")
-    for kind in ("native-fmi2", "python-fmi2")
-]
 MOVES = 12
+RUNGS = {"map": 10, "field": 1}  # of the washer: examples
 walks = st.lists(st.randoms(use_true_random=False), min_size=MOVES, max_size=MOVES)
 
 
-def walk(spec, instance, rngs):
-    judged = calls.Walk(spec, instance)
-    for rng in rngs:
-        judged.move(rng)
-    assert sum(judged.counts.values()) == len(rngs)
+NATIVE, PYTHON = "native-fmi2", "python-fmi2"
+MASTERS = [  # model, kind, parameters, examples; the first by default
+    *((m, k, {}, 12) for m in ("clutch", "gearmesh", "transmission") for k in (NATIVE, PYTHON)),
+    ("clutch", "native-fmi3", {}, 12),
+    *(("washer", k, {"fidelity": r}, n) for k in (NATIVE, PYTHON) for r, n in RUNGS.items()),
+]
 
 
 @pytest.mark.parametrize(
-    ("model", "kind"),
-    [
-        KINDS[0],
-        *(
-            pytest.param(*one, marks=pytest.mark.abuse)
-            for one in [*KINDS[1:], ("clutch", "native-fmi3")]
-        ),
-    ],
+    ("model", "kind", "parameters", "n"),
+    [MASTERS[0], *(pytest.param(*one, marks=pytest.mark.abuse) for one in MASTERS[1:])],
 )
-def test_a_wild_master_gets_right_outputs_or_named_errors(model, kind, instance_of):
-    instance = instance_of(model, kind)
-
-    @examples(12)
-    @given(rngs=walks)
-    def wild(rngs):
-        instance.reset()
-        walk(find_spec(model), instance, rngs)
-
-    wild()
-
-
-@pytest.mark.abuse
-@pytest.mark.parametrize("kind", ["native-fmi2", "python-fmi2"])
-@pytest.mark.parametrize(("rung", "n"), [("map", 10), ("field", 1)])
-def test_a_wild_master_of_a_washer_too(rung, n, kind, instance_of):
-    instance = instance_of("washer", kind, {"fidelity": rung})
+def test_a_wild_master_gets_right_outputs_or_named_errors(model, kind, parameters, n, instance_of):
+    instance = instance_of(model, kind, parameters)
 
     @examples(n)
     @given(rngs=walks)
     def wild(rngs):
         instance.reset()
-        walk(find_spec("washer"), instance, rngs)
+        judged = calls.Walk(find_spec(model), instance)
+        for rng in rngs:
+            judged.move(rng)
+        assert sum(judged.counts.values()) == len(rngs)
 
     wild()
 

@@ -12,20 +12,8 @@ from thrustwasher.cli import Stopped, Watch, main
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs signals of POSIX")
 SWEEP = ["sweep", "gearmesh", "--over", "load=10:1000:x300", "--over", "speed=50:500:x150"]
-MAP = [
-    "map",
-    "build",
-    "--load",
-    "20:1800",
-    "--speed",
-    "50:1400",
-    "--tilt",
-    "0.001:0.003",
-    "--oil-temperature",
-    "290:400",
-    "--workers",
-    "2",
-]
+MAP = "map build --load 20:1800 --speed 50:1400 --tilt 0.001:0.003 --workers 2".split()
+MAP += ["--oil-temperature", "290:400"]
 
 
 def started(words, folder):

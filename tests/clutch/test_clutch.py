@@ -23,14 +23,6 @@ def test_paper_like_sample_has_friction_of_the_paper():
     assert [round(at[n], 4) for n in (600, 1500, 3000)] == [0.0848, 0.0498, 0.0374]
 
 
-def test_torque_has_the_sign_of_the_slip_and_vanishes_with_it():
-    results = [solve_clutch(PACK, load=5000.0, speed=w) for w in (-30.0, 0.0, 30.0)]
-    torques = [r.friction_torque for r in results]
-    assert torques[0] == -torques[2] and torques[1] == 0.0
-    assert results[1].torque_capacity > results[2].torque_capacity > 0.0
-    assert [r.regime for r in results] == ["boundary", "adhesive", "boundary"]
-
-
 def test_closed_rung_has_the_constant_coefficient():
     r = solve_clutch(ClutchParams(constant_friction=0.2), load=10.0, speed=3.0, fidelity="closed")
     assert r.friction_coefficient == 0.2 and r.fidelity == "closed"
@@ -55,19 +47,7 @@ def test_arrays_are_taken_and_a_scalar_stays_a_scalar():
             "shear_ratio = .*numbers are required",
         ),
         (lambda: boundary_friction(0.1, 0.5, {}), "plough_weight = {}, numbers are required"),
-        (
-            lambda: solve_clutch(PACK, load=-1.0, speed=1.0),
-            r"load = -1.0 N, allowed: 0 ..",
-        ),
-        (lambda: solve_clutch(PACK, load=1.0, speed=np.nan), "speed = nan rad/s"),
-        (lambda: solve_clutch(PACK, load=1.0, speed=1.0, fidelity="x"), "fidelity = 'x'"),
-        (
-            lambda: solve_clutch(UNCOOLED, load=1e3, speed=1.0),
-            "heat_transfer",
-        ),
-        (lambda: ClutchParams(inner_radius=0.09), "inner_radius = 0.09 m, allowed: below"),
-        (lambda: ClutchParams(faces=0), "faces = 0, allowed: 1 .. 100"),
-        (lambda: ClutchParams(friction_law="dry"), "friction_law = 'dry', allowed: 'wang'"),
+        (lambda: solve_clutch(UNCOOLED, load=1e3, speed=1.0), "heat_transfer"),
     ],
 )
 def test_bad_input_is_named(call, message):
@@ -108,15 +88,6 @@ def test_an_open_pack_has_no_asperity_torque_and_a_crushed_one_says_so():
     assert light.contact_torque < 1e-12 < light.viscous_torque
     crushed = solve_clutch(ClutchParams(roughness=1e-7, land_share=1.0), load=6000.0, speed=0.01)
     assert crushed.status.name == "OUTSIDE_VERIFIED" and crushed.film_ratio < -3.0
-
-
-def test_a_settled_film_without_shear_is_the_rung_below():
-    still = ClutchParams.preset("paper", film_dynamics=False, **SIZE)
-    at = {"load": 5898.0, "speed": 50.0}
-    assert (
-        solve_clutch(still, **at).friction_torque
-        == solve_clutch(PACK, **at, fidelity="stribeck").friction_torque
-    )
 
 
 def test_a_measured_curve_is_followed_and_held_beyond_its_end():

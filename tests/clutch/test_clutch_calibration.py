@@ -11,7 +11,6 @@ from thrustwasher import ClutchParams, ParameterError, calibrate, solve_clutch
 from thrustwasher.clutch.calibration.friction_law import (
     WANG_CONSTANTS,
     friction_over,
-    friction_slopes,
     law_values,
     settled_shear,
 )
@@ -49,17 +48,6 @@ def test_the_law_over_arrays_is_that_of_the_kernels(changes):
     wanted = [solve_clutch(pack, load=1e3, speed=w).friction_coefficient for w in speeds]
     found = friction_over(law_values(pack), np.array(speeds) * RADIUS)
     assert found == pytest.approx(wanted, rel=1e-14)
-
-
-@pytest.mark.parametrize("name", WANG_CONSTANTS)
-def test_slopes_are_the_derivatives_of_the_law(name):
-    values = law_values(ClutchParams(friction_law="wang", kink_width=0.2, indentation=0.3))
-    step = 1e-5 * values[name]
-    speed = np.array([0.0, 1.0, 1.3, 4.0, 12.0])
-    up = friction_over({**values, name: values[name] + step}, speed)
-    down = friction_over({**values, name: values[name] - step}, speed)
-    slope = friction_slopes(values, speed, (name,))[:, 0]
-    assert slope == pytest.approx((up - down) / (2.0 * step), rel=1e-7, abs=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -7,10 +7,7 @@ import pytest
 
 from thrustwasher import calibrate
 from thrustwasher.calibration.estimates import spanned
-from thrustwasher.clutch.calibration.friction_law import (
-    friction_over,
-    law_values,
-)
+from thrustwasher.clutch.calibration.friction_law import friction_over, law_values
 from thrustwasher.clutch.parameters import ClutchParams
 
 PACK = ClutchParams(friction_law="wang")
@@ -108,23 +105,6 @@ def test_residuals_above_a_fifth_of_the_friction_are_named_even_if_only_scatter(
 def test_points_of_the_law_itself_give_no_warning_whatever_their_scatter(size):
     for seed in range(8):
         assert fitted(scattered(EXACT, seed, size)).warnings == ()
-
-
-@pytest.mark.parametrize("piece", [(2.0, 12.0), (8.0, 40.0), (40.0, 60.0), (0.05, 1.2)])
-def test_a_piece_of_the_curve_is_no_reason_to_warn(piece):
-    slip = np.linspace(*piece, 60) / TRUE.friction_radius
-    exact = friction_over(law_values(TRUE), slip * TRUE.friction_radius)
-    for seed in range(4):
-        found = calibrate(
-            PACK, speed=slip, load=5e3, friction=scattered(exact, seed), profile=False
-        )
-        assert found.warnings == ()
-
-
-def test_scatter_beyond_the_edge_of_the_reach_is_no_warning():
-    edge = ClutchParams(friction_law="wang", plough_weight=1.0)
-    exact = friction_over(law_values(edge), SLIP * edge.friction_radius)
-    assert all(fitted(scattered(exact, seed)).warnings == () for seed in range(8))
 
 
 @pytest.mark.parametrize(

@@ -29,18 +29,8 @@ _folder = tempfile.TemporaryDirectory(prefix="host")
 def program():
     made = Path(_folder.name) / "host"
     headers = Path(fmpy.__file__).parent / "c-code"
-    command = [
-        "gcc",
-        "-O2",
-        "-Wall",
-        "-Wextra",
-        "-Werror",
-        f"-I{headers}",
-        HERE / "host.c",
-        "-o",
-        made,
-        "-ldl",
-    ]
+    flags = f"-O2 -Wall -Wextra -Werror -I{headers}".split()
+    command = ["gcc", *flags, HERE / "host.c", "-o", made, "-ldl"]
     subprocess.run(command, check=True, timeout=60)
     return made
 

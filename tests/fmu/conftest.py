@@ -1,12 +1,9 @@
 """The toy model is packed once; its folder is importable for slaves and child processes."""
 
-import os
-import subprocess
-import sys
-
 import needed
 import pytest
 from built import built_fmu
+from children import child
 from toy.places import HERE, TOY_SLAVES
 from toy.spec import SPEC as TOY
 
@@ -50,15 +47,7 @@ def run_child():
     """Run Python code in a fresh process and return what it prints."""
 
     def run(code, *args, check=True):
-        path = os.pathsep.join([str(HERE), str(HERE.parents[1]), os.environ.get("PYTHONPATH", "")])
-        done = subprocess.run(
-            [sys.executable, "-c", code, *map(str, args)],
-            env={**os.environ, "PYTHONPATH": path},
-            capture_output=True,
-            text=True,
-            timeout=500,
-        )
-        assert not check or done.returncode == 0, done.stderr
+        done = child(code, *args, check=check, path=(HERE,))
         return done.stdout.strip() if check else done
 
     return run

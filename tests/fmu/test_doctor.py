@@ -6,7 +6,6 @@ import tomllib
 from types import SimpleNamespace
 
 import pytest
-from built import look_for_linkers_again
 from kernel_files import ROOT
 from toy.places import HERE
 
@@ -14,7 +13,6 @@ from thrustwasher import __version__
 from thrustwasher.errors import ParameterError
 from thrustwasher.fmu import diagnosis
 from thrustwasher.fmu.model_kernels import package_version
-from thrustwasher.native import link
 
 
 def found():
@@ -62,19 +60,6 @@ def test_a_platform_without_library_is_a_finding(monkeypatch):
     monkeypatch.setattr("platform.machine", lambda: "aarch64")
     with pytest.raises(ParameterError, match=r"no library for .* on aarch64"):
         diagnosis._binary()
-
-
-def test_no_compiler_where_one_is_needed_is_a_finding_with_what_to_install(monkeypatch):
-    monkeypatch.setattr(diagnosis, "is_shipped", lambda spec: False)
-    monkeypatch.setattr(link.importlib.util, "find_spec", lambda name: None)
-    monkeypatch.setattr(link.shutil, "which", lambda name: None)
-    look_for_linkers_again()
-    check = diagnosis._look("x", diagnosis._compiler)
-    monkeypatch.undo()
-    look_for_linkers_again()
-    assert (
-        not check.ok and "pip install 'thrustwasher[build]'" in check.text and "gcc" in check.text
-    )
 
 
 def script(*arguments):

@@ -1,182 +1,19 @@
-"""The real models through the same gate: FMU against kernels, contract, dependencies."""
+"""Which inputs of the models move which outputs at once, as their descriptions say."""
 
 import random
 
-import numpy as np
 import pytest
+from sampling import jump
 
 from thrustwasher.fmu.description.interface import interface
-from thrustwasher.fmu.stepper import DirectInstance, Instance
-from thrustwasher.model.registry import all_specs, find_spec, kernel_of
+from thrustwasher.fmu.stepper import DirectInstance
+from thrustwasher.model.registry import all_specs, find_spec
 
 H = 1e-3
 NAMES = [spec.name for spec in all_specs()]
-# Where a model works in a shift: (low, high) per input; random points are drawn from it.
-TYPICAL = {
-    "load": (1e3, 8e3),
-    "speed": (-100.0, 100.0),
-    "oil_temperature": (290.0, 360.0),
-    "drum_speed": (-400.0, 400.0),
-    "shift_command": (0.0, 1.0),
-    "clutch_torque": (0.0, 300.0),
-    "brake_torque": (0.0, 300.0),
-    "washer_torque": (0.0, 3.0),
-    "mesh_torque": (0.0, 3.0),
-    "clutch_pressure": (0.0, 2e5),
-    "brake_pressure": (0.0, 2e5),
-    "engine_torque_input": (-50.0, 50.0),
-    "load_torque_input": (-50.0, 50.0),
-    "ring_mesh_torque": (0.0, 3.0),
-    "ambient_temperature": (250.0, 310.0),
-    "cooler_flow": (0.0, 1e-4),
-    "cooler_temperature": (300.0, 350.0),
-    **{f"heat_{i}": (0.0, 3e3) for i in range(1, 7)},
-}
-GEAR = {"load": (-200.0, 200.0), "speed": (-700.0, 700.0), "oil_temperature": (240.0, 440.0)}
-WASHER = {
-    "load": (100.0, 1200.0),
-    "speed": (-700.0, 700.0),
-    "tilt": (1e-3, 3e-3),
-    "far_face_temperature": (290.0, 360.0),
-}
-
-
-def drawn(spec, rng):
-    ranges = TYPICAL | {"ThrustWasher": WASHER, "GearMesh": GEAR}.get(spec.name, {})
-    return [rng.uniform(*ranges[signal.name]) for signal in spec.inputs]
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_the_kernel_has_the_lengths_of_the_list(name):
-    spec = find_spec(name)
-    kernel, found = kernel_of(spec), interface(spec).variables
-    held = {s: sum(v.store == s for v in found) for s in ("par", "inp", "out", "iout")}
-    lengths = (kernel.N_PARAM, kernel.NINP, kernel.NOUT, kernel.NIOUT)
-    assert tuple(held.values()) == lengths
-    assert kernel.NPAR >= kernel.N_PARAM
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_the_python_fmu_and_the_kernels_agree_to_the_bit(name, fmus):
-    spec, rng = find_spec(name), random.Random(1)
-    start = dict(zip((s.name for s in spec.inputs), drawn(spec, rng), strict=True))
-    with Instance(fmus[name]) as fmu, DirectInstance(spec) as direct:
-        for instance in (fmu, direct):
-            instance.initialize(inputs=start)
-        for i in range(20):
-            point = drawn(spec, rng)
-            for instance in (fmu, direct):
-                instance.set_inputs(point)
-                instance.step(i * H, H)
-            assert fmu.outputs() == direct.outputs()
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_state_and_readings(name):
-    spec = find_spec(name)
-    results = []
-    with DirectInstance(spec) as fmu:
-        fmu.initialize(inputs={})
-        for i in range(20):
-            fmu.step(i * H, H)
-        state = fmu.get_state()
-        for readings in (0, 2):
-            fmu.set_state(state)
-            rng = random.Random(2)
-            for i in range(20, 40):
-                fmu.set_inputs(drawn(spec, rng))
-                for _ in range(readings):
-                    fmu.outputs()
-                fmu.step(i * H, H)
-            results.append(fmu.outputs())
-        fmu.free_state(state)
-    assert results[0] == results[1]
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_whatever_work_holds_the_result_is_the_same(name):
-    spec, results = find_spec(name), []
-    for fill in (0.0, np.nan, 1e300):
-        rng = random.Random(3)
-        with DirectInstance(spec) as direct:
-            direct.initialize()
-            for i in range(20):
-                direct.set_inputs(drawn(spec, rng))
-                direct.core.work[:] = fill
-                direct.step(i * H, H)
-                results.append((i, direct.outputs()))
-    assert results[:20] == results[20:40] == results[40:]
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_a_solution_without_a_step_leaves_the_memory_alone(name):
-    spec, rng = find_spec(name), random.Random(4)
-    with DirectInstance(spec) as direct:
-        direct.initialize()
-        for i in range(10):
-            direct.step(i * H, H)
-            before = direct.core.state.tobytes()
-            direct.set_inputs(drawn(spec, rng))
-            direct.outputs()
-            assert direct.core.state.tobytes() == before
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_derivatives_after_steps_are_those_of_readings_and_leave_no_trace(name, natives):
-    """By central differences of readings at the same point, the memory held."""
-    spec, rng = find_spec(name), random.Random(6)
-    outputs = [s.name for s in spec.outputs if s.kind == "real"]
-    point, away = drawn(spec, rng), [1e-4 * (s.nominal or 1.0) for s in spec.inputs]
-    if name == "ThrustWasher":
-        away = [10.0 * dx for dx in away]  # solved to 5e-6 only
-    with Instance(natives[name]) as fmu, DirectInstance(spec) as direct:
-        if not fmu.gives_derivatives:
-            pytest.skip(f"{name} has no derivatives")
-        for instance in (fmu, direct):
-            instance.initialize()
-            for i in range(5):
-                instance.set_inputs(point)
-                instance.step(i * H, H)
-        state = fmu.get_state()
-        fmu.step(5 * H, H)
-        after = fmu.outputs()
-        fmu.set_state(state)
-        found = direct.directional_derivative(outputs, direct.input_names, away)
-        assert fmu.directional_derivative(outputs, fmu.input_names, away) == found
-        fmu.step(5 * H, H)
-        assert fmu.outputs() == after
-        ends = []
-        for sign in (1.0, -1.0):
-            fmu.set_state(state)
-            fmu.set_inputs([x + sign * dx for x, dx in zip(point, away, strict=True)])
-            ends.append(fmu.get(outputs))
-        fmu.free_state(state)
-    for output, slope, more, less in zip(outputs, found, *ends, strict=True):
-        rounding = 1e-9 * max(abs(more), abs(less))
-        assert slope == pytest.approx(0.5 * (more - less), rel=1e-3, abs=rounding), output
-
-
-# Listed dependencies of a discrete output that no point drawn here shows.
-UNSEEN = {
-    # a film between lining and steel that cannot be solved would show in it; none is known
-    ("load", "WetClutch", "solver_status"),
-    ("speed", "WetClutch", "solver_status"),
-    # with a linear course the film takes a step to the present oil: a regime's edge within it
-    ("oil_temperature", "WetClutch", "regime"),
-    # only by the heat of a starved gap, on such a step
-    *(
-        ("drum_speed", "WetClutch", n)
-        for n in (
-            "regime",
-            "film_ratio",
-            "film_thickness",
-            "contact_torque",
-            "contact_share",
-            "viscosity",
-            "friction_coefficient",
-        )
-    ),
-}
+# Only by the heat of a starved gap, on a step along a straight course of inputs.
+FILM = "film_ratio film_thickness contact_torque contact_share viscosity friction_coefficient"
+UNSEEN = {"WetClutch": {("drum_speed", name) for name in FILM.split()}}
 # Parameters under which different inputs act at once.
 STANDINGS = {
     "ThrustWasher": [{"gear_far_face": "bulk"}, {"gear_far_face": "oil"}],
@@ -197,27 +34,21 @@ STANDINGS = {
     # endurance is the paper's, a safety against micropitting needs its limit
     "GearMesh": [{"permissible_film_ratio": 0.3}, {"film_heat": "atan", "steel": "AISI4340"}],
 }
-CASES = {
-    "ThrustWasher": 40,
-    "WetClutch": 300,
-    "GearMesh": 200,
-    "ShiftTransmission": 4000,
-    "OilSump": 5,
-}
+CASES = {"ThrustWasher": 40, "WetClutch": 200, "GearMesh": 100, "ShiftTransmission": 600}
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_exactly_the_listed_inputs_move_an_output_at_once(name):
+def test_only_listed_inputs_move_an_output_at_once_and_all_of_them_the_real_ones(name):
     spec, rng = find_spec(name), random.Random(5)
     standings = STANDINGS.get(name, [{}])
-    seen = set()
-    for case in range(CASES[name]):
+    seen, far = set(), 0.2 if name == "ShiftTransmission" else 0.0  # where packs stick
+    for case in range(CASES.get(name, 5)):
         given = standings[case % len(standings)]
         if name == "ShiftTransmission":
             bearings = {f"{gear}_bearing_coefficient": 0.02 for gear in ("sun", "ring")}
             given = given | {"ring_mesh": True} | bearings
         with DirectInstance(spec, parameters=given) as direct:
-            point = drawn(spec, rng)
+            point = list(jump(spec, rng, far).values())
             direct.initialize(inputs=dict(zip(direct.input_names, point, strict=True)))
             for i in range(rng.choice([0, 5])):  # at the start too
                 direct.step(i * H, H)
@@ -226,45 +57,11 @@ def test_exactly_the_listed_inputs_move_an_output_at_once(name):
                 before = direct.outputs()
                 changed = list(point)
                 can_be_nothing = name == "ShiftTransmission" and rng.random() < 0.1
-                changed[i] = 0.0 if can_be_nothing else drawn(spec, rng)[i]
+                changed[i] = 0.0 if can_be_nothing else jump(spec, rng, far)[signal.name]
                 direct.set_inputs(changed)
                 pairs = zip(spec.outputs, before, direct.outputs(), strict=True)
                 seen |= {(signal.name, output.name) for output, a, b in pairs if a != b}
     listed = {(i, v.name) for v in interface(spec).variables for i in v.depends}
-    unseen = {(i, output) for i, model, output in UNSEEN if model == name}
+    real = {signal.name for signal in spec.outputs if signal.kind == "real"}
     assert seen <= listed
-    assert listed - seen == unseen
-
-
-def test_a_washer_repeats_to_the_bit_across_both_of_its_folds(natives):
-    """The film is lost on the way up to 1100 N and regained on the way down to 500 N."""
-    loads = [800 + 30 * i for i in range(11)] + [1100 - 60 * i for i in range(1, 11)]
-    point = {"speed": 545.0, "tilt": 2e-3, "oil_temperature": 297.15}
-    runs = []
-    with Instance(natives["ThrustWasher"]) as washer:
-        washer.initialize(inputs={"load": 800.0, **point})
-        washer.step(0.0, H)
-        state = washer.get_state()
-        data = washer.serialize(state)
-        for restored in (False, True, True):
-            if restored:
-                washer.set_state(state)
-            runs.append([])
-            for i, load in enumerate(loads):
-                washer.set_inputs([load, *point.values(), 0.0])
-                washer.step((i + 1) * H, H)
-                runs[-1].append(washer.outputs())
-        washer.free_state(state)
-    with Instance(natives["ThrustWasher"]) as other:
-        other.initialize()
-        state = other.deserialize(data)
-        other.set_state(state)
-        other.free_state(state)
-        runs.append([])
-        for i, load in enumerate(loads):
-            other.set_inputs([load, *point.values(), 0.0])
-            other.step((i + 1) * H, H)
-            runs[-1].append(other.outputs())
-    lost = [row[washer.output_names.index("distress")] for row in runs[0]]
-    assert (lost[0], max(lost), lost[-1]) == (0.0, 1.0, 0.0)
-    assert runs[0] == runs[1] == runs[2] == runs[3]
+    assert {pair for pair in listed - seen if pair[1] in real} == UNSEEN.get(name, set())

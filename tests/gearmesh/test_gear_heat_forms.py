@@ -12,17 +12,8 @@ from closed_forms.flash_temperature import (
     deep_body_rise,
     pinion_flash,
 )
-from closed_forms.involute_mesh import (
-    Mesh,
-    flanks_at,
-    line_load,
-    start_of_contact,
-)
-from closed_forms.line_contact import (
-    compliance,
-    full_width,
-    peak_pressure,
-)
+from closed_forms.involute_mesh import Mesh, flanks_at, line_load, start_of_contact
+from closed_forms.line_contact import compliance, full_width, peak_pressure
 from closed_forms.thermal_fatigue import (
     Endurance,
     contact_stress,

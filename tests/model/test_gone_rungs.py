@@ -8,10 +8,6 @@ from thrustwasher import (
     ClutchParams,
     GearMeshParams,
     WasherParams,
-    calibrate,
-    engage_clutch,
-    follow_washer,
-    load_curve,
     load_part,
     run_sweep,
     solve_clutch,
@@ -21,7 +17,6 @@ from thrustwasher import (
 from thrustwasher.cli import main
 from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.running.core import Core
-from thrustwasher.model.part_file import PartFile
 from thrustwasher.model.registry import find_spec
 from thrustwasher.shift import load_scene, with_fidelities
 
@@ -53,46 +48,29 @@ def test_no_other_rung_is_gone():
 
 
 @each
-def test_in_python_and_on_the_command_line(model, name, number, rung, capsys):
+def test_in_python_and_part_files(model, name, number, rung, tmp_path):
     solve, params, point = SOLVED[model]
     found, better = (solve(params, **point, fidelity=f) for f in (name, rung))
     assert found.friction_torque == better.friction_torque and found.fidelity == rung
     assert found.warnings == (line(name, rung), *better.warnings)
-    words = [word for n, value in point.items() for word in (f"--{n}", repr(value))]
-    assert main([model, *words, "--fidelity", name, "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert (told["fidelity"], told["friction_torque"]) == (rung, better.friction_torque)
-    assert line(name, rung) in told["warnings"]
-
-
-@each
-def test_in_part_files_and_sweeps(model, name, number, rung, tmp_path, capsys):
-    point = SOLVED[model][2]
     path = tmp_path / "mine.toml"
     path.write_text(f'model = "{model}"\nname = "Mine"\nfidelity = "{name}"\n')
     part = load_part(path)
-    found = part.solve(**point)
-    assert found.fidelity == rung and line(name, rung) in found.warnings
     assert part.model.default_fidelity == rung
-    assert main(["part", "check", str(path)]) == 0
-    assert line(name, rung) in capsys.readouterr().err
-    table = run_sweep(part, {"speed": [point["speed"]]})
-    better = run_sweep(
-        PartFile(spec=part.spec, name="Mine", fidelity=rung), {"speed": [point["speed"]]}
-    )
-    assert table["friction_torque"] == better["friction_torque"]
-    assert table.fidelity == rung and line(name, rung) in table.warnings
+    for made in (part.solve(**point), run_sweep(part, {"speed": [point["speed"]]})):
+        assert made.fidelity == rung and line(name, rung) in made.warnings
 
 
-@each
-def test_in_scenes(model, name, number, rung, tmp_path):
-    part = {"gearmesh": "mesh"}.get(model, model)
+def test_on_the_command_line_and_in_scenes(tmp_path, capsys):
+    assert main(["washer", "--load", "300", "--fidelity", "coarse", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["fidelity"] == "field" and line("coarse", "field") in told["warnings"]
     path = tmp_path / "mine.toml"
-    path.write_text(f'base = "planetary-sun"\n[{part}]\nfidelity = "{name}"\n')
-    asked = with_fidelities(load_scene("planetary-sun"), [f"{part}={name}"])
+    path.write_text('base = "planetary-sun"\n[mesh]\nfidelity = "stribeck"\n')
+    asked = with_fidelities(load_scene("planetary-sun"), ["mesh=stribeck"])
     for scene in (load_scene(path), asked):
-        assert scene.parts[part].fidelity == rung
-    assert f"[{part}] {line(name, rung)}" in load_scene(path).warnings
+        assert scene.parts["mesh"].fidelity == "field"
+    assert f"[mesh] {line('stribeck', 'field')}" in load_scene(path).warnings
 
 
 @each
@@ -113,18 +91,3 @@ def test_in_an_fmu(model, name, number, rung):
     (out, said, later), (better, plain, _) = cores
     assert out == better and said == [f"{spec.name} at t = 0 s: {line(name, rung)}", *plain]
     assert not any("gone" in text for text in later)
-
-
-def test_in_courses_curves_and_fits():
-    at = {"speed": 545.0, "tilt": 2e-3}
-    told = line("coarse", "field")
-    course = follow_washer(WasherParams(), time=[0.0, 0.1], load=300.0, **at, fidelity="coarse")
-    assert (course.fidelity, course.warnings) == ("field", (told,))
-    curve = load_curve(WasherParams(), **at, fidelity="coarse", load_max=100.0)
-    assert curve.points[0].fidelity == "field" and curve.warnings[0] == told
-    pack = engage_clutch(ClutchParams(), time=[0.0, 0.1], load=1e3, speed=9.0, fidelity="boundary")
-    assert (pack.fidelity, pack.warnings[0]) == ("stribeck", line("boundary", "stribeck"))
-    mesh = GearMeshParams(friction_law="constant")
-    data = {"load": [10.0, 40.0], "speed": 100.0, "friction_torque": [0.05, 0.2]}
-    found = calibrate(mesh, data, fit="constant_friction", fidelity="closed")
-    assert line("closed", "field") in found.warnings

@@ -8,55 +8,37 @@ import numpy as np
 import pytest
 from sampling import sizes
 
-from thrustwasher.clutch import parameters
-from thrustwasher.clutch.kernels import step
 from thrustwasher.errors import Status
-from thrustwasher.gearmesh import parameters as gearmesh_params
-from thrustwasher.gearmesh.kernels import step as gear_step
 from thrustwasher.model.prepare import filled
-from thrustwasher.transmission import parameters as transmission_params
-from thrustwasher.transmission.kernels import step as transmission_step
-from thrustwasher.washer import parameters as washer_params
-from thrustwasher.washer.kernels import step as washer_step
+from thrustwasher.model.registry import find_spec, kernel_of
 
-HOSTILE = [
-    0.0,
-    -0.0,
-    1.0,
-    -1.0,
-    1e-320,
-    1e-30,
-    1e6,
-    -1e6,
-    1e30,
-    1e150,
-    -1e150,
-    1e300,
-    -1e300,
-    np.inf,
-    -np.inf,
-    np.nan,
-]
-WASHERS = [
-    (washer_step, washer_params.SPEC, changes, "field")
-    for changes in ({}, {"thermal_mode": "transient"})
-]
+SIZES = (0.0, 1e-320, 1e-30, 1.0, 1e6, 1e30, 1e150, 1e300, np.inf)
+HOSTILE = [np.nan, *SIZES, *(-size for size in SIZES)]
+HEATED = {"input_course": "linear", "contact_rise": True}
+WASHERS = [("washer", changes, "field") for changes in ({}, {"thermal_mode": "transient"})]
 CASES = [
-    (step, parameters.SPEC, {}, "field"),
-    (step, parameters.SPEC, {"input_course": "linear"}, "field"),
-    (step, parameters.SPEC, {"input_course": "linear", "contact_rise": True}, "field"),
-    (step, parameters.SPEC, {"input_course": "linear"}, "stribeck"),
-    (step, parameters.SPEC, {"starts_pressed": True}, "stribeck"),
-    (step, parameters.SPEC, {}, "closed"),
-    (step, parameters.SPEC, {}, "fine"),
-    (step, parameters.SPEC, {"input_course": "linear", "contact_rise": True}, "fine"),
-    (gear_step, gearmesh_params.SPEC, {}, "fine"),
-    (gear_step, gearmesh_params.SPEC, {}, "field"),
-    (gear_step, gearmesh_params.SPEC, {"film_heat": "atan"}, "fine"),
-    (transmission_step, transmission_params.SPEC, {}, "rigid"),
-    (transmission_step, transmission_params.SPEC, {"torque_age": 2}, "rigid"),
-    (transmission_step, transmission_params.SPEC, {"coupling": "torque"}, "rigid"),
+    ("clutch", {}, "field"),
+    ("clutch", {"input_course": "linear"}, "field"),
+    ("clutch", HEATED, "field"),
+    ("clutch", {"input_course": "linear"}, "stribeck"),
+    ("clutch", {"starts_pressed": True}, "stribeck"),
+    ("clutch", {}, "closed"),
+    ("clutch", {}, "fine"),
+    ("clutch", HEATED, "fine"),
+    ("gearmesh", {}, "fine"),
+    ("gearmesh", {}, "field"),
+    ("gearmesh", {"film_heat": "atan"}, "fine"),
+    ("transmission", {}, "rigid"),
+    ("transmission", {"torque_age": 2}, "rigid"),
+    ("transmission", {"coupling": "torque"}, "rigid"),
 ]
+
+
+def made(model, changes, fidelity):
+    """Return kernel, spec and derived parameters."""
+    spec = find_spec(model)
+    k = kernel_of(spec)
+    return k, spec, filled(spec, spec.params(**changes), fidelity, k.NPAR, k.derive)
 
 
 def good_inputs(spec, rng):
@@ -67,10 +49,10 @@ def good_inputs(spec, rng):
 
 
 @sizes(5, 25)
-@pytest.mark.parametrize(("k", "spec", "changes", "fidelity"), CASES)
-def test_what_fails_leaves_no_trace(k, spec, changes, fidelity, n):
+@pytest.mark.parametrize(("model", "changes", "fidelity"), CASES)
+def test_what_fails_leaves_no_trace(model, changes, fidelity, n):
     rng = np.random.default_rng(7)
-    par = filled(spec, spec.params(**changes), fidelity, k.NPAR, k.derive)
+    k, spec, par = made(model, changes, fidelity)
     work, out, iout = np.zeros(k.NWORK), np.zeros(k.NOUT), np.zeros(k.NIOUT, np.int32)
     failures = set()
     for _ in range(n):
@@ -98,10 +80,10 @@ def test_what_fails_leaves_no_trace(k, spec, changes, fidelity, n):
 
 
 @pytest.mark.parametrize("rubbish", [np.nan, 1e300, -1.0])
-@pytest.mark.parametrize(("k", "spec", "changes", "fidelity"), [*CASES, *WASHERS])
-def test_looks_and_what_work_holds_change_nothing(k, spec, changes, fidelity, rubbish):
+@pytest.mark.parametrize(("model", "changes", "fidelity"), [*CASES, *WASHERS])
+def test_looks_and_what_work_holds_change_nothing(model, changes, fidelity, rubbish):
     rng = np.random.default_rng(3)
-    par = filled(spec, spec.params(**changes), fidelity, k.NPAR, k.derive)
+    k, spec, par = made(model, changes, fidelity)
     quiet, looked = np.zeros(k.NSTATE), np.zeros(k.NSTATE)
     work, other_work = np.zeros(k.NWORK), np.zeros(k.NWORK)
 
@@ -118,3 +100,26 @@ def test_looks_and_what_work_holds_change_nothing(k, spec, changes, fidelity, ru
             assert stepped(look, looked, other_work, 0.0)[3] == before
         other_work[:] = rubbish
         assert stepped(inp, looked, other_work, 1e-3) == stepped(inp, quiet, work, 1e-3)
+
+
+@pytest.mark.parametrize(("model", "changes", "fidelity"), [*CASES, WASHERS[0]])
+def test_derivatives_are_linear_in_their_direction_and_refuse_what_is_no_number(
+    model, changes, fidelity
+):
+    rng = np.random.default_rng(11)
+    k, spec, par = made(model, changes, fidelity)
+    state, work = np.zeros(k.NSTATE), np.zeros(k.NWORK)
+    out, iout = np.zeros(k.NOUT), np.zeros(k.NIOUT, np.int32)
+    inp, seed = good_inputs(spec, rng), rng.standard_normal(k.NINP)
+    assert k.step(par, inp, state, work, out, iout, 0.0, 0.0) == 0
+
+    def along(direction):
+        dout = np.zeros(k.NOUT)
+        return k.sens(par, inp, state, work, direction, dout), dout
+
+    parts = np.array([x * along(row)[1] for x, row in zip(seed, np.eye(k.NINP), strict=True)])
+    status, whole = along(seed)
+    assert status == Status.OK
+    assert (np.abs(whole - parts.sum(0)) <= 1e-7 * np.abs(parts).sum(0) + 1e-15).all()
+    seed[:] = np.nan
+    assert Status(along(seed)[0]).is_failure

@@ -12,13 +12,7 @@ from thrustwasher.calibration.model_fit import calibrate
 from thrustwasher.cli import main
 from thrustwasher.fmu.build import asked
 from thrustwasher.model.oil import law_of, named_oils, too_stiff
-from thrustwasher.model.oil_laws import (
-    FITTED,
-    density,
-    kinematic_viscosity,
-    law_viscosity,
-    walther,
-)
+from thrustwasher.model.oil_laws import FITTED, density, kinematic_viscosity, law_viscosity, walther
 from thrustwasher.model.registry import find_model
 from thrustwasher.shift import load_scene
 
@@ -134,14 +128,6 @@ def test_oil_that_is_all_but_solid_is_a_warning(capsys):
     assert too_stiff(find_model("gearmesh").spec, GearMeshParams(), 263.15) == []
 
 
-def test_a_sweep_into_the_cold_warns_of_its_oil(capsys):
-    words = ["sweep", "gearmesh", "--oil", "VG 460", "--over"]
-    assert main([*words, "oil_temperature [degC]=-20,80"]) == 0
-    assert capsys.readouterr().err.count("warning: oil_temperature = -20 degC") == 3
-    assert main([*words, "oil_temperature=300,350"]) == 0
-    assert "warning" not in capsys.readouterr().err
-
-
 def test_python_and_calibration_warn_of_the_oil_as_the_command_line_does(cold):
     part = load_part(cold)
     expected = {t.split(":")[0]: t for t in part.oil_warnings}
@@ -154,35 +140,12 @@ def test_python_and_calibration_warn_of_the_oil_as_the_command_line_does(cold):
         assert set(part.oil_warnings) <= set(warnings)
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        "build cold.toml --no-maps --platforms local --json",
-        "explore cold.toml",
-        "map build cold.toml --points 2 --tol 0.1 --json",
-    ],
-)
-def test_what_is_made_for_a_box_warns_of_the_oil_in_it(cold, words, capsys):
-    assert main(words.split()) == 0
-    out, err = capsys.readouterr()
-    assert err.count("warning: oil_temperature = -30 degC") == 3
-    assert "ISO VG 460, typical values of the class" in err
-    if "--json" in words:
-        assert json.loads(out)["warnings"] == load_part(cold).oil_warnings
-
-
 def test_an_oil_that_is_changed_is_that_oil_no_more(cold, capsys):
     words = ["washer", "--part", str(cold), "--load", "100", "--oil-temperature", "20 degC"]
     assert main([*words, "--set", "viscosity_scale=1e-4", "--json"]) == 0
     out, err = capsys.readouterr()
     assert "oil" not in json.loads(out) and "ISO VG 460" not in err
     assert "viscosity_scale: given beside the oil of the part, which it is no more" in err
-
-
-def test_a_wrong_input_beside_an_oil_is_one_line(cold, capsys):
-    for words in ("washer", "curve", "clutch", "engage", "gearmesh", "sweep washer --over load=5"):
-        assert main([*words.split(), "--oil", "ISO VG 46", "--oil-temperature", "80"]) == 2
-        assert capsys.readouterr().err.count("\n") == 1
 
 
 # Files, commands, scenes, FMUs

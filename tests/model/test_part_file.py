@@ -61,14 +61,7 @@ def test_presets_written_and_read_again_are_the_same_to_the_bit(model, tmp_path)
 
 @pytest.mark.parametrize(
     ("value", "unit"),
-    [
-        (5.15e-7, "m"),
-        (0.1, "m"),
-        (1 / 3, "rad"),
-        (297.15, "K"),
-        (6.8e9, "1/m2"),
-        (1e5 / 3, "Pa"),
-    ],
+    [(5.15e-7, "m"), (0.1, "m"), (1 / 3, "rad"), (297.15, "K"), (6.8e9, "1/m2"), (1e5 / 3, "Pa")],
 )
 def test_a_number_with_a_readable_unit_is_the_same_number(value, unit):
     assert parse_quantity(exact_quantity(value, unit), unit, "x") == value

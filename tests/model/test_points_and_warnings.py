@@ -24,7 +24,6 @@ from thrustwasher.cli import main
 from thrustwasher.model.idle import kept_warnings
 from thrustwasher.model.part_file import find_part, preset_parts
 from thrustwasher.model.registry import models_with_points
-from thrustwasher.washer.kernel_arguments import Recent
 from thrustwasher.washer.kernels.regime_and_status import is_verified
 from thrustwasher.washer.kernels.workspace import Point
 from thrustwasher.washer.parameters import SPEC
@@ -146,104 +145,48 @@ def test_a_point_outside_the_box_is_solved_with_a_warning_first(boxed, told):
     assert load_part(boxed).solve(load=700.0).warnings == tuple(record["warnings"])
 
 
-DOUBTFUL = {
-    "hot clutch": (lambda: solve_clutch(ClutchParams(), load=9e3, speed=50.0), "temperature = "),
-    "hot washer": (
-        lambda: solve_washer(WasherParams(), load=3e3, speed=1400.0, tilt=2e-3),
-        "temperature_max = ",
-    ),
-    "pressed washer": (
-        lambda: solve_washer(WasherParams(), load=3e3, speed=1400.0, tilt=2e-3),
-        "film_thickness = -",
-    ),
-    "lost film": (
-        lambda: solve_washer(WasherParams(), load=1.3e3, speed=545.0, tilt=2e-3),
-        "film_ratio = ",
-    ),
-    "unverified washer": (
-        lambda: solve_washer(WasherParams(), load=300.0, speed=1900.0, tilt=2e-3),
-        "speed = 1900 rad/s is outside -1500 rad/s .. 1500 rad/s",
-    ),
-    "slipping gap": (
-        lambda: solve_washer(WasherParams(), load=1.0, speed=953.0, tilt=2e-3),
-        "stick_margin = ",
-    ),
-    "pitting mesh": (
-        lambda: solve_gearmesh(GearMeshParams.preset("planet"), power=15e3, speed=180.0),
-        "pitting_safety = ",
-    ),
-    "micropitting mesh": (
-        lambda: solve_gearmesh(GearMeshParams(permissible_film_ratio=5.0), power=15e3, speed=180.0),
-        "micropitting_safety = ",
-    ),
-    "hot oil of a mesh": (
-        lambda: solve_gearmesh(GearMeshParams(), power=7500.0, speed=180.0, oil_temperature=470.0),
-        "oil_temperature = 196.9 °C is outside",
-    ),
-    "hot engagement": (
-        lambda: engage_clutch(ClutchParams(), time=[0.0, 60.0], load=9e3, speed=100.0),
-        "temperature = ",
-    ),
-    "hot end of a curve": (
-        lambda: load_curve(WasherParams(), speed=545.0, tilt=2e-3),
-        "temperature_max = ",
-    ),
-}
+WASHER, MESH_15 = (solve_washer, WasherParams()), {"power": 15e3, "speed": 180.0}
+TILTED, HOT_OIL = {"tilt": 2e-3}, {"power": 7500.0, "speed": 180.0, "oil_temperature": 470.0}
+LIMITED = GearMeshParams(permissible_film_ratio=5.0)
+LONG = {"time": [0.0, 60.0], "load": 9e3, "speed": 100.0}
+DOUBTFUL = [
+    (solve_clutch, ClutchParams(), {"load": 9e3, "speed": 50.0}, "temperature = "),
+    (*WASHER, {"load": 3e3, "speed": 1400.0, **TILTED}, "temperature_max = "),
+    (*WASHER, {"load": 3e3, "speed": 1400.0, **TILTED}, "film_thickness = -"),
+    (*WASHER, {"load": 1.3e3, "speed": 545.0, **TILTED}, "film_ratio = "),
+    (*WASHER, {"load": 300.0, "speed": 1900.0, **TILTED}, "is outside -1500 rad/s .. 1500 rad/s"),
+    (*WASHER, {"load": 1.0, "speed": 953.0, **TILTED}, "stick_margin = "),
+    (load_curve, WasherParams(), {"speed": 545.0, **TILTED}, "temperature_max = "),
+    (solve_gearmesh, GearMeshParams.preset("planet"), MESH_15, "pitting_safety = "),
+    (solve_gearmesh, LIMITED, MESH_15, "micropitting_safety = "),
+    (solve_gearmesh, GearMeshParams(), HOT_OIL, "oil_temperature = 196.9 °C is outside"),
+    (engage_clutch, ClutchParams(), LONG, "temperature = "),
+]
 
 
-@pytest.mark.parametrize("name", DOUBTFUL)
-def test_a_doubtful_result_says_so(name):
-    solve, words = DOUBTFUL[name]
-    warnings = solve().warnings
+@pytest.mark.parametrize(("solve", "params", "point", "words"), DOUBTFUL)
+def test_a_doubtful_result_says_so(solve, params, point, words):
+    warnings = solve(params, **point).warnings
     assert isinstance(warnings, tuple) and any(words in text for text in warnings)
     assert all("\n" not in text for text in warnings)
 
 
+FAST, SLOW = {"speed": 1400.0}, {"speed": 0.1, "contact_modulus": 3e5}
+HOT = {"speed": 545.0, "oil_temperature": 353.15}
 ROWS = [
-    (
-        "washer",
-        {"load": [700.0, 1500.0]},
-        {"speed": 545.0, "oil_temperature": 353.15},
-        "2 of 2 points, at worst temperature_max = ",
-    ),
-    (
-        "washer",
-        {"load": [20.0, 100.0]},
-        {"speed": 1400.0},
-        "1 of 2 points, at worst stick_margin = ",
-    ),
-    (
-        "washer",
-        {"load": [100.0, 3e3]},
-        {"speed": 1400.0},
-        "1 of 2 points, at worst film_thickness = -",
-    ),
-    (
-        "clutch",
-        {"load": [10.0, 1e5]},
-        {"speed": 0.1, "contact_modulus": 3e5},
-        "1 of 2 points, at worst film_ratio = -",
-    ),
-    (
-        "gearmesh",
-        {"load": [100.0, 5e3, 9e3]},
-        {"speed": 180.0},
-        "2 of 3 points, at worst scuffing_safety = ",
-    ),
-    (
-        "gearmesh",
-        {"load": [100.0, 200.0]},
-        {"speed": 180.0, "permissible_film_ratio": 5.0},
-        "2 of 2 points, at worst micropitting_safety = ",
-    ),
+    ("washer", [700.0, 1500.0], HOT, "2 of 2 points, at worst temperature_max = "),
+    ("washer", [20.0, 100.0], FAST, "1 of 2 points, at worst stick_margin = "),
+    ("washer", [100.0, 3e3], FAST, "1 of 2 points, at worst film_thickness = -"),
+    ("clutch", [10.0, 1e5], SLOW, "1 of 2 points, at worst film_ratio = -"),
+    ("gearmesh", [100.0, 5e3, 9e3], {"speed": 180.0}, "2 of 3 points, at worst scuffing_safety = "),
 ]
 
 
-@pytest.mark.parametrize(("model", "over", "at", "words"), ROWS)
-def test_a_sweep_says_what_is_beyond_a_bound_in_its_rows(tmp_path, model, over, at, words):
-    table = run_sweep(model, over, at=at)
+@pytest.mark.parametrize(("model", "loads", "at", "words"), ROWS)
+def test_a_sweep_says_what_is_beyond_a_bound_in_its_rows(tmp_path, model, loads, at, words):
+    table = run_sweep(model, {"load": loads}, at=at)
     assert any(text.startswith(words) for text in table.warnings)
-    to_file = run_sweep(model, over, at=at, out=tmp_path / "rows.csv", keep=False)
+    to_file = run_sweep(model, {"load": loads}, at=at, out=tmp_path / "rows.csv", keep=False)
     assert to_file.warnings == table.warnings
 
 
@@ -298,29 +241,11 @@ def test_a_part_says_what_it_keeps_of_another_size(tmp_path):
     assert said("washer", {}) == said("washer", {}, "bronze") == ()
 
 
-def test_equal_parameters_find_what_was_made_for_the_others():
-    made = []
-    kept = Recent(lambda params, *_: made.append(params) or len(made))
-    assert [kept(WasherParams(), 1) for _ in range(3)] == [1, 1, 1]
-    assert kept(WasherParams(roughness=4e-7), 1) == 2 and len(made) == 2
-
-
 def test_speeds_that_are_probably_in_rpm_are_doubted(told):
     text = told("gearmesh", "--speed", "1800")["warnings"][0]
     assert "did you mean 188.496 rad/s (1800 rpm)?" in text
     as_typed = told("gearmesh", "--speed", "1800 rad/s")["warnings"]
     assert not any("did you mean" in text for text in as_typed)
-
-
-def test_units_of_workshops_are_read(told):
-    words = ["--load", "60 lbf", "--oil-temperature", "80C", "--set", "youngs_modulus=30e6 psi"]
-    record = told("washer", *words)
-    assert record["load"] == pytest.approx(266.893, rel=1e-5)
-    assert record["oil_temperature"] == 353.15
-    assert record["parameters"]["youngs_modulus"] == pytest.approx(206.84e9, rel=1e-4)
-    assert told("washer", "--oil-temperature", "176 degF")["oil_temperature"] == pytest.approx(
-        353.15
-    )
 
 
 def test_the_scenes_are_listed_with_their_titles(capsys):

@@ -7,15 +7,14 @@ from string import Formatter
 import numpy as np
 import pytest
 
-from thrustwasher.clutch import parameters
 from thrustwasher.errors import ParameterError
 from thrustwasher.gearmesh import parameters as gearmesh_params
 from thrustwasher.model.parameters import as_numbers
-from thrustwasher.model.registry import kernel_of
+from thrustwasher.model.registry import find_spec, kernel_of
 from thrustwasher.transmission import parameters as transmission_params
 from thrustwasher.washer import parameters as washer_params
 
-SPECS = [m.SPEC for m in (washer_params, parameters, gearmesh_params, transmission_params)]
+SPECS = [find_spec(key) for key in ("washer", "clutch", "gearmesh", "transmission")]
 BROKEN = {
     "washer": (
         {"gear_inner_radius": 0.01},

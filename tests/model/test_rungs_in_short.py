@@ -1,11 +1,9 @@
 """Every rung in a few calls: short enough to run as plain Python, so that each branch is walked."""
 
-import math
-
 import numpy as np
 import pytest
 
-from thrustwasher import ClutchParams, WasherParams, solve_clutch, solve_washer
+from thrustwasher import WasherParams, solve_washer
 from thrustwasher.errors import Status
 from thrustwasher.fmu.stepper import DirectInstance
 from thrustwasher.model.registry import find_spec
@@ -89,31 +87,3 @@ def test_bodies_that_store_heat_warm_up_towards_their_steady_state():
     steady = solve_washer(WasherParams(), load=300.0, speed=545.0, tilt=2e-3, grid=GRID)
     first, middle, last = course.temperature
     assert first < middle < last < steady.temperature + 1e-3
-
-
-@pytest.mark.parametrize("rung", ["closed", "stribeck", "field", "fine"])
-@pytest.mark.parametrize("point", [(9000.0, 2.0), (0.0, 50.0), (9000.0, 0.0), (2000.0, -120.0)])
-def test_a_pack_that_slips_for_ever_takes_power(rung, point):
-    load, speed = point
-    r = solve_clutch(ClutchParams(), load=load, speed=speed, fidelity=rung, throw=False)
-    assert r.friction_torque * speed >= 0.0 and r.temperature >= 297.15 - 1e-9
-    assert r.friction_torque == pytest.approx(r.contact_torque + r.viscous_torque, rel=1e-12)
-
-
-@pytest.mark.parametrize("rung", ["closed", "stribeck", "field", "fine"])
-@pytest.mark.parametrize("course", ["linear", "constant"])
-def test_a_pack_heats_up_while_it_closes(rung, course):
-    options = ClutchParams.__dataclass_fields__["input_course"].metadata["options"]
-    course = course if course in options else next(iter(options))
-    pack = DirectInstance(
-        find_spec("clutch"), parameters={"fidelity": rung, "input_course": course}
-    )
-    pack.initialize(0.0, {"load": 0.0, "speed": 100.0, "oil_temperature": 300.0})
-    energies = []
-    for i, (load, speed) in enumerate([(2000.0, 90.0), (6000.0, 40.0), (6000.0, 0.0), (0.0, -5.0)]):
-        pack.set_inputs([load, speed, 300.0, 0.0])
-        pack.step(i * 0.02, 0.02)
-        energies.append(pack.get(["energy"])[0])
-    assert energies == sorted(energies) and energies[1] > energies[0] > 0.0
-    slope = pack.directional_derivative(["friction_torque"], ["speed"], [1.0])[0]
-    assert math.isfinite(slope) and pack.get(["temperature"])[0] >= 300.0

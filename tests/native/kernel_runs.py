@@ -1,4 +1,4 @@
-"""The same steps by the JIT and by compiled libraries."""
+"""The same steps by Python and by compiled libraries."""
 
 import ctypes
 import tempfile
@@ -14,7 +14,6 @@ from thrustwasher.model.registry import all_specs, find_spec, kernel_of
 from thrustwasher.native.library import linked_objects
 from thrustwasher.native.objects import objects
 from thrustwasher.native.targets import PLATFORMS
-from thrustwasher.numerics.jit import jitted, way
 
 HERE = Path(__file__).parent
 EXPORTS = ("probe_derive", "probe_rule", "probe_step", "probe_sens")
@@ -45,19 +44,6 @@ class Python:
 
     def call(self, entry: str, *given):
         return getattr(self.module, entry)(*given)
-
-
-class Jit(Python):
-    """The entries as numba compiles them when they are called."""
-
-    def call(self, entry: str, *given):
-        return compiled(getattr(self.module, entry))(*given)
-
-
-@cache
-def compiled(kernel):
-    """Return a kernel compiled by the JIT."""
-    return jitted(kernel.py_func) if way() == "native" else kernel
 
 
 class Native(Python):

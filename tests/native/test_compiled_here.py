@@ -1,18 +1,14 @@
 """Compiled here, by whatever numba is installed, the kernels are the shipped ones."""
 
-import os
-import subprocess
-import sys
 from importlib import metadata
-from pathlib import Path
 
 import pytest
+from children import child
 
 import ship
 from thrustwasher.native import shipped
 from thrustwasher.native.entries import libraries
 
-ROOT = Path(__file__).parents[2]
 SOLVES = """
 import sys
 from thrustwasher.native import shipped
@@ -48,16 +44,9 @@ def test_made_again_everything_shipped_has_the_same_bytes():
 @pytest.mark.slow
 @pytest.mark.skipif(SAME_TOOLS, reason="the same bytes give the same numbers")
 def test_compiled_here_the_kernels_give_the_shipped_numbers(tmp_path):
-    surroundings = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(tmp_path)}
     shown = []
     for where in ("shipped", "here"):
-        done = subprocess.run(
-            [sys.executable, "-c", SOLVES, where],
-            capture_output=True,
-            text=True,
-            env=surroundings,
-            timeout=1200,
-        )
+        done = child(SOLVES, where, limit=1200, XDG_CACHE_HOME=str(tmp_path))
         assert done.returncode == 0, done.stderr
         assert ("compiled washer in" in done.stderr) == (where == "here")
         shown.append([float.fromhex(word) for word in done.stdout.split()])

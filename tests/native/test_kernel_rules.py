@@ -3,49 +3,19 @@
 import ast
 import importlib.util
 import json
-import os
-import subprocess
-import sys
 
 import pytest
+from children import child
 from kernel_files import ROOT, kernel_files
 
 from thrustwasher.model.registry import compiled_packages
 
 FILES = kernel_files()
-ARRAY_METHODS = {
-    "append",
-    "astype",
-    "copy",
-    "dot",
-    "fill",
-    "max",
-    "mean",
-    "min",
-    "ravel",
-    "reshape",
-    "sum",
-    "T",
-}
-FORBIDDEN = (
-    ast.Raise,
-    ast.Try,
-    ast.With,
-    ast.List,
-    ast.Dict,
-    ast.Set,
-    ast.ListComp,
-    ast.DictComp,
-    ast.SetComp,
-    ast.GeneratorExp,
-    ast.JoinedStr,
-    ast.Lambda,
-    ast.Yield,
-    ast.Global,
-    ast.Import,
-    ast.ImportFrom,
-    ast.Assert,
-    ast.MatMult,
+ARRAY_METHODS = set("append astype copy dot fill max mean min ravel reshape sum T".split())
+FORBIDDEN = tuple(
+    getattr(ast, name)
+    for name in """Raise Try With List Dict Set ListComp DictComp SetComp GeneratorExp JoinedStr
+    Lambda Yield Global Import ImportFrom Assert MatMult""".split()
 )
 
 
@@ -162,17 +132,8 @@ def test_kernels_run_as_plain_python():
     """The same numbers without compilation, to the last few bits, on the smallest grid."""
     answers = []
     for disable in ("1", "0"):
-        environment = {**os.environ, "NUMBA_DISABLE_JIT": disable}
-        run = subprocess.run(
-            [sys.executable, "-c", PLAIN],
-            capture_output=True,
-            text=True,
-            env=environment,
-            timeout=300,
-            cwd=ROOT,
-            check=True,
-        )
-        answers.append(json.loads(run.stdout))
+        done = child(PLAIN, check=True, NUMBA_DISABLE_JIT=disable)
+        answers.append(json.loads(done.stdout))
     for plain, compiled in zip(*answers, strict=True):
         assert plain == (compiled if isinstance(plain, str) else pytest.approx(compiled, rel=1e-8))
     assert answers[0][3] == answers[0][9] == 0

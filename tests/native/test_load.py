@@ -1,13 +1,10 @@
 """Kernels called from Python: compiled where a library has them, plain Python where not."""
 
-import os
 import pickle
-import subprocess
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from children import child
 
 from thrustwasher.native import entries, load
 from thrustwasher.numerics import banded
@@ -16,17 +13,11 @@ from thrustwasher.numerics.smoothing import sign_of
 from thrustwasher.tribology import asperities, viscosity
 from thrustwasher.washer.kernels.map import map_rows
 
-ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.skipif(way() != "native", reason="kernels run another way here")
 
 
-def child(code, **environment):
-    surroundings = {**os.environ, "PYTHONPATH": str(ROOT), **environment}
-    done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, env=surroundings, timeout=120
-    )
-    assert done.returncode == 0, done.stderr
-    return done.stdout.split()
+def words_of(code, **environment):
+    return child(code, check=True, **environment).stdout.split()
 
 
 SOLVES = """
@@ -42,7 +33,7 @@ print(*{name.partition(".")[0] for name in sys.modules})
 
 
 def test_a_solve_imports_neither_compiler_nor_scipy():
-    assert {"numba", "llvmlite", "scipy", "matplotlib", "fmpy"} & set(child(SOLVES)) == set()
+    assert {"numba", "llvmlite", "scipy", "matplotlib", "fmpy"} & set(words_of(SOLVES)) == set()
 
 
 def test_a_kernel_in_a_library_runs_as_compiled_code():
@@ -97,4 +88,4 @@ def test_an_unknown_way_is_refused_by_name():
         "try:\n import thrustwasher.tribology.flow_factors\n"
         "except EnvironmentProblem as problem:\n print(problem)\n"
     )
-    assert "THRUSTWASHER_KERNELS" in child(code, THRUSTWASHER_KERNELS="fast")
+    assert "THRUSTWASHER_KERNELS" in words_of(code, THRUSTWASHER_KERNELS="fast")

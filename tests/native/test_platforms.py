@@ -25,7 +25,6 @@ SAME = 1e-11
 every = pytest.mark.parametrize(
     "model", [pytest.param(m, marks=pytest.mark.slow) if m == "washer" else m for m in MODELS]
 )
-elsewhere = pytest.mark.platforms
 
 
 # Debian's wine64 alone puts nothing on PATH.
@@ -118,28 +117,17 @@ def wine_prefix(tmp_path_factory):
         os.environ["WINEPREFIX"] = before
 
 
-def assert_close(found, wanted):
+RUNNERS = {"win64": emulator, "aarch64-linux": emulator, "linux64": lambda _: old_processor()}
+
+
+@every
+@pytest.mark.platforms
+@pytest.mark.parametrize("platform", RUNNERS)
+def test_elsewhere_and_on_an_old_processor_it_steps_as_in_python(
+    model, platform, tmp_path, wine_prefix
+):
+    before = RUNNERS[platform](platform)
+    found, wanted = stepped(model, platform, before, tmp_path), expected(model)
     size = np.abs(wanted).max(axis=0)
     worst = (np.abs(found - wanted).max(axis=0) / np.where(size == 0.0, 1.0, size)).max()
     assert worst < SAME, worst
-
-
-@every
-@elsewhere
-def test_windows_steps_as_in_python(model, tmp_path, wine_prefix):
-    before = emulator("win64")
-    assert_close(stepped(model, "win64", before, tmp_path), expected(model))
-
-
-@every
-@elsewhere
-def test_arm_linux_steps_as_in_python(model, tmp_path):
-    before = emulator("aarch64-linux")
-    assert_close(stepped(model, "aarch64-linux", before, tmp_path), expected(model))
-
-
-@every
-@elsewhere
-def test_an_old_processor_takes_the_other_code_and_steps_as_in_python(model, tmp_path):
-    before = old_processor()
-    assert_close(stepped(model, "linux64", before, tmp_path), expected(model))

@@ -1,24 +1,17 @@
 """The library that Python loads: shipped, kept, linked or loaded by llvmlite; always the same."""
 
-import os
 import shutil
-import subprocess
-import sys
-from pathlib import Path
 
 import needed
 import pytest
+from children import child
 
 from ship import pack
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.gearmesh.kernels.constants import slide_roll
-from thrustwasher.native import digest, files, library, link, objects, shipped
-from thrustwasher.native.entries import called_modules, describe, libraries, symbols
-from thrustwasher.native.link import this_platform
-from thrustwasher.native.load import python_function
+from thrustwasher.native import digest, files, link, objects, shipped
+from thrustwasher.native.entries import called_modules, libraries
 from thrustwasher.native.targets import PLATFORMS, TARGETS
 
-ROOT = Path(__file__).parents[2]
 KERNELS = libraries()
 GEAR = "thrustwasher.gearmesh.kernels.step"
 LARGEST = 3_000_000  # bytes of compiled files in the repository
@@ -28,15 +21,8 @@ linux = pytest.mark.skipif(
 )
 
 
-def child(code, cache, **environment):
-    surroundings = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(cache)}
-    return subprocess.run(
-        [sys.executable, "-c", code],
-        capture_output=True,
-        text=True,
-        timeout=300,
-        env={**surroundings, **environment},
-    )
+def with_cache(code, cache, **environment):
+    return child(code, XDG_CACHE_HOME=str(cache), **environment)
 
 
 @pytest.mark.parametrize("kernel", KERNELS)
@@ -122,24 +108,6 @@ def test_an_edited_source_makes_the_shipped_code_stale(monkeypatch):
     shipped.read_again()
 
 
-def call(addresses):
-    """Return what a gear function at its address returns."""
-    entry = describe(slide_roll, ())
-    return python_function(entry, addresses[entry.symbol])(2.0, 0.1, 1.0)
-
-
-@linux
-def test_a_linked_library_and_one_loaded_by_llvmlite_are_the_shipped_one(tmp_path):
-    platform = this_platform()
-    code = objects.objects(GEAR, [platform])
-    path = tmp_path / "gear.so"
-    path.write_bytes(library.linked_library(GEAR, platform, code, linker=link.local_linker()))
-    linked = library._loaded(GEAR, path)
-    loaded = library._by_llvm(GEAR, platform, code)
-    assert call(linked) == call(loaded) == call(library.addresses(GEAR))
-    assert linked.keys() == set(symbols(GEAR))
-
-
 WITHOUT = """
 import sys
 from thrustwasher.native import link, shipped
@@ -160,9 +128,9 @@ print("llvmlite" in sys.modules, "numba" in sys.modules)
 @pytest.mark.parametrize("no_linker", [False, True])
 def test_without_a_library_it_is_linked_or_loaded_by_llvmlite_and_kept(tmp_path, no_linker):
     needed.linker()
-    shown = child(WITHOUT.format(no_linker="False"), tmp_path / "a")
+    shown = with_cache(WITHOUT.format(no_linker="False"), tmp_path / "a")
     assert shown.returncode == 0, shown.stderr
-    done = child(WITHOUT.format(no_linker=no_linker), tmp_path / "b")
+    done = with_cache(WITHOUT.format(no_linker=no_linker), tmp_path / "b")
     assert done.returncode == 0, done.stderr
     number, modules = done.stdout.splitlines()
     assert number == shown.stdout.splitlines()[0]
@@ -182,54 +150,10 @@ print(k.derive(np.zeros(k.NPAR)))
 
 @linux
 def test_stale_code_is_compiled_once_with_a_word(tmp_path):
-    first, second = child(STALE, tmp_path), child(STALE, tmp_path)
+    first, second = with_cache(STALE, tmp_path), with_cache(STALE, tmp_path)
     assert first.stdout == second.stdout == "0\n", first.stderr
     assert "compiling command," in first.stderr and "compiled command in" in first.stderr
     assert second.stderr == ""
-
-
-@linux
-def test_two_processes_compile_once(tmp_path):
-    surroundings = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(tmp_path)}
-    both = [
-        subprocess.Popen(
-            [sys.executable, "-c", STALE],
-            stderr=subprocess.PIPE,
-            text=True,
-            stdout=subprocess.PIPE,
-            env=surroundings,
-        )
-        for _ in range(2)
-    ]
-    said = [process.communicate(timeout=300) for process in both]
-    assert [out for out, _ in said] == ["0\n", "0\n"]
-    assert sum("compiled command in" in err for _, err in said) == 1
-
-
-@linux
-def test_a_home_that_cannot_be_written_serves_with_one_line(tmp_path):
-    (tmp_path / "thrustwasher").write_text("no folder")
-    done = child(STALE, tmp_path)
-    assert done.stdout == "0\n", done.stderr
-    lines = [line for line in done.stderr.splitlines() if "is not kept" in line]
-    assert len(lines) == 1
-
-
-@linux
-def test_a_full_disk_is_said_in_one_line_and_the_library_loads_all_the_same(tmp_path):
-    needed.linker()
-    full = (
-        "from thrustwasher.native import files\n"
-        "true = files.keep\n"
-        "def keep(path, data):\n"
-        "    if path.suffix == '.so' and 'cache' in str(path):\n"
-        "        raise OSError(28, 'No space left on device', str(path))\n"
-        "    true(path, data)\n"
-        "files.keep = keep\n"
-    )
-    done = child(full + STALE, tmp_path / "cache")
-    assert done.stdout == "0\n", done.stderr
-    assert sum("No space left" in line for line in done.stderr.splitlines()) == 1
 
 
 @linux
@@ -258,6 +182,6 @@ def test_a_machine_nothing_is_made_for_lets_numba_compile(tmp_path):
         "from thrustwasher.tribology.viscosity import viscosity\n"
         "print(viscosity(350.0, 6.3e-5, 3.5, 1.05)[0] > 0.0)\n"
     )
-    done = child(code, tmp_path, NUMBA_CACHE_DIR=str(tmp_path))
+    done = with_cache(code, tmp_path, NUMBA_CACHE_DIR=str(tmp_path))
     assert done.stdout == "True\n", done.stderr
     assert done.stderr.count("\n") == 1 and "riscv64" in done.stderr

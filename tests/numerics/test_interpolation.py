@@ -8,8 +8,6 @@ from thrustwasher.numerics.chebyshev import (
     CHANGES,
     N_CELL,
     SHARES,
-    SLOPE,
-    WEIGHT,
     contract,
     enter_cell,
     lines_of,
@@ -58,34 +56,12 @@ def cubic(x, y, z):
     return [1.0, x**3 - y, x * y**3 * z, x**3 * z**2 * y - x * z, x**2 + y**2 * z]
 
 
-def slope_of_cubic(axis, x, y, z):
-    table = (
-        [0.0, 3 * x**2, y**3 * z, 3 * x**2 * z**2 * y - z, 2 * x],
-        [0.0, -1.0, 3 * x * y**2 * z, x**3 * z**2, 2 * y * z],
-        [0.0, 0.0, x * y**3, 2 * x**3 * z * y - x, y**2],
-    )
-    return table[axis]
-
-
 INSIDE = [(0.3, 0.2, 2.5), (1.5, -1.0, 4.0), (2.999, 0.99, 7.9), (0.0, 1.0, 8.0), (1.51, 0.0, 6.1)]
 
 
 @pytest.mark.parametrize("at", INSIDE)
 def test_cubics_come_out_exactly(at):
     assert read(filled(cubic), at) == pytest.approx(cubic(*at), rel=1e-12, abs=1e-11)
-
-
-@pytest.mark.parametrize("axis", range(3))
-@pytest.mark.parametrize("at", INSIDE)
-def test_slopes_of_cubics_come_out_exactly(at, axis):
-    found = read(filled(cubic), at, along=np.eye(3)[axis])
-    assert found == pytest.approx(slope_of_cubic(axis, *at), rel=1e-11, abs=1e-9)
-
-
-def test_the_change_along_a_direction_is_the_sum_of_those_along_the_axes():
-    data, at = filled(lambda x, y, z: [np.exp(x * y - z / 4.0)] * WIDTH), (0.3, 0.2, 2.5)
-    parts = [read(data, at, along=row) for row in np.diag([0.3, -2.0, 0.7])]
-    assert read(data, at, along=(0.3, -2.0, 0.7)) == pytest.approx(sum(parts), rel=1e-12)
 
 
 def test_neighbouring_patches_meet():
@@ -115,14 +91,6 @@ def test_a_fixed_axis_has_one_node():
     found = read(data, (1.2, 0.7, 5.0), axes)
     assert found == pytest.approx(cubic(1.2, 0.7, 5.0), rel=1e-12)
     assert np.all(read(data, (1.2, 0.7, 5.0), axes, along=(0.0, 1.0, 0.0)) == 0.0)
-
-
-def test_weights_add_up_to_one_and_their_slopes_to_none():
-    cell = np.zeros(N_CELL)
-    for x in np.linspace(0.0, 3.0, 31):
-        enter_cell(cell, 0, x, 0.0, 3.0, 2)
-        assert np.sum(cell[WEIGHT : WEIGHT + 4]) == pytest.approx(1.0, abs=1e-14)
-        assert np.sum(cell[SLOPE : SLOPE + 4]) == pytest.approx(0.0, abs=1e-12)
 
 
 @pytest.mark.parametrize("n", [2, 5, 12])

@@ -7,7 +7,9 @@ import sys
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
+import chart_records
 import pytest
+from chart_records import MACHINE, QUANTITY, cell, group, sample
 
 from thrustwasher.cli import main
 from thrustwasher.study.charts.chart_cost import count_figure
@@ -15,40 +17,6 @@ from thrustwasher.study.charts.chart_page import same_everywhere, stability_mark
 from thrustwasher.study.charts.work_precision import Sample
 
 ROOT = Path(__file__).parents[2]
-QUANTITY = {"name": "friction_torque", "kind": "relative", "unit": "1", "floor": 1e-3}
-
-
-def sample(label, cost, error, **other):
-    errors = {
-        "worst": error,
-        "rms": None if error is None else 0.4 * error,
-        "case": None if error is None else "a < b",
-    }
-    return {
-        "family": "rungs",
-        "label": label,
-        "knob": "rung",
-        "value": label,
-        "cases": "0",
-        "errors": {"friction_torque": errors},
-        "ref_uncertainty": {"friction_torque": 1e-5},
-        "call_median": cost,
-        "call_iqr": 0.05 * cost if cost else None,
-        "call_min": cost,
-        "repeats": 9,
-        "first_call_s": cost,
-        "setup_s": 1e-3,
-        "count": 3.0,
-        "count_of": "turns",
-        "n_cases": 2,
-        "n_failed": 0,
-        "failures": {},
-        "is_rival": False,
-        "slowest_call_s": cost,
-        "slowest_case": "b" if cost else None,
-        "build_s": 0.0,
-        **other,
-    }
 
 
 def run_of(way, step, error, **other):
@@ -76,47 +44,20 @@ STUDY = {
         run_of("not at all", 1.0, None, n_failed=1, failures={"shift": "does not lock"}),
     ],
 }
-GROUP = {
-    "name": "films",
-    "judged": "load off",
-    "methods": ["good", "bad"],
-    "hazards": ["a", "b"],
-    "cells": [
-        [
-            {"verdict": "ok", "figure": "", "words": ""},
-            {"verdict": "says", "figure": "", "words": "SINGULAR: no way"},
-        ],
-        [
-            {"verdict": "LIES", "figure": "-20 %", "words": "load off"},
-            {"verdict": "slow", "figure": "9 sweeps", "words": ""},
-        ],
-    ],
-}
+GROUP = group(
+    [cell(), cell("says", words="SINGULAR: no way")],
+    [cell("LIES", "-20 %", "load off"), cell("slow", "9 sweeps")],
+    hazards=("a", "b"),
+    methods=("good", "bad"),
+)
+LIMIT = {"loop": "held", "formula": "H < 2 J/c", "predicted": 2.0, "measured": 2.002}
 STABILITY = {
     "stability": [GROUP],
-    "limits": [
-        {
-            "loop": "held",
-            "formula": "H < 2 J/c",
-            "predicted": 2.0,
-            "measured": 2.002,
-            "deviation": 1e-3,
-        }
-    ],
-    "machine": {
-        "cpu": "a cpu",
-        "cores": 2,
-        "os": "an os",
-        "python": "3",
-        "numpy": "2",
-        "numba": "1",
-        "load": 0.1,
-    },
+    "limits": [{**LIMIT, "deviation": 1e-3}],
+    "machine": {**MACHINE, "load": 0.1},
     "package": {"version": "0", "commit": "abc", "dirty": False},
     "date": "today",
 }
-
-
 CORRECTION = {
     "part": "clutch: counted once",
     "figure": "friction",
@@ -129,66 +70,18 @@ CORRECTION = {
 
 @pytest.fixture(scope="module")
 def record(tmp_path_factory):
+    lost = {"n_failed": 1, "failures": {"b": "OUTSIDE_VERIFIED"}}
+    none = {"n_failed": 2, "failures": {"a < b": "SINGULAR", "b": "SINGULAR"}}
     samples = [
         sample("closed", 1e-6, 0.5),
         sample("field", 2e-4, 2e-3),
-        sample(
-            "map",
-            2e-6,
-            1e-4,
-            setup_s=0.2,
-            build_s=1.0,
-            n_failed=1,
-            failures={"b": "OUTSIDE_VERIFIED"},
-        ),
+        sample("map", 2e-6, 1e-4, setup_s=0.2, build_s=1.0, **lost),
         sample("exact", 1e-3, 0.0),
-        sample(
-            "old",
-            None,
-            None,
-            family="2006",
-            n_failed=2,
-            is_rival=True,
-            failures={"a < b": "SINGULAR", "b": "SINGULAR"},
-        ),
+        sample("old", None, None, family="2006", is_rival=True, **none),
     ]
-    survey = {
-        "cases": [
-            {"name": "a < b", "point": [300.0, 545.0, 2e-3, 297.15], "before": []},
-            {"name": "b", "point": [200.0, 545.0, 2e-3, 297.15], "before": []},
-        ],
-        "cases_digest": "0",
-        "cost_of": "a call [s]",
-        "quantities": [QUANTITY],
-        "truths": [],
-        "samples": samples,
-    }
-    found = {
-        "schema": 1,
-        "command": "thrustwasher chart",
-        "date": "2026-11-21T18:00:00Z",
-        "machine": {
-            "cpu": "a cpu",
-            "cores": 2,
-            "os": "an os",
-            "python": "3",
-            "numpy": "2",
-            "numba": "1",
-            "compiled": True,
-            "threads": {},
-            "load": 0.1,
-        },
-        "package": {"version": "0", "kernels": "0", "commit": "abc", "dirty": True},
-        "calibration_s": 0.01,
-        "quick": False,
-        "models": {"washer": survey},
-        "run_s": 1.0,
-        "macro_steps": STUDY,
-        "corrections": [CORRECTION],
-        "stability": [GROUP],
-    }
+    more = {"macro_steps": STUDY, "corrections": [CORRECTION]}
     path = tmp_path_factory.mktemp("chart") / "in.json"
-    path.write_text(json.dumps(found), "utf-8")
+    path.write_text(json.dumps(chart_records.record("washer", samples, [GROUP], **more)), "utf-8")
     return path
 
 
@@ -287,8 +180,8 @@ def test_a_quick_run_measures_everything_and_draws_it(tmp_path):
     record = json.loads((tmp_path / "chart.json").read_text("utf-8"))
     assert set(record["models"]) == {"washer", "clutch", "gearmesh"}
     for survey in (*record["models"].values(), record["macro_steps"]):
-        for sample in survey["samples"]:
-            assert set(sample) == set(Sample.__dataclass_fields__)
+        for one in survey["samples"]:
+            assert set(one) == set(Sample.__dataclass_fields__)
     assert record["machine"]["threads"]["OMP_NUM_THREADS"] == "1"
     washer = {s["label"]: s for s in record["models"]["washer"]["samples"]}
     rival = washer["2006, 9 x 67, 0.0001"]

@@ -63,32 +63,18 @@ def test_each_command_of_a_chart_is_understood():
         parsed("command: thrustwasher gearmesh --load 40")
 
 
+WASHER = "washer --load 700 --speed 545 --tilt 0.002 --oil-temperature 297.15 --branch contact"
+MESH = "gearmesh --power 21600 --speed 180 --oil-temperature 299.85"
+PACK = "engage --load 12000 --speed 350 --oil-temperature 297.15 --ramp 0.1 --duration 0.6"
+
+
 @pytest.mark.parametrize(
     ("words", "name", "value"),
     [
-        (
-            "gearmesh --power 21600 --speed 180 --oil-temperature 299.85 --fidelity fine",
-            "speed",
-            180.0,
-        ),
-        (
-            "washer --load 700 --speed 545 --tilt 0.002 --oil-temperature 297.15 --branch contact "
-            "--fidelity map",
-            "branch",
-            "contact",
-        ),
-        (
-            "washer --load 700 --speed 545 --tilt 0.002 --oil-temperature 297.15 --branch contact "
-            "--grid 7x20",
-            "branch",
-            "contact",
-        ),
-        (
-            "engage --load 12000 --speed 350 --oil-temperature 297.15 --ramp 0.1 --duration 0.6 "
-            '--fidelity field --step "20 ms"',
-            "duration",
-            0.6,
-        ),
+        (f"{MESH} --fidelity fine", "speed", 180.0),
+        (f"{WASHER} --fidelity map", "branch", "contact"),
+        (f"{WASHER} --grid 7x20", "branch", "contact"),
+        (f'{PACK} --fidelity field --step "20 ms"', "duration", 0.6),
     ],
 )
 def test_a_command_solves_its_case(words, name, value, capsys):

@@ -79,16 +79,9 @@ def test_two_runs_agree_on_every_member_outside_the_spread(measured):
         assert disagreements(measured(seed), measured(100 + seed), "torque") == []
 
 
-def test_a_real_change_of_cost_is_a_disagreement(measured):
+def test_a_way_on_one_front_alone_is_a_disagreement(measured):
     one, two = measured(0), measured(1)
-    first = labels(one)[0]
-    changed = [
-        s | {"call_median": 1e3 * s["call_median"]} if s["label"] == first else s for s in two
-    ]
-    cheaper = sample("new", 1e-9, 1e-9)
-    assert disagreements([*one, cheaper], two, "torque")
-    assert disagreements(one, changed, "torque") in ([first], [])
-    assert first not in labels(changed) or len(labels(one)) == 1
+    assert disagreements([*one, sample("new", 1e-9, 1e-9)], two, "torque")
 
 
 def test_a_tie_that_falls_the_other_way_is_none():

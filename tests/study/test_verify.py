@@ -3,17 +3,15 @@
 import dataclasses
 import itertools
 
-import numpy as np
 import pytest
 
 from thrustwasher import WasherParams, solve_washer
-from thrustwasher.command.kernels import step as command_step
 from thrustwasher.ladder.error_table import QUANTITIES
 from thrustwasher.shift import load_scene
 from thrustwasher.storage.digests import params_digest
 from thrustwasher.study import reference_cache
 from thrustwasher.study.cases import cases
-from thrustwasher.study.costs import Timing, stepper
+from thrustwasher.study.costs import stepper
 from thrustwasher.study.measured_chart import NO_ANSWER, chart_of, deviation
 from thrustwasher.study.reference_cache import reference_points
 from thrustwasher.study.reference_values import (
@@ -208,14 +206,6 @@ def test_a_solution_carried_to_another_mesh_is_the_one_found_there(load, branch)
 
 
 # time
-
-
-def test_what_python_adds_to_a_call_is_taken_off():
-    arrays = [np.zeros(6) for _ in range(5)]
-    assert command_step.step(*arrays, np.zeros(3, np.int32), 0.0, 1.0) == 0
-    timing = Timing(1.25, 0.5, 1.0, 9, 2.0).less(0.25)
-    assert (timing.median, timing.iqr, timing.least) == (1.0, 0.5, 0.75)
-    assert timing.less(5.0).median > 0.0
 
 
 def test_a_timed_step_goes_to_and_fro_and_stays_away_from_the_fold():

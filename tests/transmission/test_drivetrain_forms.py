@@ -4,16 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from closed_forms.lock_up import (
-    engagement,
-    reduced_inertia,
-    speed_against_quadratic_load,
-)
-from closed_forms.planetary import (
-    pitch_radius,
-    planet_forces,
-    ring_speed,
-)
+from closed_forms.lock_up import engagement, reduced_inertia, speed_against_quadratic_load
+from closed_forms.planetary import pitch_radius, planet_forces, ring_speed
 from scipy.integrate import solve_ivp
 
 HELIX = math.radians(20.0)
@@ -36,10 +28,7 @@ def test_forces_on_a_helical_planet_at_150_n_m():
     assert f.pin_load == 2.0 * f.tangential
 
 
-def test_planet_speed_in_first_gear_and_power_through_a_mesh():
-    spin = (350.0 - 350.0 / 3.2) * 30 / 18
-    assert spin == pytest.approx(401.0, abs=0.05)
-    assert 22.5 * spin == pytest.approx(9.0e3, rel=5e-3)
+def test_in_first_gear_the_ring_is_at_rest():
     assert ring_speed(2.2, 350.0, 350.0 / 3.2) == pytest.approx(0.0, abs=1e-13)
 
 

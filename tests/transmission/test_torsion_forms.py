@@ -3,10 +3,7 @@
 import numpy as np
 import pytest
 from closed_forms.lock_up import reduced_inertia
-from closed_forms.torsional_stability import (
-    characteristic,
-    damping_limit,
-)
+from closed_forms.torsional_stability import characteristic, damping_limit
 from hypothesis import given
 from hypothesis import strategies as st
 

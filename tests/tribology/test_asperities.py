@@ -118,21 +118,6 @@ def test_without_yield_it_is_greenwood_and_williamson(t):
     assert contact_pressure(t, table)[0] == pytest.approx(expected, rel=1e-10)
 
 
-@pytest.mark.parametrize("d", [-9.0, -7.3, -1.03, 0.5, 2.04, 6.6, 11.0])
-def test_slope_is_the_difference(d):
-    e = 1e-4
-    after, before = contact_pressure(d + e, TABLE)[0], contact_pressure(d - e, TABLE)[0]
-    assert contact_pressure(d, TABLE)[1] == pytest.approx((after - before) / (2 * e), rel=1e-6)
-
-
-def test_slope_is_continuous_at_the_knots():
-    step = 22.0 / 264
-    for i in (1, 40, 96, 200, 263):
-        knot = D_MIN + i * step
-        below, above = contact_pressure(knot - 1e-11, TABLE), contact_pressure(knot + 1e-11, TABLE)
-        assert below == pytest.approx(above, rel=1e-8)
-
-
 def test_pressure_ends_beyond_fourteen_and_goes_on_straight_below_minus_eight():
     assert contact_pressure(14.0, TABLE) == (0.0, 0.0)
     assert contact_pressure(1e9, TABLE) == (0.0, 0.0)

@@ -29,12 +29,6 @@ def test_height_integrals_agree_with_cylinder_functions(u):
         assert found == pytest.approx(float(front * mp.pcfd(-n - 1, big)), rel=1e-11)
 
 
-def test_tabled_values_come_back():
-    assert height_integrals(0.0)[0] == pytest.approx(0.6166342, abs=5e-8)
-    assert height_integrals(0.25)[0] == pytest.approx(0.3919785, abs=5e-8)
-    assert height_integrals(1.5)[0] == pytest.approx(0.0228631, abs=5e-8)
-
-
 def test_default_lining_settles_at_the_known_separation():
     scale = pressure_scale(8.41e-6, 2.7e7, 7e7, 8e-4)
     assert separation_and_slope(0.6e6 / scale, 1.0)[0] == pytest.approx(0.5749, abs=2e-4)
@@ -54,26 +48,7 @@ def test_no_pressure_and_absurd_pressure_have_an_answer():
     assert math.isfinite(separation_and_slope(1e-29, -900.0)[0])
 
 
-@pytest.mark.parametrize(
-    "u",
-    [
-        -2e3,
-        -45.0,
-        -30.1,
-        -29.9,
-        -12.0,
-        -7.99,
-        -6.3,
-        -2.51,
-        -0.04,
-        0.5749,
-        2.2,
-        4.9,
-        5.1,
-        9.0,
-        13.97,
-    ],
-)
+@pytest.mark.parametrize("u", [-2e3, -30.1, -29.9, -7.99, -2.51, -0.04, 0.5749, 4.9, 5.1, 13.97])
 def test_the_table_gives_the_integral_and_its_slope(u):
     mp.mp.dps = 30
     big = mp.mpf(u)

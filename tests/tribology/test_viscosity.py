@@ -25,15 +25,6 @@ def test_both_published_forms_agree(celsius):
     assert math.log10(1e3 * mu) + 1.2 == pytest.approx(10.0**line, abs=3e-5)
 
 
-@pytest.mark.parametrize("kelvin", [190.0, 260.0, 297.15, 420.0, 1500.0])
-def test_slope_is_the_difference(kelvin):
-    mu, slope = viscosity(kelvin, *OIL)
-    e = 1e-3
-    differences = (viscosity(kelvin + e, *OIL)[0] - viscosity(kelvin - e, *OIL)[0]) / (2 * e)
-    assert slope == pytest.approx(differences, rel=1e-6)
-    assert slope < 0.0 < mu
-
-
 @pytest.mark.parametrize("kelvin", [-1e6, 0.0, 138.15, 1e6])
 def test_absurd_temperatures_stay_finite(kelvin):
     mu, slope = viscosity(kelvin, *OIL)

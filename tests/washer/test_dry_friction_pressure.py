@@ -17,14 +17,6 @@ def friction(params, load):
     return dry_friction(constants(params, GRID), load)[0]
 
 
-@pytest.mark.parametrize("load", [1.0, 260.5, 700.0, 1725.6, 5000.0])
-def test_the_default_is_that_of_jackson_and_green(load):
-    inside = min(max(load, 260.5), 1725.6)
-    expected = 0.48 - 0.05 * math.log(inside)
-    assert friction(WasherParams(), load) == pytest.approx(expected, rel=1e-13)
-    assert friction(WasherParams.preset("paper"), load) == pytest.approx(expected, rel=1e-13)
-
-
 def test_washers_of_different_size_have_the_same_friction_at_the_same_pressure():
     for load in (100.0, 300.0, 900.0):
         small = friction(WasherParams(**HALF), load / 4.0)

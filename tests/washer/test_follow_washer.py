@@ -1,7 +1,5 @@
 """A washer followed over time: through the fold, back again, and what is refused."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from curves import traced
@@ -56,15 +54,6 @@ def test_a_short_overload_is_survived_and_a_long_one_is_not():
         assert solve_washer(STEADY, load=1.3 * fold, **AT).distress
 
 
-def test_points_in_time_see_the_same_whatever_lies_between():
-    load, few = [400.0, 600.0, 600.0], [0.0, 0.5, 2.0]
-    coarse = follow_washer(IN_TIME, time=few, load=load, **AT)
-    time = np.linspace(0.0, 2.0, 81)
-    fine = follow_washer(IN_TIME, time=time, load=np.interp(time, few, load), **AT)
-    assert coarse.temperature[-1] == pytest.approx(fine.temperature[-1], abs=0.1)
-    assert coarse.friction_torque[-1] == pytest.approx(fine.friction_torque[-1], rel=5e-3)
-
-
 def test_a_course_can_be_written_as_json():
     c = follow_washer(IN_TIME, time=[0.0, 0.1], load=300.0, **AT)
     written = c.as_dict()
@@ -99,17 +88,3 @@ def test_what_was_computed_before_a_failure_is_kept(monkeypatch):
         follow_washer(STEADY, time=[0.0, 1.0, 2.0], load=[300.0, 400.0, 500.0], **AT)
     assert problem.value.course.load.tolist() == [300.0, 400.0]
     assert (problem.value.course.temperature > 297.15).all()
-
-
-def test_a_steady_solve_does_not_ask_for_the_thermal_mode():
-    at = {"load": 300.0, "speed": 545.0, "tilt": 2e-3, "grid": GRID}
-    heavy = replace(IN_TIME, density=2e4, thermal_start="oil")
-    one, other = solve_washer(STEADY, **at), solve_washer(heavy, **at)
-    assert one.friction_torque == other.friction_torque
-
-
-def test_the_first_point_takes_no_time_and_leaves_no_substep_to_go_on_with():
-    here = np.array([50.0, 500.0, 1e-3, 350.0, 0.0])
-    washer = follow.Follower(IN_TIME, GRID)
-    assert washer.go(here, here, 0.0) == 0 and washer.state[follow.L.S_SUBSTEP] == 0.0
-    assert washer.go(here, here, 0.1) == 0 and washer.state[follow.L.S_SUBSTEP] >= 0.1

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from thrustwasher import BranchError, ParameterError, WasherParams, solve_washer
+from thrustwasher import BranchError, WasherParams, solve_washer
 from thrustwasher.model.part_file import preset_part
 from thrustwasher.tribology.asperities import contact_pressure
 from thrustwasher.tribology.viscosity import viscosity
@@ -111,19 +111,6 @@ def test_a_body_that_turns_has_one_temperature_on_each_circle():
     assert np.ptp(turned.carrier_temperature, axis=1).max() == 0.0
 
 
-def test_the_flow_of_the_fields_is_what_leaves():
-    """Liquid that leaves over a rim comes from the last cells before it; a mesh's error is left."""
-    r = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002, fidelity="fine")
-    f = r.fields()
-    assert (f.flow_around > 0.0).mean() > 0.9
-    angle = np.append(f.angle, f.angle[0] + 2.0 * np.pi)
-    middle = np.unwrap(angle)
-    width = 0.5 * (np.roll(np.diff(middle), 1) + np.diff(middle))
-    out = f.radius[-1] * np.maximum(f.flow_outward[-1], 0.0) @ width
-    out -= f.radius[0] * np.minimum(f.flow_outward[0], 0.0) @ width
-    assert out == pytest.approx(r.oil_flow, rel=0.3)
-
-
 def test_a_gap_that_cannot_hold_the_washer_is_said():
     held = solve({"load": 300.0, "speed": 953.0})
     loose = solve({"load": 1.0, "speed": 953.0})
@@ -199,37 +186,6 @@ def test_fields_are_copies_that_belong_to_the_result():
     r.fields().pressure[:] = -1.0
     solve({"load": 900.0, "speed": 545.0})
     np.testing.assert_array_equal(r.fields().pressure, before)
-
-
-BAD = [
-    ({"load": math.nan}, ["load", "nan", "N", "10000"]),
-    ({"load": -5.0}, ["load", "-5", "N"]),
-    ({"load": 0.0}, ["load", "0", "N"]),
-    ({"load": "much"}, ["load", "much", "N"]),
-    ({"load": 1e5}, ["load", "100000", "N", "10000"]),
-    ({"speed": math.inf}, ["speed", "inf", "rad/s", "2000"]),
-    ({"tilt": 0.5}, ["tilt", "0.5", "rad", "0.01"]),
-    ({"tilt": -0.001}, ["tilt", "-0.001", "rad"]),
-    ({"oil_temperature": 24.0}, ["oil_temperature", "24", "K", "233.15"]),
-    ({"fidelity": "best"}, ["fidelity", "best", "field", "fine"]),
-    ({"grid": (1, 32)}, ["grid", "(1, 32)", "5 x 8"]),
-    ({"grid": (10, 1)}, ["grid", "(10, 1)"]),
-    ({"grid": (10.5, 32)}, ["grid", "10.5"]),
-    ({"grid": 10}, ["grid", "10"]),
-    ({"grid": (10, 32, 4)}, ["grid"]),
-    ({"grid": (1000, 32)}, ["grid", "1000", "129"]),
-    ({"branch": "middle"}, ["branch", "middle", "film", "contact"]),
-]
-
-
-@pytest.mark.parametrize(("change", "words"), BAD, ids=[str(change) for change, _ in BAD])
-def test_bad_input_is_named_with_its_value_and_what_is_allowed(change, words):
-    point = {"load": 300.0, "speed": 545.0, "tilt": 0.002, **change}
-    with pytest.raises(ParameterError) as caught:
-        solve_washer(WasherParams(), **point)
-    message = str(caught.value)
-    assert "\n" not in message
-    assert [w for w in words if w not in message] == []
 
 
 def test_a_film_that_cannot_exist_is_said_not_hidden():

@@ -22,10 +22,7 @@ CONVERGED = {
                  -0.005970, 0.839017, 0.146482),
 }  # fmt: skip
 # torque relative, film_ratio, temperature K, fluid load N, tilts over gt
-STATED = {
-    "field": (6e-3, 0.05, 0.1, 1.0, 1e-3),
-    "fine": (1e-3, 0.02, 0.02, 0.3, 2e-4),
-}
+STATED = {"field": (6e-3, 0.05, 0.1, 1.0, 1e-3), "fine": (1e-3, 0.02, 0.02, 0.3, 2e-4)}
 FOLDS = {"film_lost": (775.2, 2.65, 37.06, 0.2787), "film_regained": (441.3, 1.22, 71.9, 1.072)}
 PAPER = WasherParams.preset("paper")
 BOTH = [pytest.param("field"), pytest.param("fine", marks=pytest.mark.slow)]

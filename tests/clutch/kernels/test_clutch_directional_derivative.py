@@ -14,7 +14,6 @@ from thrustwasher.clutch.solve import prepare
 from slopes import Unit, differences, disagreement  # isort: skip
 
 NAMES = [s.name for s in SPEC.outputs if s.kind == "real"]
-DEPENDS = np.array([[i.name in s.depends for i in SPEC.inputs] for s in SPEC.outputs[: k.NOUT]])
 RUNGS = list(SPEC.rungs)
 OPTIONS = {
     "friction_law": list(FRICTION_LAWS),
@@ -66,9 +65,12 @@ def worn_in(unit, rng):
 @pytest.mark.parametrize("rung", RUNGS)
 @pytest.mark.parametrize("seed", range(3))
 def test_derivatives_are_those_of_differences_under_any_option(rung, seed):
+    """Where the film is settled, inputs that run straight heat at once; else: the tests below."""
     rng = np.random.default_rng(seed)
-    for _ in range(20):
-        unit = random_pack(rng, [rung], friction_scale=(1.0, 1.0, 1.7)[seed])
+    courses = ["held", "linear"] if rung in ("closed", "stribeck") else ["held"]
+    for n in range(30):
+        more = {"friction_scale": (1.0, 1.0, 1.7)[seed], "input_course": courses[n % len(courses)]}
+        unit = random_pack(rng, [rung], **more)
         worn_in(unit, rng)
         point = random_point(rng)
         assert disagreement(unit, point, scale_at(point)).max() < 1e-6
@@ -84,16 +86,6 @@ def test_derivatives_hold_at_zero_slip_from_open_to_crushed(rung, load):
         assert disagreement(unit, point, [0.1 * load, 1e-4, 30.0, 100.0]).max() < 1e-6
     torque = unit.gradient([load, 0.0, 320.0, 40.0])[NAMES.index("friction_torque"), 1]
     assert torque > 0.0
-
-
-@pytest.mark.parametrize("rung", ["closed", "stribeck"])
-def test_inputs_that_run_straight_heat_at_once_where_the_film_is_settled(rung):
-    rng = np.random.default_rng(5)
-    for _ in range(25):
-        unit = random_pack(rng, [rung], input_course="linear")
-        worn_in(unit, rng)
-        point = random_point(rng)
-        assert disagreement(unit, point, scale_at(point)).max() < 1e-6
 
 
 def engaging(unit, rng):
@@ -203,72 +195,3 @@ def test_derivatives_of_a_running_course_need_no_solve_before():
         at_once = unit.sens(point, seed)
         unit.step(point)
         assert unit.sens(point, seed) == pytest.approx(at_once, rel=1e-12)
-
-
-@pytest.mark.parametrize("course", ["held", "linear"])
-def test_only_listed_inputs_count_and_all_of_them(course):
-    rng = np.random.default_rng(10)
-    seen = np.zeros_like(DEPENDS)
-    for n in range(200):
-        unit = random_pack(rng, input_course=course)
-        if n % 2:
-            worn_in(unit, rng)
-        found = unit.gradient(random_point(rng))
-        assert (found[~DEPENDS] == 0.0).all()
-        seen |= found != 0.0
-    # a film follows slip and oil only over a stretch that inputs run through
-    over_time = [NAMES.index(n) for n in ("film_thickness", "film_ratio", "contact_share")]
-    missing = DEPENDS & ~seen
-    missing[:, 3] &= np.isin(NAMES, ["friction_torque", "viscous_torque", "torque_capacity"])
-    if course == "linear":
-        assert not missing.any()
-    else:
-        missing[over_time, 1:] = False
-        missing[NAMES.index("viscosity"), :2] = False
-        missing[NAMES.index("friction_coefficient"), 0] = False
-        assert not missing.any()
-
-
-def test_the_derivative_is_linear_in_its_direction():
-    rng = np.random.default_rng(11)
-    for course in ("held", "linear"):
-        for _ in range(15):
-            unit = random_pack(rng, input_course=course)
-            worn_in(unit, rng)
-            point, seed = random_point(rng), rng.standard_normal(4) * [100.0, 1.0, 1.0, 1.0]
-            parts = unit.gradient(point) * seed
-            wrong = np.abs(unit.sens(point, seed) - parts.sum(1))
-            assert (wrong <= 1e-7 * np.abs(parts).sum(1)).all()
-            if course == "held":
-                assert (wrong <= 1e-12 * np.abs(parts).sum(1)).all()
-
-
-def test_slipping_backwards_is_the_mirror_image():
-    rng = np.random.default_rng(12)
-    odd = ("friction_torque", "contact_torque", "viscous_torque")
-    signs = np.array([-1.0 if n in odd else 1.0 for n in NAMES])[:, None]
-    for _ in range(20):
-        unit = random_pack(rng)
-        worn_in(unit, rng)
-        point = random_point(rng)
-        here = unit.gradient(point)
-        other = [1, -1, 1, -1]
-        assert (unit.gradient(point * other) == signs * here * other).all()
-
-
-def test_a_settled_film_gives_way_as_the_asperities_say():
-    """F_5/2 of the film ratio is in proportion to the load."""
-    from thrustwasher.tribology.greenwood_tripp import contact_integral
-
-    unit = pack("stribeck")
-    ratio = unit.step([5e3, 10.0, 320.0, 0.0])[NAMES.index("film_ratio")]
-    value, slope = contact_integral(ratio)
-    found = unit.gradient([5e3, 10.0, 320.0, 0.0])[NAMES.index("film_ratio"), 0]
-    assert found == pytest.approx(value / slope / 5e3, rel=1e-12)
-
-
-def test_what_is_no_number_is_refused():
-    unit, inp = pack(), np.array([5e3, 10.0, 320.0, 0.0])
-    unit.step(inp)
-    seed, dout = np.array([np.nan, 0.0, 0.0, 0.0]), np.zeros(k.NOUT)
-    assert k.sens(unit.par, inp, unit.state, unit.work, seed, dout) == 14

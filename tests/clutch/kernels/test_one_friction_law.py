@@ -11,7 +11,6 @@ from thrustwasher import ClutchParams, engage_clutch, solve_clutch
 from thrustwasher.clutch.kernels import layout as k
 
 H = 1e-3
-SAMPLE = ClutchParams.preset("paper")
 
 
 def average(pressure, oil, **changes):
@@ -33,24 +32,6 @@ def test_the_settled_sample_has_the_friction_that_was_measured_whatever_pressure
     pressure, oil
 ):
     assert average(pressure, oil) == pytest.approx(0.052996, abs=5e-6)
-
-
-def test_data_of_the_asperities_alone_take_all_shear_on_top():
-    """What it was before: the shear of the settled film a second time."""
-    found = [
-        average(p, t, friction_data="boundary")
-        for p, t in ((0.5e6, 353.15), (1.5e6, 353.15), (0.5e6, 297.15))
-    ]
-    assert found == pytest.approx([0.06753, 0.05401, 0.12812], rel=2e-4)
-
-
-def test_the_known_torque_while_the_film_leaves():
-    """Viscosity constant, 0.6 MPa (1 - exp(-t/50 ms)), 100 rad/s, from 88 um."""
-    params = plain(viscosity_constant=0.0, viscosity_scale=0.0681)
-    area = params.lining_area / params.faces
-    t = np.arange(0.0, 0.0800001, 1e-4)
-    e = engage_clutch(params, time=t, load=0.6e6 * area * (1.0 - np.exp(-t / 0.05)), speed=100.0)
-    assert e.friction_torque[[400, 800]] == pytest.approx([88.506, 165.352], rel=2e-5)
 
 
 def test_shear_fades_as_the_asperities_take_the_load_and_the_sum_has_no_jump():
@@ -101,10 +82,3 @@ def test_one_sudden_load_on_the_default_pack_is_integrated_to_six_digits(data):
         exact = reference.torque(times[n], film[n], temperature[n])
         assert pack.out[k.O_TORQUE] == pytest.approx(exact, rel=2e-6)
         assert pack.out[k.O_TEMPERATURE] == pytest.approx(temperature[n], abs=1e-5)
-
-
-def test_the_preset_is_the_paper_s_sample():
-    p = SAMPLE
-    assert (p.inner_radius, p.outer_radius, p.faces) == (0.0325, 0.0425, 2)
-    assert (p.friction_law, p.groove_count, p.land_share, p.oil_flow) == ("wang", 0, 1.0, 0.0)
-    assert ClutchParams.preset("paper", faces=4).faces == 4

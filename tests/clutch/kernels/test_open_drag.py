@@ -41,14 +41,6 @@ def test_the_pumped_flow_is_that_of_the_radial_momentum_between_two_discs():
         assert pumped_flow(rho, eta, (hub, drum), h, inner, outer) == pytest.approx(exact, rel=1e-4)
 
 
-def test_the_known_drag_at_3480_rpm():
-    """Faces at 85 degC, the oil between them no warmer: 0.40 N m, 3.8 if it were never starved."""
-    cool = {"shear_heating": False}
-    assert drag(3480 * RPM, **cool) == pytest.approx(0.403, abs=5e-4)
-    assert drag(3480 * RPM, oil_flow=0.0, **cool) == pytest.approx(3.84, abs=5e-3)
-    assert drag(3480 * RPM) == pytest.approx(0.373, abs=5e-4)  # thinned by its own heat
-
-
 def test_drag_rises_with_speed_to_a_peak_and_falls_as_its_inverse():
     p = ClutchParams()
     eta = 8.285e-3

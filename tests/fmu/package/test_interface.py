@@ -7,8 +7,7 @@ from toy.spec import SPEC as TOY
 
 from thrustwasher.errors import ParameterError, Status
 from thrustwasher.fmu.description.interface import interface
-from thrustwasher.model.parameters import as_numbers
-from thrustwasher.model.registry import all_specs, find_spec
+from thrustwasher.model.registry import all_specs
 from thrustwasher.units import exponents
 
 SPECS = [TOY, *all_specs()]
@@ -23,21 +22,6 @@ def test_references_count_through_time_inputs_parameters_outputs(spec):
     assert [v.name for v in found] == expected
     assert [v.reference for v in found] == list(range(len(found)))
     assert len({v.name for v in found}) == len(found)
-
-
-@each_spec
-def test_parameters_start_as_the_dataclass_does(spec):
-    starts = [v.start for v in interface(spec).variables if v.causality == "parameter"]
-    fidelity = list(spec.fidelities).index(spec.default_fidelity) + 1
-    assert starts == [*as_numbers(spec.params()), fidelity]
-
-
-@each_spec
-def test_ranges_and_units_are_those_of_the_dataclass(spec):
-    found = {v.name: v for v in interface(spec).variables}
-    for f in fields(spec.params):
-        v, m = found[f.name], f.metadata
-        assert (v.low, v.high, v.unit, v.help) == (m["min"], m["max"], m["unit"], m["help"])
 
 
 @each_spec
@@ -58,31 +42,10 @@ def test_inputs_that_a_host_leaves_open_are_allowed_to_be_zero(spec):
 
 
 @each_spec
-def test_outputs_fill_the_kernel_arrays_in_order(spec):
-    for store in ("out", "iout"):
-        slots = [v.slot for v in interface(spec).variables if v.store == store]
-        assert slots == list(range(len(slots)))
-
-
-@each_spec
-def test_only_reals_are_continuous(spec):
-    for v in interface(spec).variables:
-        assert (v.variability == "continuous") == (v.type == "Real" and v.causality != "parameter")
-
-
-@each_spec
 def test_first_outputs_are_the_same_everywhere_and_status_is_complete(spec):
     items = interface(spec).enumerations["SolverStatus"]
     assert {i.name: i.value for i in items} == {s.name: int(s) for s in Status}
     assert all(i.help for i in items)
-
-
-def test_a_model_is_found_by_key_and_by_fmu_name():
-    assert find_spec("washer") is find_spec("ThrustWasher")
-    with pytest.raises(
-        ParameterError, match="ThrustWasher, WetClutch, GearMesh, ShiftTransmission"
-    ):
-        find_spec("Washer")
 
 
 @pytest.mark.parametrize(

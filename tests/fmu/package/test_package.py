@@ -2,7 +2,6 @@
 
 import struct
 import zipfile
-from pathlib import Path
 
 import pytest
 from toy.places import TOY_SLAVES
@@ -13,7 +12,6 @@ from thrustwasher.fmu.build import build
 from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.package.model_sources import Order, identifier
 from thrustwasher.model.registry import all_specs
-from thrustwasher.native.files import write
 
 
 def test_building_in_another_process_gives_the_same_bytes(tmp_path, python_toy, run_child):
@@ -112,13 +110,3 @@ def test_it_is_known_whether_a_model_is_compiled(run_child, tmp_path, monkeypatc
     stale = "from thrustwasher.native import shipped; shipped.index = lambda: {'kernels': {}};"
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     assert run_child(stale + code) == str([False] * 5)
-
-
-def test_a_failed_write_leaves_the_old_file(tmp_path, monkeypatch):
-    path = tmp_path / "a.fmu"
-    write(path, b"old")
-    monkeypatch.setattr("os.replace", lambda *_: (_ for _ in ()).throw(OSError("disk full")))
-    with pytest.raises(OSError, match="disk full"):
-        write(path, b"new")
-    assert path.read_bytes() == b"old"
-    assert [p.name for p in Path(tmp_path).iterdir()] == ["a.fmu"]

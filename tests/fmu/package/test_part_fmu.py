@@ -5,7 +5,7 @@ import zipfile
 from types import SimpleNamespace
 
 import pytest
-from fmpy import read_model_description, simulate_fmu
+from fmpy import read_model_description
 from lxml import etree
 
 from thrustwasher import GearMeshParams, load_part
@@ -13,8 +13,6 @@ from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.fmu import build as module
 from thrustwasher.fmu.build import build, validate
 from thrustwasher.fmu.documentation.reference_results import FOLDER
-from thrustwasher.fmu.running.direct_instance import DirectInstance
-from thrustwasher.fmu.stepper import Instance
 from thrustwasher.model.registry import find_spec
 from thrustwasher.washer.map.map_file import SHIPPED, own_folder
 
@@ -31,7 +29,6 @@ load = ["40 N.m", "55 N.m"]
 oil_temperature = "80 degC"
 """
 LINUX = {"platforms": ["linux64"]}
-each_fmi = pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.fmi3)])
 
 
 def file_in(folder, text, name="mine.toml"):
@@ -79,35 +76,6 @@ def test_the_page_shows_box_notes_and_own_parameters(mine):
     assert f"<td>face_width</td><td>0.06 m</td><td>{GearMeshParams().face_width:g}</td>" in page
 
 
-def test_it_steps_as_the_part_does_in_python_to_the_bit(mine):
-    ours = DirectInstance(mine.part.model)
-    with Instance(mine.fmu) as theirs:
-        for instance in (ours, theirs):
-            instance.initialize(0.0, {"load": 50.0, "speed": 200.0, "oil_temperature": 350.0})
-            for i in range(20):
-                instance.step(1e-3 * i, 1e-3)
-        assert ours.outputs() == theirs.outputs()
-
-
-def test_its_messages_have_its_name_its_state_is_no_other_fmus(mine, tmp_path):
-    (usual,) = build(["GearMesh"], fmi=mine.fmi, out=tmp_path, **LINUX)
-    with Instance(mine.fmu) as own, Instance(usual) as other:
-        for instance in (own, other):
-            instance.initialize(0.0)
-        data = own.serialize(own.get_state())
-        own.set_state(own.deserialize(data))
-        with pytest.raises(Exception, match="another model or version"):
-            other.deserialize(data)
-
-
-def test_fmpy_runs_it_and_finds_the_reference_results(mine, tmp_path):
-    found = simulate_fmu(str(mine.fmu), output=["friction_torque"])
-    rows = mine.files[f"{FOLDER}/MyMesh_out.csv"].decode().splitlines()
-    place = rows[0].split(",").index('"friction_torque"')
-    first = float(rows[1].split(",")[place])
-    assert found["friction_torque"][0] == pytest.approx(first, rel=1e-8)
-
-
 def test_the_course_of_the_reference_run_stays_in_the_box(tmp_path):
     path = file_in(tmp_path, 'model = "washer"\nname = "W"\n[box]\nload = ["400 N", "500 N"]\n')
     model = load_part(path).model
@@ -129,6 +97,7 @@ def test_several_parts_and_models_are_built_at_once(tmp_path):
 
 
 MESH = 'model = "gearmesh"\nname = "{}"\n'
+UNMAPPED = 'model = "washer"\nname = "A"\nfidelity = "map"\n[parameters]\nroughness = "0.4 um"\n'
 
 
 @pytest.mark.parametrize(
@@ -141,15 +110,7 @@ MESH = 'model = "gearmesh"\nname = "{}"\n'
         ([MESH.format("WetClutch")], [], {}, "name = 'WetClutch' is that of the model 'clutch'"),
         ([MESH.format("A")], [], {"target": "python"}, "for native FMUs only"),
         ([], ["nowhere.toml"], {}, "part = 'nowhere.toml': cannot be read"),
-        (
-            [
-                'model = "washer"\nname = "A"\nfidelity = "map"\n'
-                '[parameters]\nroughness = "0.4 um"\n'
-            ],
-            [],
-            {},
-            "fidelity = 'map'",
-        ),
+        ([UNMAPPED], [], {}, "fidelity = 'map'"),
     ],
 )
 def test_what_cannot_be_built_is_one_line_and_writes_nothing(

@@ -52,26 +52,10 @@ def toy_library(flags: tuple[str, ...] = ("-O2",)) -> Path:
     shell = source_folder() / "shell"
     files = [shell / name for name in c_tables.SHELL_FILES]
     library = folder / "toy.so"
-    _compile(
-        "-std=c99",
-        *STRICT,
-        *flags,
-        "-shared",
-        "-fPIC",
-        "-fvisibility=hidden",
-        "-I",
-        folder,
-        "-I",
-        shell,
-        "-I",
-        headers(),
-        folder / "model.c",
-        *files,
-        HERE.parent / "toy" / "toy.c",
-        "-o",
-        library,
-        "-lm",
-    )
+    shared = "-std=c99 -shared -fPIC -fvisibility=hidden".split()
+    folders = ("-I", folder, "-I", shell, "-I", headers())
+    files = [folder / "model.c", *files, HERE.parent / "toy" / "toy.c"]
+    _compile(*shared, *STRICT, *flags, *folders, *files, "-o", library, "-lm")
     return library
 
 
@@ -98,19 +82,9 @@ def model_library(model: str) -> Path:
 def threads() -> Path:
     """Return the program that runs many instances at once."""
     program = Path(tempfile.mkdtemp(dir=_folder.name)) / "threads"
-    _compile(
-        "-std=gnu99",
-        "-O1",
-        *STRICT,
-        "-I",
-        headers(),
-        HERE / "threads.c",
-        "-o",
-        program,
-        "-ldl",
-        "-lm",
-        "-lpthread",
-    )
+    links = "-ldl -lm -lpthread".split()
+    folders = ("-I", headers())
+    _compile("-std=gnu99", "-O1", *STRICT, *folders, HERE / "threads.c", "-o", program, *links)
     return program
 
 

@@ -103,12 +103,6 @@ def test_without_maps_the_fmu_is_small_and_refuses_the_fidelity(tmp_path):
         build(["ThrustWasher"], out=tmp_path, target="python", maps=False)
 
 
-def test_other_parameters_have_no_map(washer):
-    with pytest.raises((ParameterError, SolveError), match=NONE):
-        with Instance(washer(2), parameters={**MAP, "roughness": 4e-7}) as instance:
-            instance.initialize(0.0, POINT)
-
-
 @needs_linux
 @each_fmi
 def test_with_a_map_the_parameters_it_was_made_for_cannot_be_tuned(washer, fmi):
@@ -150,11 +144,9 @@ def test_a_map_that_is_gone_or_damaged_is_an_error_with_a_reason(washer, tmp_pat
         raw = file.read_bytes()
         bit = bytes([raw[-400] ^ 1]) + raw[-399:]
         file.write_bytes(
-            {
-                "cut": raw[:-40],
-                "rubbish": raw[:-4] + b"\xff\xff\xff\xff",
-                "bit": raw[:-400] + bit,
-            }[change]
+            {"cut": raw[:-40], "rubbish": raw[:-4] + b"\xff\xff\xff\xff", "bit": raw[:-400] + bit}[
+                change
+            ]
         )
     packed = shutil.make_archive(str(tmp_path / "again"), "zip", folder)
     fmu = shutil.move(packed, tmp_path / "ThrustWasher.fmu")
@@ -166,19 +158,10 @@ def test_a_map_that_is_gone_or_damaged_is_an_error_with_a_reason(washer, tmp_pat
 
 @pytest.mark.parametrize("name", ["with space", "per%20cent", "mäp 測定", "plus+and#hash"])
 def test_any_folder_name_will_do(washer, tmp_path, name):
-    from fmpy.fmi2 import FMU2Slave
-    from fmpy.model_description import read_model_description
-
     folder = moved(washer(2), name, tmp_path)
-    told = read_model_description(str(folder), validate=False)
+    told = loading.description(folder)
     place = {v.name: v.valueReference for v in told.modelVariables}
-    fmu = FMU2Slave(
-        guid=told.guid,
-        unzipDirectory=str(folder),
-        instanceName="washer",
-        modelIdentifier=told.coSimulation.modelIdentifier,
-    )
-    fmu.instantiate()
+    fmu = loading.instantiate(folder, told, "washer", loading.Messages())
     fmu.setupExperiment(startTime=0.0)
     fmu.enterInitializationMode()
     fmu.setInteger([place["fidelity"]], [1])
@@ -187,3 +170,13 @@ def test_any_folder_name_will_do(washer, tmp_path, name):
     assert fmu.getReal([place["friction_torque"]])[0] == pytest.approx(0.2158, rel=2e-3)
     fmu.terminate()
     fmu.freeInstance()
+
+
+def test_a_map_has_no_bodies_and_refuses_by_name(washer):
+    wrong = {**MAP, "thermal_mode": "transient"}
+    for make in (
+        lambda: DirectInstance(SPEC, parameters=wrong),
+        lambda: Instance(washer(2), parameters=wrong),
+    ):
+        with pytest.raises((ParameterError, SolveError), match="thermal_mode = transient, allowed"):
+            make().initialize(0.0, POINT)

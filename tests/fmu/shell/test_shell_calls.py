@@ -5,11 +5,8 @@ import zlib
 
 import pytest
 from shell_runs import BEGUN, GUID, MADE, last, needs_gcc, putting, ref, run, taking, toy_library
-from toy.spec import SPEC as TOY
 
-from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.shell import c_tables, call_table
-from thrustwasher.model.spec import tailored
 
 pytestmark = needs_gcc
 WAYS = {
@@ -164,34 +161,6 @@ def test_outputs_have_no_value_before_initialization(fmi):
     assert last(fmi, MADE + f"take real 0 {ref('load')}\n").values == [0.0, 100.0]
 
 
-@both
-def test_outputs_can_be_read_after_the_end(fmi):
-    script = BEGUN + "step 0 1e-3\nend\n" + f"take real {ref('energy')} 0\n"
-    assert last(fmi, script).values[1] == 1e-3
-
-
-@both
-def test_parameters_are_fixed_once_the_run_has_begun(fmi):
-    assert last(fmi, MADE + "enter 0\n" + putting(discs=3)).status == 0
-    reply = last(fmi, BEGUN + putting(discs=3))
-    assert reply.status == 3 and "discs is a fixed parameter" in reply.messages[-1]
-
-
-@both
-def test_a_tunable_parameter_is_set_between_steps_and_part_of_the_state(fmi):
-    warm = putting(speed=100.0) + "step 0 1e-3\n"
-    rise = f"take real {ref('temperature_rise')}\n"
-    slow, fast = (putting(heat_capacity=c) for c in (1e6, 1.0))
-    script = BEGUN + warm + "save 0\n" + slow + "step 1e-3 1e-3\n" + rise + "save 1\n"
-    script += "restore 0\n" + fast + "step 1e-3 1e-3\n" + rise + "restore 1\n"
-    replies = run(fmi, toy_library(), script + taking(["heat_capacity"]))
-    assert all(r.status == 0 for r in replies)
-    low, high, capacity = (r.values[0] for r in replies if r.values)
-    assert high > 10.0 * low and capacity == 1e6
-    assert last(fmi, BEGUN + "step 0 1e-3\nend\n" + fast).status == 3
-    assert last(fmi, BEGUN + putting(heat_capacity=-1.0) + "step 0 1e-3\n").status == 3
-
-
 def test_event_mode_is_the_place_for_tunable_parameters():
     script = "call fmi3UpdateDiscreteStates\n" + putting(heat_capacity=50.0, load=7.0)
     script += taking(["friction_torque"]) + "call fmi3EnterStepMode\nstep 0 1e-3\n"
@@ -273,13 +242,3 @@ def test_a_host_that_names_no_folder_is_refused_and_told_what_is_read_there(fmi,
 
 def summed(data):
     return data + struct.pack("<I", zlib.crc32(data))
-
-
-@both
-def test_a_part_of_ones_own_has_its_name_and_its_start_values(fmi, tmp_path):
-    part = tailored(TOY, {"discs": 5, "fidelity": "fine"}, {"load": 7.0}, name="Mine")
-    (tmp_path / c_tables.PART).write_bytes(c_tables.part_file(interface(part), GUID))
-    script = MADE + taking(["load", "discs", "fidelity"], part) + "take real 99\n"
-    replies = run(fmi, toy_library(), script, resources=tmp_path)
-    assert sorted(x for r in replies for x in r.values) == [2.0, 5.0, 7.0]
-    assert "is unknown in Mine" in replies[-1].messages[0]

@@ -23,16 +23,6 @@ def slopes():
 
 
 @both
-def test_they_are_those_of_the_model_for_one_input_and_for_several(fmi):
-    by_load, by_speed = slopes()
-    one = last(fmi, BEGUN + POINT + f"derive {TORQUE} {SPEED} 1\n").values[0]
-    assert one == pytest.approx(by_speed, rel=1e-14)
-    several = f"derive {TORQUE} {SPEED} -2 {LOAD} 3 {LOAD} 1 {OIL} 9\n"
-    wanted = 4.0 * by_load - 2.0 * by_speed
-    assert last(fmi, BEGUN + POINT + several).values[0] == pytest.approx(wanted, rel=1e-14)
-
-
-@both
 def test_pairs_that_are_not_listed_are_zero(fmi):
     for unknown, known in ((ENERGY, LOAD), (TEMPERATURE, SPEED), (TORQUE, OIL)):
         assert last(fmi, BEGUN + POINT + f"derive {unknown} {known} 1\n").values == [0.0]
@@ -48,22 +38,6 @@ def test_they_belong_to_the_present_point_whatever_was_solved_before(fmi):
         found = last(fmi, BEGUN + before + ask).values[0]
         assert found == pytest.approx(slopes()[0], rel=1e-14)
     assert last(fmi, MADE + "enter 0\n" + POINT + ask).values[0] == found
-
-
-@both
-def test_asking_for_them_changes_nothing_that_follows(fmi):
-    asked = f"derive {TORQUE} {LOAD} 1\nderive {TORQUE} {SPEED} 1\n"
-    outputs = taking(["friction_torque", "temperature", "energy", "steps"])
-    found = []
-    for extra in ("", asked):
-        script = BEGUN + "".join(
-            putting(load=100.0 * i) + extra + f"step {i * 1e-3!r} 1e-3\n" + extra + outputs
-            for i in range(20)
-        )
-        replies = run(fmi, toy_library(), script)
-        assert all(r.status == 0 for r in replies)
-        found.append([r.values for r in replies if len(r.values) != 1 or r.values[0] % 1.0 == 0.0])
-    assert [v for v in found[0] if len(v) == 3] == [v for v in found[1] if len(v) == 3]
 
 
 @both
@@ -145,9 +119,3 @@ def test_where_a_rule_is_near_the_difference_is_one_sided(fmi):
     reply = last(fmi, MADE + "enter 0\n" + POINT + near + f"derive {TORQUE} {RADIUS} 1\n")
     torque = 0.5 * 0.1 * 2.0 * 300.0 * (0.05 + 0.001 * 0.7) * math.tanh(0.7)
     assert reply.status == 0 and reply.values[0] == pytest.approx(torque / 0.1, rel=1e-5)
-
-
-def test_adjoint_derivatives_know_parameters_too():
-    here = MADE + "enter 0\n" + POINT
-    forward = last(3, here + f"derive {TORQUE} {RADIUS} 2\n").values
-    assert last(3, here + f"adjoint {RADIUS} {TORQUE} 2\n").values == pytest.approx(forward)

@@ -12,7 +12,6 @@ from shell_runs import (
     needs_gcc,
     needs_linux,
     putting,
-    ref,
     run,
     taking,
     threads,
@@ -28,13 +27,9 @@ needs_valgrind = pytest.mark.skipif(
     not shutil.which("valgrind"), reason="needs valgrind (Debian package valgrind)"
 )
 VALGRIND = (
-    "valgrind",
-    "-q",
-    "--leak-check=full",
-    "--show-leak-kinds=all",
-    "--errors-for-leak-kinds=all",
-    "--error-exitcode=7",
-)
+    "valgrind -q --leak-check=full --show-leak-kinds=all --errors-for-leak-kinds=all "
+    "--error-exitcode=7"
+).split()
 
 
 @needs_gcc
@@ -99,29 +94,3 @@ def test_threads_and_other_fmus_in_the_process_change_no_bit():
     pairs = [line.split() for line in done.stdout.splitlines()]
     assert len(pairs) == 8 and len({alone for alone, _ in pairs}) == 8
     assert all(alone == beside for alone, beside in pairs)
-
-
-@needs_gcc
-@both
-def test_two_instances_in_turn_answer_as_two_alone(fmi):
-    loads = {0: 200.0, 1: 800.0}
-    asked = f"take real {ref('temperature')} {ref('energy')}\n"
-
-    def begin(slot):
-        return f"use {slot}\n" + BEGUN + putting(load=loads[slot])
-
-    def step(slot, i):
-        return f"use {slot}\nstep {i * 1e-3!r} 1e-3\n" + asked
-
-    library = toy_library()
-    alone = {
-        slot: [
-            r.values
-            for r in run(fmi, library, begin(slot) + "".join(step(slot, i) for i in range(20)))
-            if r.values
-        ]
-        for slot in loads
-    }
-    script = begin(0) + begin(1) + "".join(step(0, i) + step(1, i) for i in range(20))
-    found = [r.values for r in run(fmi, library, script) if r.values]
-    assert {0: found[0::2], 1: found[1::2]} == alone and alone[0] != alone[1]

@@ -1,10 +1,10 @@
 """What the host is told: errors and warnings always, the rest when asked for; once, in words."""
 
 import pytest
-from shell_runs import BEGUN, GUID, MADE, last, needs_gcc, putting, run, toy_library
+from shell_runs import GUID, MADE, last, needs_gcc, putting, run, toy_library
 from toy.spec import SPEC as TOY
 
-from thrustwasher.errors import ParameterError, Status
+from thrustwasher.errors import Status
 from thrustwasher.fmu.running.direct_instance import DirectInstance
 
 pytestmark = needs_gcc
@@ -99,43 +99,3 @@ def test_a_name_may_be_missing_or_too_long(fmi):
         "ToyClutch",
         "NULL",
     )
-
-
-@both
-def test_a_step_from_another_time_is_a_warning_and_the_hosts_time_counts(fmi):
-    script = BEGUN + "step 0 1e-3\nstep 1.0000001e-3 1e-3\nstep 5 1e-3\ntake real 0\n"
-    replies = run(fmi, toy_library(), script)
-    assert replies[-1].values == [5.001]
-    told = [m for r in replies for m in r.messages if "the host's time counts" in m]
-    assert len(told) == 1 and told[0].startswith("1 toy logStatusWarning step from t = 5 s, but")
-
-
-@both
-@pytest.mark.parametrize(
-    "values",
-    [
-        {"inner_radius": 0.2},
-        {"inner_radius": 1e6, "outer_radius": 123456.0},
-        {"dry": 1},
-        {"inner_radius": 1.5e-5, "outer_radius": 1e-5},
-    ],
-)
-def test_a_broken_rule_is_told_with_the_words_of_the_dataclass(fmi, values):
-    with pytest.raises(ParameterError) as raised:
-        TOY.params(**{n: bool(x) if n == "dry" else x for n, x in values.items()})
-    script = MADE + putting(**values) + "enter 0\nleave\n"
-    reply = last(fmi, script)
-    assert reply.status == 3
-    assert reply.messages == [f"3 toy logStatusError {raised.value}"]
-    cured = putting(inner_radius=0.05, outer_radius=0.1, dry=0) + "leave\nstep 0 1e-3\n"
-    assert last(fmi, script + cured).status == 0
-
-
-@both
-@pytest.mark.parametrize("value", [-1.0, float("nan")])
-def test_a_refused_parameter_is_told_when_the_initialization_ends_and_not_later(fmi, value):
-    reply = last(fmi, MADE + "enter 0\n" + putting(inner_radius=value) + "leave\n")
-    assert reply.status == 3
-    assert "no start at t = 0 s: inner_radius = " in reply.messages[-1]
-    cured = putting(inner_radius=value) + "leave\n" + putting(inner_radius=0.02)
-    assert last(fmi, MADE + "enter 0\n" + cured + "leave\nstep 0 1e-3\n").status == 0

@@ -1,44 +1,19 @@
 """The models' own libraries: the same bits and words as the Python core, bare in a C host."""
 
-import importlib
 import math
 import random
 
-import numpy as np
 import pytest
-from shell_runs import GUID, MADE, model_library, needs_linux, run, taking
+from sampling import jump
+from shell_runs import GUID, model_library, needs_linux, run
 from twin import Twin
 
-from thrustwasher.errors import SolveError
 from thrustwasher.fmu.description.interface import interface
-from thrustwasher.fmu.stepper import DirectInstance
 from thrustwasher.model.registry import find_spec
 
 pytestmark = needs_linux
 CHEAP = ["clutch", "gearmesh", "transmission", "command"]
 H = 1e-3
-SHAFT = {
-    "shaft_stiffness": 1200.0,
-    "shaft_damping": 2.0,
-    "vehicle_inertia": 8.0,
-    "carrier_inertia": 0.3,
-    "initial_twist": 0.05,
-}
-
-
-def jump(spec, rng):
-    """Return inputs anywhere in the ranges, mostly of the size met in use."""
-    point = {}
-    for s in spec.inputs:
-        reach = (
-            (s.low, s.high)
-            if rng.random() < 0.1
-            else (max(s.low, -2.0 * (s.nominal or 1.0)), min(s.high, 2.0 * (s.nominal or 1.0)))
-        )
-        if s.name == "far_face_temperature":  # between 0, the oil's, and real ones there is a gap
-            reach = (290.0, 360.0)
-        point[s.name] = rng.uniform(*sorted(reach))
-    return point
 
 
 def vary_parameters(twin, rng):
@@ -95,97 +70,3 @@ def test_300_steps_are_the_cores_to_the_bit(model, fmi):
 def test_the_washers_steps_are_the_cores_to_the_bit():
     twin = run_of(find_spec("washer"), 7, 30)
     twin.check(run(2, model_library("washer"), twin.script))
-
-
-@pytest.mark.parametrize("model", CHEAP)
-def test_a_fresh_process_goes_on_to_the_bit(model, tmp_path):
-    spec, rng = find_spec(model), random.Random(3)
-    library, file = model_library(model), tmp_path / "state"
-    twin = Twin(spec, GUID)
-    for i in range(30):
-        twin.put(**jump(spec, rng))
-        twin.step(i * H, H)
-    lines = twin.script.splitlines(keepends=True)[1:]
-    outputs = taking([s.name for s in spec.outputs], spec)
-    before, after = "".join(lines[:20]), "".join(line + outputs for line in lines[20:])
-    begun = MADE + "enter 0\nleave\n"
-    whole = run(2, library, begun + before + after)
-    run(2, library, begun + before + f"save 0\nwrite 0 {file}\n")
-    fresh = run(2, library, MADE + f"read 0 {file}\nrestore 0\n" + after)
-    assert [r.values for r in fresh if r.values] == [r.values for r in whole if r.values]
-
-
-@pytest.mark.parametrize("model", ["clutch", "gearmesh", "transmission"])
-def test_derivatives_are_the_kernels_to_the_bit_after_steps_and_after_sets(model):
-    spec, rng = find_spec(model), random.Random(11)
-    kernel = importlib.import_module(spec.kernel)
-    if not hasattr(kernel, "sens"):
-        pytest.skip(f"the kernel of {model} has no derivatives")
-    twin = Twin(spec, GUID)
-    outputs = [v for v in interface(spec).variables if v.store == "out" and v.depends]
-    inputs = [v for v in interface(spec).variables if v.causality == "input"]
-
-    def slope(unknown, seed):
-        core = twin.core
-        core.refresh()
-        core.solve_aside()
-        dout = np.zeros(kernel.NOUT)
-        status = kernel.sens(core.par, core.inp, core.state, core.work, np.array(seed), dout)
-        if status >= 10:
-            raise SolveError(status)
-        return [float(dout[unknown.slot])]
-
-    def ask():
-        for unknown in outputs:
-            known = rng.choice([v for v in inputs if v.name in unknown.depends])
-            seed = [float(v is known) for v in inputs]
-            twin._ask(
-                f"derive {unknown.reference} {known.reference} 1",
-                lambda u=unknown, s=seed: slope(u, s),
-            )
-
-    twin.begin()
-    twin.leave()
-    for i in range(40):
-        twin.put(**jump(spec, rng))
-        ask()
-        twin.step(i * H, H)
-        ask()
-    twin.check(run(2, model_library(model), twin.script), words=False)
-
-
-@pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.fmi3)])
-def test_a_swinging_shaft_is_the_cores_to_the_bit_and_its_state_is_whole(fmi):
-    twin, rng = Twin(find_spec("transmission"), GUID), random.Random(5)
-    twin.put(**SHAFT)
-    twin.begin(0.0)
-    twin.leave()
-    for i in range(60):
-        twin.put(**jump(twin.spec, rng))
-        twin.step(i * H, H)
-        twin.take()
-        if i == 20:
-            twin.save(0)
-        if i == 40:
-            twin.restore(0)
-    twin.check(run(fmi, model_library("transmission"), twin.script))
-
-
-def test_a_core_that_takes_a_state_over_goes_on_with_the_swing():
-    spec = find_spec("transmission")
-    parameters = {**SHAFT, "fidelity": "rigid"}
-    with DirectInstance(spec, parameters=parameters) as one:
-        one.initialize(0.0, {"clutch_torque": 100.0})
-        for i in range(50):
-            one.step(i * H, H)
-        kept = one.get_state()
-        first = []
-        for i in range(50, 60):
-            one.step(i * H, H)
-            first.append(one.outputs())
-        one.set_state(kept)
-        for i in range(50, 60):
-            one.step(i * H, H)
-            assert one.outputs() == first[i - 50]
-    twist = [s.name for s in spec.outputs].index("shaft_twist")
-    assert first[0][twist] != first[-1][twist] != 0.0

@@ -29,14 +29,6 @@ def values(replies):
 
 
 @both
-def test_going_back_repeats_the_run_to_the_bit(fmi):
-    script = BEGUN + steps(0, 5) + "save 0\n" + steps(5, 20) + "restore 0\n" + steps(5, 20)
-    found = values(run(fmi, toy_library(), script))[5 * 4 :]
-    assert len(found) == 2 * 20 * 4
-    assert found[: len(found) // 2] == found[len(found) // 2 :]
-
-
-@both
 def test_a_fresh_process_goes_on_from_the_bytes_to_the_bit(fmi, tmp_path):
     file = tmp_path / "state"
     library = toy_library()
@@ -45,16 +37,6 @@ def test_a_fresh_process_goes_on_from_the_bytes_to_the_bit(fmi, tmp_path):
     fresh = run(fmi, library, MADE + f"read 0 {file}\nrestore 0\nforget 0\n" + ALL + steps(5, 20))
     assert all(r.status == 0 for r in fresh)
     assert values(fresh) == whole
-
-
-@both
-def test_a_refusal_stays_in_the_state_and_the_mode_too(fmi):
-    script = BEGUN + "step 0 1e-3\nsave 1\n" + putting(speed=1e9) + "save 0\n"
-    script += putting(speed=1.0) + "step 1e-3 1e-3\nrestore 0\nstep 1e-3 1e-3\n"
-    reply = last(fmi, script)
-    assert reply.status == 3 and "speed was refused before; set it again" in reply.messages[-1]
-    assert last(fmi, script + putting(speed=1.0) + "step 1e-3 1e-3\n").status == 0
-    assert last(fmi, BEGUN + "save 0\nreset\nrestore 0\nstep 0 1e-3\n").status == 0
 
 
 @both
@@ -129,10 +111,3 @@ def test_a_pointer_that_is_no_living_state_is_refused_unread(fmi, wrong):
     reply = run(fmi, toy_library(SANITIZED), script + "forget 0\n", flags=SANITIZED)[-2]
     assert reply.status == 3
     assert "a pointer that this FMU has not given or has freed" in reply.messages[-1]
-
-
-@both
-def test_a_state_of_one_instance_goes_into_another_also_after_many(fmi):
-    many = "".join(f"save {i % 8}\n" for i in range(40))
-    script = BEGUN + putting(load=7.0) + many + "use 1\n" + BEGUN + "restore 3\n"
-    assert last(fmi, script + taking(["load"])).values == [7.0]

@@ -38,6 +38,14 @@ def _counted():
     return (("substeps", SUBSTEPS),)
 
 
+def given(name, unit, help, low, high, nominal, start):
+    return Signal(name=name, unit=unit, help=help, low=low, high=high, nominal=nominal, start=start)
+
+
+def told(name, unit, help, *depends, **more):
+    return Signal(name=name, unit=unit, help=help, depends=depends, **more)
+
+
 SPEC = ModelSpec(
     key="toy.spec:SPEC",
     name="ToyClutch",
@@ -46,89 +54,41 @@ SPEC = ModelSpec(
     fidelities={"coarse": "one explicit step", "fine": "ten explicit steps"},
     default_fidelity="coarse",
     inputs=(
-        Signal(
-            name="load",
-            unit="N",
-            help="axial force on the toy discs",
-            low=0.0,
-            high=1e4,
-            nominal=1e3,
-            start=100.0,
-        ),
-        Signal(
-            name="speed",
-            unit="rad/s",
-            help="slip speed of the toy discs",
-            low=-1e3,
-            high=1e3,
-            nominal=100.0,
-            start=10.0,
-        ),
-        Signal(
-            name="oil_temperature",
-            unit="K",
-            help="temperature of the toy oil",
-            low=233.15,
-            high=473.15,
-            nominal=300.0,
-            start=300.0,
-        ),
+        given("load", "N", "axial force on the toy discs", 0.0, 1e4, 1e3, 100.0),
+        given("speed", "rad/s", "slip speed of the toy discs", -1e3, 1e3, 100.0, 10.0),
+        given("oil_temperature", "K", "temperature of the toy oil", 233.15, 473.15, 300.0, 300.0),
     ),
     outputs=(
-        Signal(
-            name="friction_torque",
-            unit="N.m",
-            nominal=10.0,
-            depends=("load", "speed"),
-            help="friction torque of the toy discs",
-        ),
-        Signal(
-            name="temperature",
-            unit="K",
-            nominal=300.0,
-            depends=("oil_temperature",),
-            help="temperature of the toy discs",
-        ),
-        Signal(
-            name="temperature_rise",
-            unit="K",
-            nominal=10.0,
-            relative=True,
-            help="temperature of the discs above the oil",
-        ),
-        Signal(name="energy", unit="J", nominal=1e3, help="friction work done so far"),
-        Signal(
-            name="film_ratio",
-            unit="1",
-            nominal=1.0,
-            depends=("load",),
-            help="film over roughness of the toy",
-        ),
-        Signal(
-            name="regime",
-            unit="1",
+        told("friction_torque", "N.m", "torque of the toy discs", "load", "speed", nominal=10.0),
+        told("temperature", "K", "temperature of the toy discs", "oil_temperature", nominal=300.0),
+        told("temperature_rise", "K", "discs above the toy oil", nominal=10.0, relative=True),
+        told("energy", "J", "friction work done so far", nominal=1e3),
+        told("film_ratio", "1", "film over roughness of the toy", "load", nominal=1.0),
+        told(
+            "regime",
+            "1",
+            "lubrication regime of the toy",
+            "speed",
             kind="enumeration",
             type="Regime",
             low=1,
             high=4,
-            depends=("speed",),
-            help="lubrication regime of the toy",
         ),
-        Signal(
-            name="hot",
-            unit="1",
+        told(
+            "hot",
+            "1",
+            "warmer than the toy allows",
             kind="boolean",
-            help="warmer than the toy allows",
             events=("too hot", "cool again"),
         ),
-        Signal(name="steps", unit="1", kind="integer", help="number of steps the toy has made"),
-        Signal(
-            name="solver_status",
-            unit="1",
+        told("steps", "1", "number of steps the toy has made", kind="integer"),
+        told(
+            "solver_status",
+            "1",
+            "how the last solution was obtained",
+            "load",
             kind="enumeration",
             type="SolverStatus",
-            depends=("load",),
-            help="how the last solution was obtained",
         ),
     ),
     kernel="toy.kernel",

@@ -12,27 +12,11 @@ THETA = contact.compliance(E, NU)
 W, R = 9423.0, 6.89e-3
 
 
-def test_hertz_width_carries_the_load_with_an_elliptic_pressure():
-    b = contact.hertz_width(W, R, THETA)
-    assert b == pytest.approx(line_contact.full_width(W, R, THETA), rel=1e-14)
-    p0 = math.sqrt(W / (math.pi * R * THETA))
-    assert math.pi / 4.0 * p0 * b == pytest.approx(W, rel=1e-14)
-
-
 def test_contact_stress_is_the_peak_pressure_but_for_the_rounded_factor():
     p0 = math.sqrt(W / (math.pi * R * THETA))
     exact = 1.0 / math.sqrt(math.pi * (1.0 - NU * NU))
     assert contact.surface_stress(W, R, E) / p0 == pytest.approx(0.591 / exact, rel=1e-14)
     assert exact == pytest.approx(0.5914, abs=5e-5)
-
-
-def test_film_follows_dowson_and_higginson_exponents():
-    args = (0.2386, 4.25, W, R, THETA, 2.2e-8)
-    h = contact.film_thickness(*args)
-    assert h == pytest.approx(line_contact.dowson_higginson(W, R, THETA, *args[:2], args[5]))
-    for place, power in ((0, 0.7), (1, 0.7), (2, -0.13), (5, 0.54)):
-        twice = [x * (2.0 if i == place else 1.0) for i, x in enumerate(args)]
-        assert contact.film_thickness(*twice) / h == pytest.approx(2.0**power, rel=1e-13)
 
 
 def test_li_seireg_friction_at_a_checked_point_and_its_limits():
@@ -43,14 +27,6 @@ def test_li_seireg_friction_at_a_checked_point_and_its_limits():
         assert found == pytest.approx(thick, abs=5e-5)
     wanted = line_contact.li_seireg(4e-4, 2e-5, 0.1)
     assert contact.li_seireg(4e-6, 0.01, 0.1, 2e-5)[0] == pytest.approx(wanted, rel=1e-14)
-
-
-def test_iso_friction_is_the_published_power_law_up_to_the_coefficient_without_film():
-    args = (9423.0, 10.43, 0.0193, 0.2386, 1.6e-6)
-    wanted = line_contact.iso_mean(*args)
-    assert contact.iso_and_slope(*args, 0.12)[0] == pytest.approx(wanted, rel=1e-13)
-    assert contact.iso_and_slope(9423.0, 1e-9, 0.0193, 0.2386, 1.6e-6, 0.12)[0] == 0.12
-    assert contact.iso_and_slope(*args, 0.0)[0] == 0.0
 
 
 def test_stresses_and_modification_of_a_chain_worked_by_hand():

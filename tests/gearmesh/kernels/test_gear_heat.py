@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from closed_forms import flash_temperature
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
@@ -25,14 +24,6 @@ def test_viscosity_of_the_papers_oil():
     assert h.oil_viscosity(333.15, 9.7e-5, B, C) == pytest.approx(0.03228646, rel=1e-6)
     assert h.oil_viscosity(299.85, 9.7e-5, B, C) == pytest.approx(0.2386, abs=5e-5)
     assert h.oil_viscosity(200.0, 9.7e-5, B, C) == h.oil_viscosity(h.LOWEST_OIL, 9.7e-5, B, C)
-
-
-def test_flash_rise_is_that_of_a_deep_body_heated_for_the_passing_time():
-    heat, width, speed, b = 3e4, 6e-5, 1.4, 13681.0
-    found = h.flash_rise(heat, width, speed, b)
-    assert found == pytest.approx(
-        flash_temperature.deep_body_rise(heat / width, width / speed, b), rel=1e-14
-    )
 
 
 def test_bloks_factor_is_the_peak_under_an_elliptic_heat_source():
@@ -58,19 +49,6 @@ def test_blok_makes_both_flanks_equally_hot():
     assert pinion == pytest.approx(gear, rel=1e-14)
     even = h.blok_rise(f, w, v1, v2, width, b) * math.sqrt(2.0 / math.pi) / h.ELLIPTIC
     assert even == pytest.approx(pinion, rel=1e-14)
-
-
-def test_film_and_surface_rises_are_those_printed():
-    speed, width, film = 1.36, 5.7e-5, 3e-6
-    found = h.surface_factor(width, speed, 50.2, 7850.0 * 475.0)
-    assert found == pytest.approx(
-        flash_temperature.surface_rise(1.0, speed, width, 50.2, 7850.0, 475.0), rel=1e-14
-    )
-    found = h.film_factor(film, width, speed, 50.2, 7850.0 * 475.0, 0.13, 880.0 * 2010.0)
-    wanted = flash_temperature.film_rise(
-        1.0, speed, width, film, 50.2, 7850.0 * 475.0, 0.13, 880.0 * 2010.0
-    )
-    assert found == pytest.approx(wanted, rel=1e-13)
 
 
 @given(

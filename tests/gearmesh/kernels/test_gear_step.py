@@ -4,52 +4,23 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from kernel_part import Part
 
 from thrustwasher.errors import Status
 from thrustwasher.gearmesh.kernels import layout as L
-from thrustwasher.gearmesh.kernels import step as k
 from thrustwasher.gearmesh.parameters import SPEC, GearMeshParams
-from thrustwasher.gearmesh.solve import prepare
 
 NAMES = [s.name for s in SPEC.outputs if s.kind == "real"]
 
 
-class Mesh:
-    """A mesh with its arrays."""
-
-    def __init__(self, fidelity="field", preset=None, **params):
+class Mesh(Part):
+    def __init__(self, preset=None, **params):
         made = GearMeshParams.preset(preset, **params) if preset else GearMeshParams(**params)
-        self.par = prepare(made, fidelity)
-        self.state, self.work = np.zeros(k.NSTATE), np.full(k.NWORK, np.nan)
-        self.out, self.iout = np.zeros(k.NOUT), np.zeros(k.NIOUT, np.int32)
+        super().__init__("gearmesh", "field", made)
 
-    def step(self, load, speed, oil=299.85, dt=0.0):
-        inp = np.array([load, speed, oil])
-        return k.step(self.par, inp, self.state, self.work, self.out, self.iout, 0.0, dt)
-
-    def outputs(self, *point):
-        assert self.step(*point) == 0
+    def outputs(self, load, speed, oil=299.85):
+        assert self.step((load, speed, oil)) == 0
         return self.out.copy()
-
-    def get(self, name):
-        return float(self.out[NAMES.index(name)])
-
-
-@pytest.mark.parametrize(("preset", "rest"), [("paper", 1e-3), (None, 0.02)])
-@pytest.mark.parametrize("fidelity", SPEC.rungs)
-@pytest.mark.parametrize("load", [0.0, 40.0])
-@pytest.mark.parametrize("speed", [0.0, 180.0])
-def test_nothing_is_infinite_at_rest_or_without_load(preset, rest, fidelity, load, speed):
-    """At rest the speed counts 1 mrad/s, whose flash goes with its root."""
-    mesh = Mesh(fidelity, preset)
-    out = mesh.outputs(load, speed)
-    assert np.isfinite(out).all()
-    if load * speed == 0.0:
-        assert mesh.get("friction_torque") == mesh.get("friction_power") == 0.0
-    if speed == 0.0:
-        assert mesh.get("surface_temperature") == pytest.approx(299.85, abs=rest)
-        assert mesh.get("film_temperature") == pytest.approx(299.85, abs=rest)
-        assert mesh.iout[k.L.IO_REGIME] == L.BOUNDARY
 
 
 @given(
@@ -125,5 +96,5 @@ def test_advice_is_given_for_hot_films_and_stretched_laws_and_not_in_between():
         ((40.0, 180.0, 430.0), Status.OUTSIDE_VERIFIED),
         ((9e4, 180.0, 330.0), Status.OUTSIDE_VERIFIED),
     ):
-        assert mesh.step(*point) == 0
+        mesh.outputs(*point)
         assert mesh.iout[L.IO_STATUS] == advice, point

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from thrustwasher.errors import BranchError, Status
+from thrustwasher.errors import Status
 from thrustwasher.washer.kernel_arguments import constants
 from thrustwasher.washer.kernels import step as kernel
 from thrustwasher.washer.kernels.layout import N_HEAD
@@ -36,23 +36,6 @@ def test_a_warm_start_ends_where_a_cold_one_does():
     """Both stop where the load is balanced to some 1e-6."""
     warm = solve(load=330.0, start=solve())
     assert warm.friction_torque == pytest.approx(solve(load=330.0).friction_torque, rel=1e-5)
-
-
-def test_turned_round_it_is_the_mirror_image():
-    ahead, back = solve(), solve(speed=-545.0)
-    assert back.friction_torque == pytest.approx(-ahead.friction_torque, rel=1e-9)
-    assert back.washer_tilt_x == pytest.approx(-ahead.washer_tilt_x, rel=1e-6)
-
-
-def test_at_rest_there_is_contact_and_no_friction():
-    r = solve(speed=0.0)
-    assert (r.friction_torque, r.branch) == (0.0, "contact")
-    assert r.contact_load == pytest.approx(300.0, rel=1e-6)
-
-
-def test_a_branch_that_is_not_there_is_refused():
-    with pytest.raises(BranchError, match="film"):
-        solve(**CONTACT, branch="film")
 
 
 @pytest.mark.parametrize(

@@ -6,11 +6,10 @@ from closed_forms.heated_ring import annulus_rise, stack_rise
 
 from thrustwasher.model.part_file import preset_part
 from thrustwasher.washer.kernels import layout as L
-from thrustwasher.washer.kernels.gap import dry_friction, evaluate_gaps, evaluate_viscosity
-from thrustwasher.washer.kernels.heat import heat_change, heat_residual, let_film_follow
+from thrustwasher.washer.kernels.gap import dry_friction, evaluate_gaps
+from thrustwasher.washer.kernels.heat import heat_residual
 from thrustwasher.washer.kernels.heat_factor import factor_heat, solve_heat
 from thrustwasher.washer.kernels.newton import evaluate
-from thrustwasher.washer.kernels.workspace import Point
 from thrustwasher.washer.parameters import CONDUCTION, SPEC
 
 from washer_setup import (  # isort: skip
@@ -146,73 +145,6 @@ def test_torque_times_speed_is_the_heat_made(name):
     assert p.max() > 1e5
 
 
-@pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
-def test_only_the_wanted_share_of_film_heat_enters(share):
-    b = bench(GRID, film_heat_fraction=share, **DRY)
-    q = tilted(b.m, 20.0)  # no contact at all
-    made = evaluate(b.m, BASE, q, b.f, False)
-    whole = (
-        np.outer(b.m.weight1, b.m.weight_t)
-        * (BASE.speed * b.radius) ** 2
-        * b.node("mu")
-        / b.node("ht")
-    ).sum()
-    assert made == pytest.approx(share * whole, rel=1e-12)
-
-
-@pytest.mark.parametrize("conduction", CONDUCTION)
-@pytest.mark.parametrize("split", [0.5, 0.3, 0.0])
-def test_matrix_is_the_difference_of_the_residual(split, conduction):
-    """solve(rhs) = x means: the residual changes by rhs along x, viscosity following."""
-    b = bench(GRID, heat_split=split, film_heat_fraction=0.7, conduction=conduction, **DRY)
-    m, f = b.m, b.f
-    touching(b)
-    rng = np.random.default_rng(2)
-    start = rng.uniform(0.0, 60.0, f.temp.size)
-    f.temp[:] = start
-    evaluate_viscosity(m, BASE, f)
-    assert factor_heat(m, BASE, f)
-    rhs, x = rng.normal(size=f.temp.size), np.empty(f.temp.size)
-    solve_heat(m, rhs, x, f)
-    found = []
-    for e in (1e-3, -1e-3):
-        f.temp[:] = start + e * x
-        evaluate_viscosity(m, BASE, f)
-        heat_residual(m, BASE, f.temp, f)
-        found.append(f.heat.copy())
-    np.testing.assert_allclose((found[0] - found[1]) / 2e-3, rhs, rtol=0, atol=1e-6)
-
-
-@pytest.mark.parametrize("speed", [545.0, -545.0])
-@pytest.mark.parametrize("name", LAWS)
-def test_change_of_the_residual_is_the_difference(name, speed):
-    """Over positions, temperatures and the operating point, pressure, flows and liquid follow."""
-    b = bench(GRID, **LAWS[name])
-    m, f = b.m, b.f
-    base = BASE._replace(speed=speed)
-    q, _ = at_random(b, seed=4)
-    temp, start = f.temp.copy(), q.copy()
-    rng = np.random.default_rng(5)
-    dq = rng.normal(size=4) * m.sigma1 * np.array([1.0, 1.0, 0.3 / m.outer_radius, 10.0])
-    dtemp = rng.normal(size=temp.size)
-    change = Point(0.0, 50.0, 1e-4, 3.0, 3.0)
-    evaluate(m, base, q, f, False)
-    let_film_follow(m, base, change, q, dq, dtemp, f)
-    told = np.empty(temp.size)
-    gone = heat_change(m, base, change, q, dq, dtemp, f, told)
-    found, carried = [], []
-    for e in (1e-5, -1e-5):
-        f.temp[:] = temp + e * dtemp
-        at = Point(*(np.array(base) + e * np.array(change)))
-        evaluate(m, at, start + e * dq, f, False)
-        found.append(f.heat.copy())
-        carried.append(m.oil_storage * (f.rim * f.liquid) @ f.edge)
-    differences = (found[0] - found[1]) / 2e-5
-    scale = np.abs(told).max()
-    np.testing.assert_allclose(told, differences, rtol=0, atol=2e-6 * scale)
-    assert gone == pytest.approx((carried[0] - carried[1]) / 2e-5, rel=1e-5, abs=1e-9)
-
-
 def test_dry_friction_has_its_published_ends_and_its_slope():
     m = bench((5, 8)).m
     assert dry_friction(m.par, 260.5)[0] == pytest.approx(0.201870, abs=5e-7)
@@ -224,36 +156,3 @@ def test_dry_friction_has_its_published_ends_and_its_slope():
     differences = (dry_friction(m.par, 900.01)[0] - dry_friction(m.par, 899.99)[0]) / 0.02
     assert slope == pytest.approx(differences, rel=1e-7)
     assert dry_friction(bench((5, 8), friction_law="constant").m.par, 900.0) == (0.15, 0.0)
-
-
-@pytest.mark.parametrize("option", ["carrier", "rotating"])
-def test_a_rings_balance_is_the_sum_of_its_nodes_balances(option):
-    """At temperatures that a body of rings can have, the 2-D body's nodes add up to its rings."""
-    rings, whole = bench(GRID, conduction=option), bench(GRID, conduction="all")
-    q, _ = at_random(rings)
-    column = whole.m.film_step
-    whole.f.temp[:] = 0.0
-    for j in range(rings.m.n_t):
-        whole.f.temp[j * column : j * column + GRID[0]] = rings.f.temp[j * rings.m.film_step :][
-            : GRID[0]
-        ]
-    for part, values in zip(
-        bodies(whole, np.arange(whole.f.temp.size)), bodies(rings), strict=True
-    ):
-        whole.f.temp[part] = values
-    evaluate(whole.m, BASE, q, whole.f, False)
-    even = (1, 2) if option == "carrier" else (0,)
-    for k, (mine, nodes) in enumerate(
-        zip(bodies(rings, rings.f.heat), bodies(whole, whole.f.heat), strict=True)
-    ):
-        if k in even:
-            assert np.ptp(mine, axis=1).max() == 0.0
-            mine, nodes = mine[:, 0], nodes.sum(axis=1)
-        np.testing.assert_allclose(mine, nodes, rtol=0, atol=1e-10 * np.abs(nodes).max())
-
-
-def test_a_washer_at_rest_stays_at_oil_temperature():
-    b = bench(GRID)
-    pt = Point(300.0, 0.0, 0.002, 297.15, 297.15)
-    settle(b.m, pt, touching(b), b.f)
-    assert np.all(b.f.temp == 0.0)

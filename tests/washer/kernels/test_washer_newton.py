@@ -1,4 +1,4 @@
-"""The four balances: slopes against solved differences, speed of convergence, exact limits."""
+"""The four balances: speed of convergence, exact limits, failures."""
 
 import numpy as np
 import pytest
@@ -7,46 +7,13 @@ from thrustwasher.model.part_file import preset_part
 from thrustwasher.numerics.status import MAX_ITERATIONS, NOT_FINITE, OK, SINGULAR
 from thrustwasher.washer.kernels import layout as L
 from thrustwasher.washer.kernels.continuation import cold_start
-from thrustwasher.washer.kernels.film import film_solve, settle_film
-from thrustwasher.washer.kernels.gap import evaluate_gaps
-from thrustwasher.washer.kernels.heat_factor import solve_heat
-from thrustwasher.washer.kernels.newton import (
-    EXACT,
-    FILM,
-    LOAD,
-    NO_FLOOR,
-    _balance,
-    linearise,
-    make_factor,
-    newton,
-    smooth_film,
-)
-from thrustwasher.washer.kernels.workspace import Point, forget_factor, square, vector
+from thrustwasher.washer.kernels.newton import LOAD, NO_FLOOR, _balance, newton
+from thrustwasher.washer.kernels.workspace import Point, forget_factor, vector
 from thrustwasher.washer.parameters import SPEC
 
 from washer_setup import BASE, bench, full_gear, settle, tilted  # isort: skip
 
 GRID = (5, 12)  # what is tested holds on any mesh; these kernels run as plain Python
-DRY = {"oil_cooling": False, "pressure_flow_shear": False}  # the oil carries no heat
-STATES = {
-    "film": ({"ratio": 9.0}, {}),
-    "film, the paper's": ({"ratio": 9.0}, preset_part(SPEC, "paper").parameters),
-    "mixed, carrier turns": (
-        {"ratio": 2.3, "gy": 0.0019, "second": 2.6},
-        {"conduction": "rotating"},
-    ),
-    "mixed": ({"ratio": 2.3, "gy": 0.0019, "second": 2.6}, {}),
-    "boundary": ({"ratio": 0.35, "gy": 0.00168, "second": 1.0}, {}),
-    "boundary, uneven split": ({"ratio": 0.35, "gy": 0.00168, "second": 1.0}, {"heat_split": 0.3}),
-    "mixed, unequal surfaces": (
-        {"ratio": 2.3, "gy": 0.0019, "second": 2.6},
-        {"roughness_carrier": 9e-7, "roughness_gear": 3e-7},
-    ),
-}
-
-
-def unit(m, c):
-    return m.sigma1 * (1.0 if c < 2 else 1.0 / m.outer_radius)
 
 
 def balances(b, pt, q):
@@ -55,94 +22,19 @@ def balances(b, pt, q):
     return vector(b.f.small, L.BALANCE).copy()
 
 
-def converged(mode, target, b, pt, ratio=6.0, tolerance=1e-9, limit=60.0):
+def converged(target, b, pt, ratio=6.0, tolerance=1e-9, limit=60.0):
     b.w.info[:] = 0.0
     cold_start(b.w, pt, ratio)
     settle(b.m, pt, b.w.q, b.f)
-    status = newton(b.w, pt, mode, target, NO_FLOOR, tolerance, limit)
+    status = newton(b.w, pt, LOAD, target, NO_FLOOR, tolerance, limit)
     return b.w.q.copy(), b.w.info, status
-
-
-@pytest.mark.parametrize("name", STATES)
-def test_contact_stiffness_is_the_difference_of_the_contact_forces(name):
-    place, surfaces = STATES[name]
-    b = bench(GRID, **surfaces)
-    q = tilted(b.m, **place)
-    evaluate_gaps(b.m, BASE, q, b.f)
-    told = square(b.f.small, L.STIFFNESS).copy()
-    np.testing.assert_array_equal(told, told.T)
-    for c in range(4):
-        e = 1e-5 * unit(b.m, c)
-        found = []
-        for sign in (1.0, -1.0):
-            moved = q.copy()
-            moved[c] += sign * e
-            evaluate_gaps(b.m, BASE, moved, b.f)
-            found.append(vector(b.f.small, L.FORCES).copy())
-        differences = (found[0] - found[1]) / (2.0 * e)
-        scale = np.sqrt(abs(told[c, c]) * np.abs(np.diag(told))).max() + 1e-30
-        np.testing.assert_allclose(told[:, c], differences, rtol=1e-6, atol=1e-7 * scale)
-
-
-@pytest.mark.parametrize(("oil", "close"), [(DRY, 2e-5), ({}, 2e-2)])
-@pytest.mark.parametrize("name", STATES)
-def test_slopes_of_the_balances_are_differences_with_film_and_heat_solved_again(name, oil, close):
-    """Everything counts: dmu/dT, df/dF, dR/dh, the faces' slopes, the active set at rest.
-
-    Where oil carries heat, the slopes of the temperatures are left approximate.
-    """
-    place, surfaces = STATES[name]
-    b = bench(GRID, **{**surfaces, **oil})
-    m, f = b.m, b.f
-    q = tilted(m, **place)
-    settle(m, BASE, q, f)
-    assert make_factor(m, BASE, q, f.temp, f, EXACT)
-    f.heat[:] *= -1.0
-    solve_heat(m, f.heat, f.dtemp, f)
-    film_solve(m, f)
-    linearise(m, f)
-    told = square(f.small, L.SLOPES).copy()
-    scaled = np.array([1.0, 1.0, 1.0 / m.outer_radius, 1.0 / m.outer_radius])
-    for c in range(4):
-        e = 2e-5 * unit(m, c)
-        found = []
-        for sign in (1.0, -1.0):
-            moved = q.copy()
-            moved[c] += sign * e
-            found.append(balances(b, BASE, moved))
-        differences = (found[0] - found[1]) / (2.0 * e) * scaled
-        column = told[:, c] * scaled
-        np.testing.assert_allclose(column, differences, rtol=0, atol=close * np.abs(column).max())
-
-
-@pytest.mark.parametrize(
-    ("changes", "close"), [(preset_part(SPEC, "paper").parameters, 1e-4), ({}, 2e-3)]
-)
-def test_load_slope_is_the_slope_of_the_curve(changes, close):
-    """dload/ds told at a converged film thickness against two neighbouring ones.
-
-    Where oil carries heat, the slopes of the temperatures are left approximate.
-    """
-    b = bench(GRID, **changes)
-    loads, told = [], 0.0
-    for step in (0.0, 1e-3, -1e-3):
-        target = (5.0 + step) * b.m.sigma1
-        _, info, status = converged(FILM, target, b, BASE, ratio=5.0, tolerance=1e-12, limit=30.0)
-        assert status in (OK, MAX_ITERATIONS) and info[L.RESIDUAL] < 1e-10
-        assert smooth_film(b.w) == pytest.approx(target, rel=1e-10)
-        if step == 0.0:
-            forget_factor(b.w)  # heat slopes made at the point itself
-            newton(b.w, BASE, FILM, target, NO_FLOOR, 1e-9, 10.0)
-            told = info[L.LOAD_SLOPE]
-        loads.append(info[L.REACHED_LOAD])
-    assert told == pytest.approx((loads[1] - loads[2]) / (2e-3 * b.m.sigma1), rel=close)
 
 
 def residuals_from_near_by(**changes):
     """Return the residuals after 1, 2, ... full steps, each with a factor made there."""
     b = bench(GRID, **changes)
     pt = Point(300.0, 953.0, 0.002, 297.15, 297.15)
-    q, info, status = converged(LOAD, 300.0, b, pt, ratio=15.0)
+    q, info, status = converged(300.0, b, pt, ratio=15.0)
     assert status == OK
     b.w.q[:], residuals = q * np.array([1.03, 1.03, 1.0, 1.0]), []
     for _ in range(5):
@@ -166,7 +58,7 @@ def test_each_iteration_gains_a_digit_where_oil_carries_heat():
 
 def test_solution_is_the_same_from_thin_and_thick_starts():
     b = bench(GRID)
-    found = [converged(LOAD, 300.0, b, BASE, ratio=r) for r in (4.0, 8.0, 20.0)]
+    found = [converged(300.0, b, BASE, ratio=r) for r in (4.0, 8.0, 20.0)]
     assert [status for _, _, status in found] == [OK] * 3
     for q, _, _ in found[1:]:
         np.testing.assert_allclose(q, found[0][0], rtol=1e-7, atol=1e-11)
@@ -176,7 +68,7 @@ def test_equal_annuli_at_rest_share_the_tilt():
     """Without film and with equal faces the washer stands half way: gy/gt = 0.5, gx = 0."""
     b = full_gear(GRID)
     pt = Point(2000.0, 0.0, 0.002, 297.15, 297.15)
-    q, info, status = converged(LOAD, 2000.0, b, pt, ratio=1.0)
+    q, info, status = converged(2000.0, b, pt, ratio=1.0)
     assert status == OK, info
     assert q[3] / pt.tilt == pytest.approx(0.5, abs=5e-4)
     assert abs(q[2]) < 1e-9 * pt.tilt
@@ -198,7 +90,7 @@ def test_isothermal_film_scales_with_viscosity_times_speed():
 @pytest.mark.parametrize("name", ["q", "temp"])
 def test_a_start_that_is_no_number_is_a_failure(name):
     b = bench(GRID)
-    converged(LOAD, 300.0, b, BASE)
+    converged(300.0, b, BASE)
     {"q": b.w.q, "temp": b.f.temp}[name][1] = np.nan
     status = newton(b.w, BASE, LOAD, 300.0, NO_FLOOR, 1e-9, 10.0)
     assert status in (NOT_FINITE, SINGULAR, MAX_ITERATIONS)
@@ -206,7 +98,7 @@ def test_a_start_that_is_no_number_is_a_failure(name):
 
 def test_a_pressure_that_is_no_number_is_solved_for_again():
     b = bench(GRID)
-    q, _, _ = converged(LOAD, 300.0, b, BASE)
+    q, _, _ = converged(300.0, b, BASE)
     b.f.p[1:-1] = np.nan
     assert newton(b.w, BASE, LOAD, 300.0, NO_FLOOR, 1e-9, 10.0) == OK
     np.testing.assert_allclose(b.w.q, q, rtol=1e-8, atol=1e-11)
@@ -214,7 +106,7 @@ def test_a_pressure_that_is_no_number_is_solved_for_again():
 
 def test_iterations_end_at_their_limit():
     b = bench(GRID)
-    _, info, status = converged(LOAD, 300.0, b, BASE, limit=2.0)
+    _, info, status = converged(300.0, b, BASE, limit=2.0)
     assert status == MAX_ITERATIONS and info[L.ITERATIONS] == 2.0 and info[L.FACTORED] >= 1.0
 
 
@@ -224,14 +116,3 @@ def test_newton_starts_from_a_thick_film():
     pt = Point(300.0, 953.0, 0.002, 297.15, 297.15)
     cold_start(b.w, pt, 15.0)
     assert newton(b.w, pt, LOAD, 300.0, NO_FLOOR, 1e-9, 40.0) == OK
-
-
-def test_pressure_told_is_the_pressure_kept():
-    """At the solution the film, solved again, has the pressure that is already there."""
-    b = bench(GRID)
-    q, _, status = converged(LOAD, 300.0, b, BASE)
-    assert status == OK
-    settle(b.m, BASE, q, b.f)
-    before = b.f.p.copy()
-    assert settle_film(b.m, b.f) < 1e-12
-    np.testing.assert_allclose(b.f.p, before, rtol=1e-9, atol=1e-6)

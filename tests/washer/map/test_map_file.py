@@ -10,22 +10,8 @@ import pytest
 from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.washer.kernels.map import map_layout as L
 from thrustwasher.washer.map.look_up import WasherMap
-from thrustwasher.washer.map.map_build import (
-    build_lines,
-    find_reach,
-    journal_for,
-    make_map,
-    survey,
-)
-from thrustwasher.washer.map.map_file import (
-    CARD,
-    NUMBERS,
-    all_maps,
-    pack,
-    plain,
-    read_map,
-    unpack,
-)
+from thrustwasher.washer.map.map_build import build_lines, find_reach, journal_for, make_map, survey
+from thrustwasher.washer.map.map_file import CARD, NUMBERS, all_maps, pack, plain, read_map, unpack
 from thrustwasher.washer.map.map_plan import plan_map
 from thrustwasher.washer.parameters import WasherParams
 from thrustwasher.washer.solve import solve_washer

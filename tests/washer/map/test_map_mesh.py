@@ -37,9 +37,15 @@ def test_few_lines_on_a_finer_mesh_make_good_what_the_mesh_misses(tmp_path):
     assert torque == pytest.approx(there, rel=3e-3)
 
 
-def said_by(labels):
-    """Return a progress that keeps its labels."""
-    return lambda label: labels.append(label) or (lambda done, total: None)
+def made(folder, labels):
+    """Make a tiny map; the labels of its progress are kept."""
+    wish = {"box": TINY, "tolerance": 0.01, "workers": 1, "points": 2}
+
+    def progress(label):
+        labels.append(label)
+        return lambda done, total: None
+
+    return make_map(WIDE, folder / "wide.twm", **wish, progress=progress)
 
 
 def test_that_all_lines_go_to_the_finer_mesh_is_said(tmp_path, monkeypatch):
@@ -48,15 +54,7 @@ def test_that_all_lines_go_to_the_finer_mesh_is_said(tmp_path, monkeypatch):
 
     monkeypatch.setattr(map_build, "change_of_mesh", rough)
     labels = []
-    card = make_map(
-        WIDE,
-        tmp_path / "wide.twm",
-        box=TINY,
-        tolerance=0.01,
-        workers=1,
-        points=2,
-        progress=said_by(labels),
-    )
+    card = made(tmp_path, labels)
     assert card["built_from"] == "fine"
     assert "the coarser mesh is 6.0% off: all lines on the finer mesh," in labels
 
@@ -71,15 +69,7 @@ def test_a_missed_tolerance_is_told_with_its_place_and_nothing_is_left(tmp_path,
     real = map_build.check_map
     monkeypatch.setattr(map_build, "check_map", check)
     with pytest.raises(SolveError, match=r"3\.00% off at load = .* N, speed = 10 rad/s") as told:
-        make_map(
-            WIDE,
-            tmp_path / "wide.twm",
-            box=TINY,
-            tolerance=0.01,
-            workers=1,
-            points=2,
-            progress=said_by(labels),
-        )
+        made(tmp_path, labels)
     assert "the map is 3.0% off: all lines on the finer mesh," in labels
     assert "\n" not in str(told.value) and "1.00%" in str(told.value)
     assert len(meshes) == 2 and list(tmp_path.iterdir()) == []  # all lines were tried on "fine"

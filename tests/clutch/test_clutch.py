@@ -44,7 +44,7 @@ def test_arrays_are_taken_and_a_scalar_stays_a_scalar():
         (lambda: boundary_friction("a", 1), "x = 'a', numbers are required"),
         (
             lambda: boundary_friction(0.1, [[1.0], [0.5, 0.2]]),
-            "shear_ratio = .*numbers are required",
+            "shear_ratio = .*numbers are",
         ),
         (lambda: boundary_friction(0.1, 0.5, {}), "plough_weight = {}, numbers are required"),
         (lambda: solve_clutch(UNCOOLED, load=1e3, speed=1.0), "heat_transfer"),

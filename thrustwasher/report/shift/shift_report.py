@@ -25,20 +25,8 @@ SCRIPTS = (
     "draw.css",
     "draw.js",
     "shift/shift.css",
-    *(
-        f"shift/{name}.js"
-        for name in (
-            "decode",
-            "page_parts",
-            "controls",
-            "plots",
-            "flow",
-            "live",
-            "discs",
-            "slip",
-            "start",
-        )
-    ),
+    *(f"shift/{name}.js" for name in ("decode", "page_parts", "controls", "plots", "flow")),
+    *(f"shift/{name}.js" for name in ("live", "discs", "slip", "start")),
 )
 OVERVIEW_CAPTION = (
     "Shaded: the phases of the shift; dotted and numbered: what happened when. Above a film ratio "
@@ -89,7 +77,7 @@ def shift_page(record: Record) -> Page:
             "parameters",
             "What was simulated",
             texts=simulated_texts(record),
-            tables=shift_tables.parameter_tables(record),
+            tables=[shift_tables.parameter_table(part) for part in record.parts],
         ),
         Section("trust", "How far to trust it", texts=trust_texts(record)),
     ]
@@ -126,20 +114,10 @@ def _usual_sections(record: Record) -> list[Section]:
 
 
 CARDS = (
-    "lock_after_ramp_start",
-    "lock_after_half_ramp",
-    "lock_speed",
-    "stopped_inertia",
-    "slip_energy",
-    "slip_energy_per_area",
-    "{pack}_heat_flux",
-    "peak_jerk",
-    "friction_mean",
-    "friction_lock",
-    "{pack}_temperature",
-    "peak_washer_temperature_max",
-    "least_washer_film_ratio",
-    "peak_flash_temperature",
+    *("lock_after_ramp_start", "lock_after_half_ramp", "lock_speed", "stopped_inertia"),
+    *("slip_energy", "slip_energy_per_area", "{pack}_heat_flux", "peak_jerk", "friction_mean"),
+    *("friction_lock", "{pack}_temperature", "peak_washer_temperature_max"),
+    *("least_washer_film_ratio", "peak_flash_temperature"),
 )
 OF_A_LONE_PACK = ("lock_after_half_ramp", "stopped_inertia", "friction_mean", "friction_lock")
 
@@ -148,19 +126,13 @@ def _cards(record: Record) -> list[Card]:
     """Return the figures at the top; braking time and friction where a pack acts alone."""
     hidden = ("lock_after_ramp_start",) if record.alone else OF_A_LONE_PACK
     names = [n.format(pack=f"peak_{record.engaging}") for n in CARDS if n not in hidden]
-    known = {figure.name: figure for figure in record.key_figures}
     usual = beside(record)
     cards = [
         Card(f.text, usual[name][0].value_words(f.value), usual[name][0].note(f.value))
         if name in usual
-        else Card(
-            f.text,
-            f"{f.value:.4g} s"
-            if f.unit == "s"
-            else say(f.value, f.unit, digits=4, difference=f.difference),
-        )
+        else Card(f.text, f.words(f.value, 4))
         for name in names
-        if (f := known.get(name)) is not None and f.value is not None
+        if (f := record.figure(name)) is not None and f.value is not None
     ]
     share = f"{record.energy['residual_share']:.1e}"
     cards.append(Card(f"energy missing, of {record.whole_name}", share))

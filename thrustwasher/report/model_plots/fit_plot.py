@@ -51,33 +51,13 @@ def _draw_fit(
 ) -> None:
     """Draw measured points and the fit with its band; in red what the points do not tell."""
     unit, at = values
-    axis.errorbar(
-        at,
-        series.measured,
-        series.error,
-        color=BLUE,
-        marker="o",
-        ls="",
-        ms=4.5,
-        elinewidth=0.8,
-        label="measured",
-        zorder=3,
-    )
+    bars: Any = {"ls": "", "elinewidth": 0.8, "color": BLUE, "marker": "o", "ms": 4.5, "zorder": 3}
+    axis.errorbar(at, series.measured, series.error, label="measured", **bars)
     known = np.isfinite(series.half) & (series.half < 10.0 * np.abs(series.computed).max())
+    band: Any = {"color": ORANGE, "marker": "_", "ms": 8.0, "ecolor": SKY, "elinewidth": 4.0}
+    computed, half = series.computed[known], series.half[known]
     name = f"fit, {100 * found.confidence:g} % band"
-    axis.errorbar(
-        at[known],
-        series.computed[known],
-        series.half[known],
-        color=ORANGE,
-        marker="_",
-        ls="",
-        ms=8.0,
-        ecolor=SKY,
-        elinewidth=4.0,
-        alpha=0.9,
-        label=name,
-    )
+    axis.errorbar(at[known], computed, half, label=name, ls="", alpha=0.9, **band)
     if not known.all():
         axis.plot(at[~known], series.computed[~known], "x", color=RED, label="fit, not told")
     label(axis, series.name.replace("_", " "), _words(over, unit), _words("", series.unit))

@@ -79,4 +79,4 @@ def test_a_file_without_a_known_column_is_refused(tmp_path, capsys):
     points = tmp_path / "points.csv"
     points.write_text("force [N]\n100\n")
     assert main(["sweep", "clutch", "--points", str(points)]) == 2
-    assert "wanted: load, speed, oil_temperature" in capsys.readouterr().err
+    assert "required: load, speed, oil_temperature" in capsys.readouterr().err

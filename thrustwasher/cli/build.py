@@ -4,7 +4,6 @@ import argparse
 from typing import Any
 
 from ..errors import ParameterError
-from ..model.idle import idle_warnings
 from ..model.oil import sheet_oil
 from ..model.part_file import PartFile, is_part, load_part
 from ..model.registry import all_models, all_specs, find_spec
@@ -87,11 +86,7 @@ def run(arguments: argparse.Namespace) -> int:
         _options.refuse_unused(arguments, "models without a part file", (), tol=TOL)
     parts = [load_part(name) for name in filter(is_part, arguments.models)]
     parts = parts if oil is None else [part.with_oil(oil) for part in parts]
-    warnings = [
-        text
-        for p in parts
-        for text in (*idle_warnings(p.spec.key, p.params, p.fidelity), *p.oil_warnings)
-    ]
+    warnings = [text for part in parts for text in _options.part_warnings(part)]
     _output.warn(warnings)
     if arguments.target == "native" and not arguments.no_maps:
         for part in parts:

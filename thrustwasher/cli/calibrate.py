@@ -26,7 +26,14 @@ LAW_UNITS = {
 LAW_OPTIONAL = ("friction_error", "oil_temperature")
 FIGURE = "thrustwasher.report.model_plots.fit_plot:calibration_figure"
 MISFIT = 25.0  # reduced chi-square from which a fit is none: five errors on average
-SETTINGS = {"set": "NAME=VALUE", "error": "NAME=VALUE", "bounds": "NAME=LOW:HIGH"}
+REPEATED = {
+    "set": (
+        "NAME=VALUE",
+        "what is held, and where the fit starts; an input that all points share",
+    ),
+    "error": ("NAME=VALUE", "standard deviation of an output: friction_torque=2%%, of its value"),
+    "bounds": ("NAME=LOW:HIGH", "narrower range of a parameter"),
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -47,28 +54,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="parameters to fit, separated by commas; without PART constants of the friction law, "
         "default plough_weight,shear_floor,stick_speed,decay_speed",
     )
-    parser.add_argument(
-        "--set",
-        metavar="NAME=VALUE",
-        action="append",
-        default=[],
-        help="what is held, and where the fit starts; an input that all points share; may be "
-        "repeated",
-    )
-    parser.add_argument(
-        "--error",
-        metavar="NAME=VALUE",
-        action="append",
-        default=[],
-        help="standard deviation of an output: friction_torque=2%%, of its value; may be repeated",
-    )
-    parser.add_argument(
-        "--bounds",
-        metavar="NAME=LOW:HIGH",
-        action="append",
-        default=[],
-        help="narrower range of a parameter; may be repeated",
-    )
+    for option, (metavar, help) in REPEATED.items():
+        _options.add_repeated(parser, f"--{option}", metavar, help)
     parser.add_argument(
         "--confidence",
         metavar="P",
@@ -121,19 +108,31 @@ def run(arguments: argparse.Namespace) -> int:
     found = calibrate(part, **options)
     wall_time = time.perf_counter() - began
     doubts = _doubts(found)
+    warnings = [*found.warnings, *doubts]
     _options.tell_oil(part)
-    _output.warn([*found.warnings, *doubts])
+    _output.warn(warnings)
     targets.draw(FIGURE, found)
     if target:
         _write(target, part, found, data)
     if arguments.json:
-        pack = {"parameters": _output.parameters_of(found.params)}
-        inputs = {"data": data, "fit": [e.name for e in found.estimates], **columns}
-        record = {**inputs, **found.as_dict(), **pack, **_options.oil_record(part)}
-        told = {"wall_time": wall_time, "warnings": [*found.warnings, *doubts]}
-        _output.print_json(record | told)
+        _output.print_json(
+            {
+                "data": data,
+                "fit": [e.name for e in found.estimates],
+                **columns,
+                **found.as_dict(),
+                "parameters": _output.parameters_of(found.params),
+                **_options.oil_record(part),
+                "wall_time": wall_time,
+                "warnings": warnings,
+            }
+        )
         return 0
-    _say(base, found, doubts, _command(arguments, base, given))
+    print(found)
+    if doubts or not all(e.identifiable for e in found.estimates):
+        print("These values are none to use; the lines above say why.")
+    else:
+        print(f"Use it: {_command(arguments, base, given)} {_settings(found, base)}")
     return 0
 
 
@@ -149,15 +148,6 @@ def _command(arguments: argparse.Namespace, base: PartFile, given: list[str]) ->
         if value:
             words += [f"--{option}", shlex.quote(value)]
     return " ".join(words)
-
-
-def _say(base: PartFile, found: Any, doubts: list[str], command: str) -> None:
-    """Print the fit, and the command that takes its values where they can be used."""
-    print(found)
-    if doubts or not all(e.identifiable for e in found.estimates):
-        print("These values are none to use; the lines above say why.")
-        return
-    print(f"Use it: {command} {_settings(found, base)}")
 
 
 def _doubts(found: Any) -> list[str]:
@@ -187,7 +177,7 @@ def _of_model(arguments: argparse.Namespace, part: PartFile, data: str) -> dict[
     bounds, known = {}, places(part.spec)
     given = {
         option: split_settings(getattr(arguments, option), f"--{option}", metavar)
-        for option, metavar in SETTINGS.items()
+        for option, (metavar, _) in REPEATED.items()
     }
     for name, text in given["bounds"].items():
         ends = text.split(":")
@@ -206,19 +196,18 @@ def _of_model(arguments: argparse.Namespace, part: PartFile, data: str) -> dict[
 
 def _write(target: Path, part: PartFile, found: Any, data: str) -> None:
     """Write the part with the fitted values and a note on them."""
-    told = (
+    words = (
         f"{e.name} {e.value:.6g} {e.unit}".removesuffix(" 1")
         + f" ({e.interval[0]:.4g} .. {e.interval[1]:.4g}"
         f"{'' if e.identifiable else ', not told by the points'})"
         for e in found.estimates
     )
-    note = f"calibrated on {Path(data).name}, {100 * found.confidence:g} %: {', '.join(told)}"
+    note = f"calibrated on {Path(data).name}, {100 * found.confidence:g} %: {', '.join(words)}"
     notes = "; ".join(filter(None, (part.notes, note)))
     name = part.name if part.name != part.spec.name else usual_name(part.spec)
     values = _output.parameters_of(found.params)
     fitted = replace(part, name=name, parameters=values, notes=notes)
-    with _output.whole_file(target) as draft:
-        draft.write_text(part_text(fitted), encoding="utf-8")
+    _output.write_text(target, part_text(fitted))
     _output.note(f"wrote {target}")
 
 

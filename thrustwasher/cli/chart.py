@@ -53,8 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
         record = _read(arguments.draw) if arguments.draw else _measured(arguments.quick)
         page = ""
     if alone:
-        with _output.whole_file(target) as draft:
-            draft.write_text(page, "utf-8")
+        _output.write_text(target, page)
         _output.note(f"wrote {target}")
         return 0
     try:

@@ -5,41 +5,24 @@ import time
 from typing import Any
 
 from ..clutch.parameters import SPEC
-from ..errors import Status
 from ..model.parameters import check_number
-from ..model.point import point_of
 from ..units import format_quantity, parse_quantity
 from . import _options, _output
 
 HELP = "engage a wet pack: torque, film and interface temperature over time"
-COLUMNS = {
-    "time": "s",
-    "load": "N",
-    "speed": "rad/s",
-    "friction_torque": "N.m",
-    "contact_torque": "N.m",
-    "viscous_torque": "N.m",
-    "torque_capacity": "N.m",
-    "temperature": "K",
-    "film_thickness": "m",
-    "film_ratio": "1",
-    "friction_coefficient": "1",
-    "contact_share": "1",
-    "friction_power": "W",
-    "heat_flux": "W/m2",
-    "energy": "J",
-    "oil_heat": "W",
-    "stored_heat": "J",
-    "regime": "",
-}
+COLUMNS = _output.columns(
+    SPEC,
+    (
+        *("time", "load", "speed", "friction_torque", "contact_torque", "viscous_torque"),
+        *("torque_capacity", "temperature", "film_thickness", "film_ratio"),
+        *("friction_coefficient", "contact_share", "friction_power", "heat_flux", "energy"),
+        *("oil_heat", "stored_heat", "regime"),
+    ),
+    time="s",
+    regime="",
+)
 TABLE = (
-    "time",
-    "load",
-    "speed",
-    "friction_torque",
-    "viscous_torque",
-    "temperature",
-    "film_ratio",
+    *("time", "load", "speed", "friction_torque", "viscous_torque", "temperature", "film_ratio"),
     "regime",
 )
 WIDTH = 18
@@ -67,35 +50,24 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Engage, then print, write or draw."""
-    part = _options.read_part(arguments, SPEC)
-    there = point_of(part, _options.read_inputs(arguments, SPEC.inputs), SPEC.inputs)
-    point, params = there.values, part.params
+    at = _options.read_point(arguments, SPEC, SPEC.inputs)
+    point = at.there.values
     times = {name: _seconds(name, getattr(arguments, name)) for name in TIMES}
     targets = _output.targets(arguments)
 
     began = time.perf_counter()
-    result = _engage(params, point, times, arguments.fidelity or part.fidelity)
+    result = _engage(at.part.params, point, times, arguments.fidelity or at.part.fidelity)
     wall_time = time.perf_counter() - began
-    doubts = _options.doubts(arguments, SPEC.inputs)
-    doubts += _short(times, point["load"])
-    warnings = [*doubts, *there.warnings, *result.warnings]
-    _options.tell_oil(part)
-    _output.warn(warnings)
+    warnings = at.warn([*_short(times, point["load"]), *result.warnings])
     series = {name: getattr(result, name) for name in COLUMNS}
     targets.write(COLUMNS, series)
     targets.draw("thrustwasher.report.model_plots.clutch_plot:engagement_figure", result)
     if arguments.json:
         inputs = {**times, **{n: point[n] for n in ("oil_temperature", "drum_speed")}}
-        given = {
-            "parameters": _output.parameters_of(params),
-            "warnings": warnings,
-            "taken": {"box": there.box, "default": there.default},
-            **_options.oil_record(part),
-        }
-        _output.print_json({**result.as_dict(), **inputs, **given, "wall_time": wall_time})
+        _output.print_json({**result.as_dict(), **inputs, **at.record(warnings, wall_time)})
         return 0
-    if there.taken:
-        print(there.taken)
+    if at.there.taken:
+        print(at.there.taken)
     if not any(targets):
         _output.print_table({name: COLUMNS[name] for name in TABLE}, series, WIDTH)
     _print_summary(result)
@@ -165,6 +137,6 @@ def _print_summary(result: Any) -> None:
         f"{at('temperature', hot)} at {at('time', hot)}; heat {at('energy', -1)}; "
         f"boundary lubrication {begin}"
     )
-    said = result.status.advice if result.status is Status.OK else result.status.name
     step = format_quantity(float(np.diff(result.time).max()), "s")
-    print(f"  {said}; {result.fidelity}, points every {step}, {result.substeps} substeps")
+    words = f"{result.fidelity}, points every {step}, {result.substeps} substeps"
+    print(f"  {_output.status_words(result.status)}; {words}")

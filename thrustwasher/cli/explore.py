@@ -33,14 +33,12 @@ def run(arguments: argparse.Namespace) -> int:
     part = _options.with_oil(arguments, part, ())
     out = f"explore-{part.name}.html" if arguments.out is None else arguments.out
     target = _output.check_file(out, "--out", (".html", ".htm"))
-
     _output.warn(gone_rung(part.spec, part.fidelity))
 
     from ..explore.page import page
 
     text = page(part)
-    with _output.whole_file(target) as draft:
-        draft.write_text(text, "utf-8")
+    _output.write_text(target, text)
     _options.tell_oil(part)
     _output.warn(part.oil_warnings)
     print(f"{out}: {len(text.encode()) / 1e6:.2f} MB; open it in a browser")

@@ -44,7 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="X",
         help="relative error of the torque allowed, default 0.005",
     )
-    parser.add_argument("--workers", type=int, metavar="N", help="processes; default: all cores")
+    _options.add_workers(parser)
     group = parser.add_argument_group("box of a map to build: LOW:HIGH, or one value to fix")
     for signal in INPUTS:
         group.add_argument(
@@ -58,13 +58,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Do what is asked."""
-    if arguments.workers is not None and arguments.workers < 1:
-        raise ParameterError(f"--workers = {arguments.workers}, allowed: 1 or more")
     if not 2 <= arguments.points <= 100_000:
         raise ParameterError(f"--points = {arguments.points}, allowed: 2 .. 100000")
-    usual: dict[str, Any] = {}
-    if arguments.deed == "list":
-        usual = {"points": POINTS, "file": None, "workers": None}
+    usual: dict[str, Any] = {"points": POINTS, "file": None, "workers": None}
+    usual = usual if arguments.deed == "list" else {}
     if arguments.deed != "build":
         _options.refuse_unused(arguments, f"map {arguments.deed}", BUILD, **usual)
     return {"build": _build, "list": _list, "check": _check}[arguments.deed](arguments)
@@ -73,8 +70,8 @@ def run(arguments: argparse.Namespace) -> int:
 def _build(arguments: argparse.Namespace) -> int:
     if arguments.file:
         if not is_part(arguments.file):
-            raise ParameterError("build: a part file (.toml) is wanted; the map to write: --out")
-        if arguments.part or getattr(arguments, "preset", None):
+            raise ParameterError("build: a part file (.toml) is required; the map to write: --out")
+        if arguments.part or arguments.preset:
             raise ParameterError(f"build {arguments.file}: allowed: without --part and --preset")
         arguments.part = arguments.file
     usual = f"{Path(arguments.file).stem if arguments.file else 'washer'}.twm"
@@ -93,9 +90,7 @@ def _build(arguments: argparse.Namespace) -> int:
     from ..washer.map.map_build import make_map
     from ..washer.map.map_plan import DEFAULT_BOX, TOLERANCE
 
-    tolerance = TOLERANCE
-    if arguments.tolerance is not None:
-        tolerance = parse_quantity(arguments.tolerance, "1", "tolerance")
+    tolerance = parse_quantity(arguments.tolerance or TOLERANCE, "1", "tolerance")
     card = make_map(
         params,
         Path(out),
@@ -146,7 +141,7 @@ def _list(arguments: argparse.Namespace) -> int:
 
 def _check(arguments: argparse.Namespace) -> int:
     if not arguments.file:
-        raise ParameterError("check: the map file is wanted, `thrustwasher map check FILE`")
+        raise ParameterError("check: the map file is required, `thrustwasher map check FILE`")
     from ..processes import runner
     from ..washer.map.map_check import check_map, mesh_of
     from ..washer.map.map_file import read_map

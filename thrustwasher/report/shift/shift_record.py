@@ -60,7 +60,7 @@ class KeyFigure(NamedTuple):
 
 # Fields of a record that are those of the shift's result.
 OF_THE_RESULT = (
-    *("step", "master", "time", "signals", "phases", "events", "energy", "key_figures", "cost"),
+    *("step", "master", "time", "signals", "phases", "events", "energy", "cost"),
     *("wall_time", "messages", "found", "step_error", "in_time", "judder", "chatter"),
     *("selection", "guard"),
 )
@@ -178,6 +178,7 @@ def record_of(result: Any) -> Record:
         alone=scene.alone,
         ramp_start=scene.shift_start,
         oil_temperature=scene.oil_temperature,
+        key_figures=[KeyFigure(*figure) for figure in result.key_figures],
         published=result.comparison(),
         source=scene.published.source if scene.published else "",
         parts=[Part(n, part.spec, part.parameters()) for n, part in scene.parts.items()],

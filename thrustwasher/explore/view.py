@@ -1,6 +1,6 @@
 """What a model's page shows beside its interface: data."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -11,6 +11,7 @@ from ..native.library import web_functions
 
 WEB = Path(__file__).parents[1] / "report" / "web" / "explore"
 Picture = tuple[str, Any]  # caption, matplotlib's figure
+Point = Mapping[str, float]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,24 +23,22 @@ class View:
 
     worker: str
     page: str
-    calls: tuple[str, ...]  # kernels that the worker calls
+    calls: Sequence[str]  # kernels that the worker calls
     layout: Mapping[str, float]  # numbers of the kernels' layout
     rungs: Mapping[str, Mapping[str, Any]]  # that can be chosen, with what the worker needs
-    main: tuple[str, ...]  # parameters with sliders
-    figures: tuple[str, ...]  # results shown large
+    main: Sequence[str]  # parameters with sliders
+    figures: Sequence[str]  # results shown large
     solve: str  # public name of what solves, and of its parameters
     params: str
-    pictures: Callable[
-        [Any, Any, Mapping[str, float]], list[Picture]
-    ]  # (parameters, result, point)
+    pictures: Callable[[Any, Any, Point], list[Picture]]  # (parameters, result, point)
     spans: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     """Range of a slider where it is not the whole one of the input or parameter."""
     more: Mapping[str, Any] = field(default_factory=dict)  # that the page's own script reads
-    result: Callable[[Any, Mapping[str, float], str], Any] | None = None
+    result: Callable[[Any, Point, str], Any] | None = None
     """What (parameters, point, rung) come to, where it is not what the model's command solves."""
-    inputs: tuple[Signal, ...] = ()  # in place of the command's
-    usual: Mapping[str, float] = field(default_factory=dict)  # their values at the start
-    card_point: Callable[[Mapping[str, float]], Mapping[str, float]] = dict
+    inputs: Sequence[Signal] = ()  # in place of the command's
+    usual: Point = field(default_factory=dict)  # their values at the start
+    card_point: Callable[[Point], Point] = dict
     """From the inputs to those that the cards know."""
     outputs: Mapping[str, tuple[str, str]] = field(default_factory=dict)  # in place: unit, meaning
     terms: str = ""  # what words of the results mean
@@ -59,8 +58,12 @@ class View:
 
     def worker_script(self) -> str:
         """Return the worker: the kernels' functions, the model, what answers the page."""
-        stems = ("kernel", self.worker, "worker")
-        return "\n".join((WEB / f"{stem}.js").read_text("utf-8") for stem in stems)
+        return joined("kernel.js", f"{self.worker}.js", "worker.js")
+
+
+def joined(*names: str) -> str:
+    """Return the text of files in ``report/web/explore``."""
+    return "\n".join((WEB / name).read_text("utf-8") for name in names)
 
 
 def numbers_of(*modules: Any, **more: float) -> dict[str, float]:

@@ -31,18 +31,8 @@ def _pictures(params: Any, result: Any, point: Mapping[str, float]) -> list[Pict
 VIEW = View(
     worker="washer_worker",
     page="washer_view",
-    calls=(
-        "step",
-        "broken_rule",
-        "derive_grid",
-        "enter_curve",
-        "find_fold",
-        "recall",
-        "remember",
-        "walk_to",
-        "newton",
-        "outputs_at",
-    ),
+    calls="step broken_rule derive_grid enter_curve find_fold recall remember walk_to newton "
+    "outputs_at".split(),
     layout=numbers_of(
         layout,
         MODE_LOAD=newton.LOAD,
@@ -63,16 +53,8 @@ VIEW = View(
         for name in ("field", "fine")
     },
     main=("roughness", "washer_thickness", "asperity_radius", "viscosity_exponent", "heat_split"),
-    figures=(
-        "friction_torque",
-        "temperature",
-        "film_thickness",
-        "film_ratio",
-        "branch",
-        "distress",
-        "temperature_max",
-        "friction_coefficient",
-    ),
+    figures="friction_torque temperature film_thickness film_ratio branch distress "
+    "temperature_max friction_coefficient".split(),
     solve="solve_washer",
     params="WasherParams",
     terms="Film 1 lies between carrier and washer, gap 2 between washer and gear.",

@@ -22,12 +22,12 @@ def sequence_page(result: Any) -> Page:
     """Return the page of a ``SequenceResult``."""
     records = [record_of(shift) for shift in result.shifts]
     whole, oil = _whole(result, records), result.oil_temperature
-    said = (
+    sentence = (
         f"{len(records)} shifts, oil from {say(oil[0], 'K', digits=3)} to "
         f"{say(oil[-1], 'K', digits=3)}."
     )
     warnings = list(result.warnings)
-    run = run_data(whole, {}, room=ROOM, said=([said], warnings))
+    run = run_data(whole, {}, room=ROOM, said=([sentence], warnings))
     run |= {"slip": None, "shifts": len(records)}
     sections = [
         Section(
@@ -52,7 +52,7 @@ def sequence_page(result: Any) -> Page:
         title=whole.title,
         subtitle=f"Scene {whole.name}, {result.time[-1] - result.time[0]:.4g} s simulated in "
         f"{say(result.wall_time, 's', digits=3)}, {len(whole.parts)} FMUs, made by thrustwasher",
-        summary=[said],
+        summary=[sentence],
         warnings=warnings,
         cards=[],
         sections=sections,
@@ -96,12 +96,8 @@ def _head(records: Sequence[Record], row: Sequence[KeyFigure | None]) -> str:
 def _table(records: Sequence[Record]) -> Table:
     """Return key figures, a row for each shift."""
     names = (
-        "lock_after_ramp_start",
-        "slip_energy",
-        "peak_clutch_temperature",
-        "peak_brake_temperature",
-        "peak_jerk",
-        "least_washer_film_ratio",
+        *("lock_after_ramp_start", "slip_energy", "peak_clutch_temperature"),
+        *("peak_brake_temperature", "peak_jerk", "least_washer_film_ratio"),
     )
     found = [[record.figure(name) for name in names] for record in records]
     shown = [k for k in range(len(names)) if any(row[k] for row in found)]

@@ -49,13 +49,13 @@ def warnings_of_all(records: Sequence[Record]) -> list[str]:
     for i, record in enumerate(records, 1):
         for text in warnings(record):
             found.setdefault(QUANTITY.sub("#", text), (text, []))[1].append(str(i))
-    return [_said_of(text, list(dict.fromkeys(shifts))) for text, shifts in found.values()]
-
-
-def _said_of(text: str, shifts: list[str]) -> str:
-    """Return a warning with the shifts that it holds for."""
-    likewise = f"{'' if text.endswith('.') else '.'} Likewise shifts {', '.join(shifts[1:])}."
-    return f"Shift {shifts[0]}: {text}" + (likewise if len(shifts) > 1 else "")
+    lines = []
+    for text, shifts in found.values():
+        first, *others = dict.fromkeys(shifts)
+        end = "" if text.endswith(".") else "."
+        likewise = f"{end} Likewise shifts {', '.join(others)}." if others else ""
+        lines.append(f"Shift {first}: {text}{likewise}")
+    return lines
 
 
 def step_words(result: Any) -> list[str]:

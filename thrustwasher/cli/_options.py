@@ -2,7 +2,7 @@
 
 import argparse
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -268,19 +268,7 @@ def add_fidelity(parser: argparse.ArgumentParser, spec: "ModelSpec", *, auto: bo
         words.append("auto:0.01: the cheapest rung whose torque is verified to 1 % at this point")
     usual = spec.default_fidelity
     help = "; ".join([*words, f"default {usual} or the part file's"]).replace("%", "%%")
-    parser.add_argument("--fidelity", help=help, type=_rung(spec, auto), metavar="RUNG")
-
-
-def _rung(spec: "ModelSpec", auto: bool) -> Callable[[str], str]:
-    """Return the check of the option's text."""
-
-    def check(text: str) -> str:
-        if text not in spec.fidelities and not (auto and text.startswith("auto")):
-            known = " or ".join(map(repr, [*spec.rungs, *(["auto:TOLERANCE"] if auto else [])]))
-            raise argparse.ArgumentTypeError(f"{text!r}, allowed: {known}")
-        return text
-
-    return check
+    parser.add_argument("--fidelity", help=help, metavar="RUNG")
 
 
 def add_options(parser: argparse.ArgumentParser, options: Iterable[Option]) -> None:

@@ -9,9 +9,9 @@ from ..html import Page, Plot, Section, Table
 from . import summary
 from .live_washer import live_washer
 from .overview_plot import overview_figure
-from .shift_data import page_data, run_data
+from .shift_data import run_data
 from .shift_record import Event, KeyFigure, Phase, Record, record_of
-from .shift_report import ENERGY_TEXT, SCRIPTS
+from .shift_report import ENERGY_TEXT, page_of
 
 ROOM = 1_300_000  # characters of packed signals: this page has less beside them
 CAPTION = "Temperatures, speeds and torques over all shifts."
@@ -29,38 +29,17 @@ def sequence_page(result: Any) -> Page:
     warnings = list(result.warnings)
     run = run_data(whole, {}, room=ROOM, said=([sentence], warnings))
     run |= {"slip": None, "shifts": len(records)}
-    sections = [
-        Section(
-            "course",
-            "The shifts over time",
-            widgets=["plots"],
-            tables=[_table(records)],
-            plots=[
-                Plot("sequence", overview_figure(whole, STILL), CAPTION, bitmap=True, still=True)
-            ],
-        ),
-        Section("energy", "Energy", texts=[ENERGY_TEXT], widgets=["flow"]),
-    ]
+    still = Plot("sequence", overview_figure(whole, STILL), CAPTION, bitmap=True, still=True)
     washer = live_washer(whole)
-    if washer:
-        sections.insert(1, Section("washer", "The thrust washer", widgets=["discs"]))
     texts = [f"{words}." for words in summary.step_words(result)]
     texts += [f"The run says: {message}." for message in result.messages]
-    if texts:
-        sections.append(Section("trust", "How far to trust it", texts=texts))
-    return Page(
-        title=whole.title,
-        subtitle=f"Scene {whole.name}, {result.time[-1] - result.time[0]:.4g} s simulated in "
-        f"{say(result.wall_time, 's', digits=3)}, {len(whole.parts)} FMUs, made by thrustwasher",
-        summary=[sentence],
-        warnings=warnings,
-        cards=[],
-        sections=sections,
-        footer="One file, readable offline. The same numbers: shift.csv beside this page, and "
-        "thrustwasher shift --json.",
-        scripts=SCRIPTS,
-        data={**page_data([run]), "washer": washer},
-    )
+    sections = [
+        Section("course", "The shifts over time", ["plots"], [], [still], [_table(records)]),
+        *([Section("washer", "The thrust washer", ["discs"])] if washer else []),
+        Section("energy", "Energy", ["flow"], [ENERGY_TEXT]),
+        *([Section("trust", "How far to trust it", texts=texts)] if texts else []),
+    ]
+    return page_of(whole, run, sections, washer)
 
 
 def _whole(result: Any, records: Sequence[Record]) -> Record:

@@ -189,7 +189,7 @@ class _ListParameters(argparse.Action):
 def read_oil(
     arguments: argparse.Namespace, spec: "ModelSpec", others: Iterable[str]
 ) -> "Oil | None":
-    """Return the oil of ``--oil``; ParameterError if it is said in ``others`` as well."""
+    """Return the oil of ``--oil``; ParameterError if ``others`` set it as well."""
     if arguments.oil is None:
         return None
     oil = sheet_oil("--oil", arguments.oil)
@@ -309,8 +309,8 @@ def refuse_unused(
         value = getattr(arguments, name, default)
         if value != default and value not in ([], False):
             option = option_name({"settings": "set", "tolerance": "tol"}.get(name, name))
-            told = value if name == "file" else option
-            raise ParameterError(f"{told}: has no effect with {what}; leave it out")
+            given = value if name == "file" else option
+            raise ParameterError(f"{given}: has no effect with {what}; leave it out")
 
 
 def read_grid(text: str) -> tuple[int, int]:

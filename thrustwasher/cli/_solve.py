@@ -120,5 +120,5 @@ def _print_variants(variants: Variants, result: Any, parameters: Mapping[str, An
             for column, head in variants.columns.items()
         )
         mine = parameters[variants.head] == words.replace(" ", "")
-        said = f"  ({variants.chosen})" if mine else ""
-        print("  " + words.ljust(22) + "".join(cells) + said)
+        note = f"  ({variants.chosen})" if mine else ""
+        print("  " + words.ljust(22) + "".join(cells) + note)

@@ -199,7 +199,7 @@ def _write(target: Path, part: PartFile, found: Any, data: str) -> None:
     words = (
         f"{e.name} {e.value:.6g} {e.unit}".removesuffix(" 1")
         + f" ({e.interval[0]:.4g} .. {e.interval[1]:.4g}"
-        f"{'' if e.identifiable else ', not told by the points'})"
+        f"{'' if e.identifiable else ', not determined by the points'})"
         for e in found.estimates
     )
     note = f"calibrated on {Path(data).name}, {100 * found.confidence:g} %: {', '.join(words)}"

@@ -134,11 +134,9 @@ def _write(record: dict[str, Any], folder: Path, extra: str = "") -> None:
     }
     page = page_of(record, fronts)
     with _output.whole_folder(folder) as draft:
-        (draft / "chart.json").write_text(
-            json.dumps(sealed(record), indent=1, allow_nan=False), "utf-8"
-        )
-        (draft / "chart.md").write_text(markdown(page), "utf-8")
-        (draft / "chart.html").write_text(render(page), "utf-8")
-        if extra:
-            (draft / "stability.md").write_text(extra, "utf-8")
+        texts = {"chart.md": markdown(page), "chart.html": render(page), "stability.md": extra}
+        texts["chart.json"] = json.dumps(sealed(record), indent=1, allow_nan=False)
+        for name, text in texts.items():
+            if text:
+                (draft / name).write_text(text, "utf-8")
         save_plots(page, draft)

@@ -51,12 +51,10 @@ class Plot:
         """The figure as it stands in the page."""
         from markupsafe import Markup
 
-        if self.bitmap:
-            data = base64.b64encode(self.content).decode("ascii")
-            return Markup('<img alt="{}" src="data:image/png;base64,{}">').format(
-                self.caption, data
-            )
-        return Markup(self.content.decode())
+        if not self.bitmap:
+            return Markup(self.content.decode())
+        data = base64.b64encode(self.content).decode("ascii")
+        return Markup('<img alt="{}" src="data:image/png;base64,{}">').format(self.caption, data)
 
 
 @dataclass(frozen=True)
@@ -111,9 +109,9 @@ class Page:
 
     title: str
     subtitle: str
-    summary: Sequence[str]
-    warnings: Sequence[str]
-    cards: Sequence[Card]
+    summary: Sequence[str] = ()
+    warnings: Sequence[str] = ()
+    cards: Sequence[Card] = ()
     sections: Sequence[Section]
     footer: str
     scripts: Sequence[str] = ()

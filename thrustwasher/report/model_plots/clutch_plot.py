@@ -62,15 +62,8 @@ def clutch_figure(
         shares, which leaves out the shear ratio too
     """
     names = ["shear", "friction", "torque"] if ploughing is not None else ["friction", "torque"]
-    figure, axes = new_figure(
-        10.4 if ploughing is not None else 9.6,
-        4.4,
-        1,
-        len(names),
-        head=1,
-        foot=int(ploughing is not None),
-        top=TOP + SECOND,
-    )
+    wide, foot = (9.6, 0) if ploughing is None else (10.4, 1)
+    figure, axes = new_figure(wide, 4.4, 1, len(names), head=1, foot=foot, top=TOP + SECOND)
     panels = dict(zip(names, axes, strict=True))
     here, friction = abs(point["speed"]), [r.friction_coefficient for r in sweep]
     capacity = [r.torque_capacity for r in sweep]

@@ -27,7 +27,7 @@ def sequence_page(result: Any) -> Page:
         f"{say(oil[-1], 'K', digits=3)}."
     )
     warnings = list(result.warnings)
-    run = run_data(whole, {}, room=ROOM, said=([sentence], warnings))
+    run = run_data(whole, {}, room=ROOM, texts=([sentence], warnings))
     run |= {"slip": None, "shifts": len(records)}
     still = Plot("sequence", overview_figure(whole, STILL), CAPTION, bitmap=True, still=True)
     washer = live_washer(whole)

@@ -60,11 +60,11 @@ def run_data(
     moments: Mapping[str, Moment | None],
     *,
     room: int = ROOM,
-    said: tuple[Sequence[str], Sequence[str]] | None = None,
+    texts: tuple[Sequence[str], Sequence[str]] | None = None,
 ) -> dict[str, Any]:
     """Return a run as JSON types; ``moments``: the washer solved again, by the moment's words.
 
-    ``said`` are its summary and its warnings, if they are not those of one shift.
+    ``texts`` are its summary and its warnings, if they are not those of one shift.
     Signals that change are packed in ``room`` characters, all others are a number each.
     """
     absent = {f"{p.name}.{n}" for p in record.parts for n in absent_outputs(p.spec, p.params())}
@@ -82,8 +82,8 @@ def run_data(
     return {
         "name": record.name,
         "title": record.title,
-        "summary": said[0] if said else summary.sentences(record),
-        "warnings": said[1] if said else summary.warnings(record),
+        "summary": texts[0] if texts else summary.sentences(record),
+        "warnings": texts[1] if texts else summary.warnings(record),
         "figures": [figure._asdict() for figure in record.key_figures],
         "phases": record.phases,
         "events": sorted(events),
@@ -219,7 +219,7 @@ def _to_stay(rows: Array, record: Record) -> Array:
 def pack(rows: Array) -> str:
     """Return single precision rows as text: second differences of their bits, by bytes, deflated.
 
-    Courses are smooth: what is left of them is mostly zeros.
+    Profiles are smooth: what is left of them is mostly zeros.
     """
     bits = np.ascontiguousarray(rows, dtype="<f4").view("<i4")
     for _ in range(2):

@@ -208,7 +208,7 @@ def check_table(record: Record) -> Table:
 
 
 def parameter_table(part: Part) -> Table:
-    """Return the parameters of one FMU, folded; what the scene sets is told from the defaults."""
+    """Return the parameters of one FMU, folded; with what the scene sets and what is default."""
     spec = part.spec
     metadata = {f.name: f.metadata for f in fields(spec.params)}
     defaults = {f.name: f.default for f in fields(spec.params)}

@@ -133,12 +133,10 @@ def _thrust(r: Record) -> Iterator[str]:
     p, rests = asdict(part.params()) if part else {}, []
     for gear in ("sun", "ring"):
         if friction := p.get(f"{gear}_bearing_coefficient"):
-            one, two, radius = (
-                p[f"{gear}_bearing_{name}"] for name in ("shaft_1", "shaft_2", "mean_radius")
-            )
-            rests.append(
-                f"{gear}'s between {one} and {two} (friction {friction} at {say(radius, 'm')})"
-            )
+            names = (f"{gear}_bearing_{n}" for n in ("shaft_1", "shaft_2", "mean_radius"))
+            one, two, radius = map(p.__getitem__, names)
+            place = f"(friction {friction} at {say(radius, 'm')})"
+            rests.append(f"{gear}'s between {one} and {two} {place}")
     if rests and most:
         yield (
             "Axial thrust: the teeth press sun and ring against each other's side with up to "

@@ -1,7 +1,6 @@
 /* Plots over one time: a common cursor, a common zoom, signals that are switched on and off. */
 "use strict";
 const Plots = (() => {
-  const { colour, number, unitOf } = Parts;
   const COLOURS = ["blue", "red", "green", "orange", "purple", "sky", "black", "grey"];
   const DASHES = [undefined, [6, 4]];
   const NAMES = ["A", "B"];
@@ -272,8 +271,8 @@ const Plots = (() => {
   }
 
   function tableOf(panel) {
-    const unit = unitOf({ unit: panel.unit });
-    const heads = state.runs.map((run, k) => el("th", { scope: "col" }, state.runs.length > 1 ? NAMES[k] : unit || "value"));
+    const unit = panel.unit === "1" ? "value" : panel.unit;
+    const heads = state.runs.map((run, k) => el("th", { scope: "col" }, state.runs.length > 1 ? NAMES[k] : unit));
     return el("table", {}, el("thead", {}, el("tr", {}, el("th", { scope: "col" }, "at the cursor"), ...heads)), el("tbody"));
   }
 
@@ -371,5 +370,5 @@ const Plots = (() => {
     setTimeout(drawRest, 200);
   }
 
-  return { show, state, moveTo, zoom, zoomBy, pan, nearest, phaseAt, NAMES };
+  return { show, state, moveTo, zoom, zoomBy, pan, nearest, phaseAt, axis, NAMES };
 })();

@@ -79,7 +79,7 @@ def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:
     names = {f.name: _default(f) for f in fields(spec.params)}
     first = next(iter(names))
     example = "roughness=4e-7" if "roughness" in names else f"{first}={names[first]}"
-    add_settings(group, f"change a parameter, e.g. --set {example}")
+    add_settings(group, f"change a parameter, e.g. --set {example}; may be repeated")
     add_oil(group)
     group.add_argument(
         "--parameters",
@@ -90,17 +90,23 @@ def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:
     )
 
 
+def add(parser: Any, options: Mapping[str, str]) -> None:
+    """Add flags (``"--quick": help``) and options of one value (``"--out FILE": help``).
+
+    One that may be repeated has dots behind it: ``"--error NAME=VALUE ..."``.
+    """
+    for words, help in options.items():
+        name, _, metavar = words.partition(" ")
+        more: Any = {"metavar": metavar} if metavar else {"action": "store_true"}
+        if metavar.endswith(" ..."):
+            more = {"metavar": metavar[:-4], "action": "append", "default": []}
+        parser.add_argument(name, help=help, **more)
+
+
 def add_settings(parser: Any, help: str) -> None:
     """Add ``--set``."""
-    add_repeated(parser, "--set", "NAME=VALUE", help, dest="settings")
-
-
-def add_repeated(
-    parser: Any, option: str, metavar: str, help: str, dest: str | None = None
-) -> None:
-    """Add an option that may be given more than once."""
-    help = f"{help}; may be repeated"
-    parser.add_argument(option, metavar=metavar, dest=dest, action="append", default=[], help=help)
+    look: Any = {"metavar": "NAME=VALUE", "dest": "settings"}
+    parser.add_argument("--set", action="append", default=[], help=help, **look)
 
 
 def add_workers(parser: Any, help: str = "processes; default: all cores") -> None:

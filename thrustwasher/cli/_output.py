@@ -148,10 +148,9 @@ def add_targets(
     parser: argparse.ArgumentParser, *, plot: str, out: str = "", instead: str = "a table"
 ) -> None:
     """Add ``--out`` and ``--plot`` where there is something to write or draw, and ``--json``."""
-    if out:
-        parser.add_argument("--out", metavar="FILE", help=out)
-    if plot:
-        parser.add_argument("--plot", metavar="FILE", help=plot)
+    for option, help in {"--out": out, "--plot": plot}.items():
+        if help:
+            parser.add_argument(option, metavar="FILE", help=help)
     parser.add_argument("--json", action="store_true", help=f"one JSON object instead of {instead}")
 
 

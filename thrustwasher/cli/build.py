@@ -13,6 +13,18 @@ from . import _options, _output
 
 TOL = "0.01"  # by default
 HELP = f"build FMUs for co-simulation: {', '.join(model.name for model in all_models())}"
+OPTIONS = {
+    "--platforms LIST": "native only: names with commas (linux64, win64, aarch64-linux, "
+    "darwin-x86_64, darwin-arm64), all, or local; default: all (of what was edited: those that "
+    "can be linked here)",
+    "--out DIR": "the FMUs go to DIR/<target>-fmi<N>/<MODEL>.fmu; default dist",
+    "--no-maps": "native only: leave out what the washer's fidelity map looks up (2.5 MB); it is "
+    "refused then",
+    "--tol X": "relative error of the torque allowed in the map of a part file's washer, which is "
+    "built and kept if there is none; default 0.01",
+    "--terminals": "put the plugs into FMI 2.0 FMUs too, where some tools call them an error",
+    "--json": "one JSON object with the paths",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -38,38 +50,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=int,
         help="FMI version; default 2; 3 for target native only",
     )
-    parser.add_argument(
-        "--platforms",
-        metavar="LIST",
-        help="native only: names with commas (linux64, win64, aarch64-linux, darwin-x86_64, "
-        "darwin-arm64), all, or local; default: all (of what was edited: those that can be "
-        "linked here)",
-    )
-    parser.add_argument(
-        "--out",
-        metavar="DIR",
-        default="dist",
-        help="the FMUs go to DIR/<target>-fmi<N>/<MODEL>.fmu; default dist",
-    )
-    parser.add_argument(
-        "--no-maps",
-        action="store_true",
-        help="native only: leave out what the washer's fidelity map looks up (2.5 MB); it is "
-        "refused then",
-    )
-    parser.add_argument(
-        "--tol",
-        metavar="X",
-        default="0.01",
-        help="relative error of the torque allowed in the map of a part file's washer, which is "
-        "built and kept if there is none; default 0.01",
-    )
-    parser.add_argument(
-        "--terminals",
-        action="store_true",
-        help="put the plugs into FMI 2.0 FMUs too, where some tools call them an error",
-    )
-    parser.add_argument("--json", action="store_true", help="one JSON object with the paths")
+    _options.add(parser, OPTIONS)
+    parser.set_defaults(out="dist", tol=TOL)
     _options.add_oil(parser)
 
 

@@ -26,13 +26,18 @@ LAW_UNITS = {
 LAW_OPTIONAL = ("friction_error", "oil_temperature")
 FIGURE = "thrustwasher.report.model_plots.fit_plot:calibration_figure"
 MISFIT = 25.0  # reduced chi-square from which a fit is none: five errors on average
-REPEATED = {
-    "set": (
-        "NAME=VALUE",
-        "what is held, and where the fit starts; an input that all points share",
-    ),
-    "error": ("NAME=VALUE", "standard deviation of an output: friction_torque=2%%, of its value"),
-    "bounds": ("NAME=LOW:HIGH", "narrower range of a parameter"),
+SETTINGS = {"set": "NAME=VALUE", "error": "NAME=VALUE", "bounds": "NAME=LOW:HIGH"}
+OPTIONS = {
+    "--fit NAMES": "parameters to fit, separated by commas; without PART constants of the "
+    "friction law, default plough_weight,shear_floor,stick_speed,decay_speed",
+    "--set NAME=VALUE ...": "what is held, and where the fit starts; an input that all points "
+    "share; may be repeated",
+    "--error NAME=VALUE ...": "standard deviation of an output: friction_torque=2%%, of its value; "
+    "may be repeated",
+    "--bounds NAME=LOW:HIGH ...": "narrower range of a parameter; may be repeated",
+    "--confidence P": "probability of the intervals; above 0, below 1, default 0.95",
+    "--preset NAME": "preset to start from, e.g. paper",
+    "--fidelity RUNG": "rung of the model, default the part's",
 }
 
 
@@ -48,22 +53,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "friction of a clutch: speed, load, friction and, if known, friction_error and "
         'oil_temperature. A unit may follow in brackets, as in "speed [rpm]"',
     )
-    parser.add_argument(
-        "--fit",
-        metavar="NAMES",
-        help="parameters to fit, separated by commas; without PART constants of the friction law, "
-        "default plough_weight,shear_floor,stick_speed,decay_speed",
-    )
-    for option, (metavar, help) in REPEATED.items():
-        _options.add_repeated(parser, f"--{option}", metavar, help)
-    parser.add_argument(
-        "--confidence",
-        metavar="P",
-        default="0.95",
-        help="probability of the intervals; above 0, below 1, default 0.95",
-    )
-    parser.add_argument("--preset", metavar="NAME", help="preset to start from, e.g. paper")
-    parser.add_argument("--fidelity", metavar="RUNG", help="rung of the model, default the part's")
+    _options.add(parser, OPTIONS)
+    parser.set_defaults(confidence="0.95")
     _options.add_oil(parser)
     _output.add_targets(
         parser,
@@ -177,7 +168,7 @@ def _of_model(arguments: argparse.Namespace, part: PartFile, data: str) -> dict[
     bounds, known = {}, places(part.spec)
     given = {
         option: split_settings(getattr(arguments, option), f"--{option}", metavar)
-        for option, (metavar, _) in REPEATED.items()
+        for option, metavar in SETTINGS.items()
     }
     for name, text in given["bounds"].items():
         ends = text.split(":")

@@ -23,15 +23,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "or less",
     )
     group = parser.add_argument_group("of a part file")
-    group.add_argument(
-        "--tol",
-        metavar="X",
-        default=TOL,
-        help="relative error of the map's torque allowed, default 0.01",
-    )
-    group.add_argument(
-        "--points", default=POINTS, metavar="N", type=int, help="held-out points, default 60"
-    )
+    tol = "relative error of the map's torque allowed, default 0.01"
+    _options.add(group, {"--tol X": tol})
+    parser.set_defaults(tol=TOL)
+    points = "held-out points, default 60"
+    group.add_argument("--points", default=POINTS, metavar="N", type=int, help=points)
     _options.add_workers(group)
     parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")
 

@@ -8,19 +8,18 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError
-from . import _output
+from . import _options, _output
 
 HELP = "measure error and cost of every way to solve the models here, and draw the charts"
+OPTIONS = {
+    "--out DIR": "folder for chart.json, chart.html, chart.md and the drawings; default charts",
+    "--quick": "few cases and repeats: minutes become half a minute, and the numbers a first look",
+    "--draw FILE.json": "measure nothing, draw what an earlier run measured",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument(
-        "--out",
-        metavar="DIR",
-        default="charts",
-        help="folder for chart.json, chart.html, chart.md and the drawings; default charts",
-    )
     parser.add_argument(
         "--only",
         choices=["stability"],
@@ -28,14 +27,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "coupling, as stability.md beside the chart's page; with --out FILE.md that page "
         "alone",
     )
-    parser.add_argument(
-        "--quick",
-        action="store_true",
-        help="few cases and repeats: minutes become half a minute, and the numbers a first look",
-    )
-    parser.add_argument(
-        "--draw", metavar="FILE.json", help="measure nothing, draw what an earlier run measured"
-    )
+    _options.add(parser, OPTIONS)
+    parser.set_defaults(out="charts")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -35,11 +35,8 @@ LOAD_MIN, LOAD_MAX = 20.0, 3000.0  # N
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_inputs(parser, INPUTS)
-    parser.add_argument(
-        "--load",
-        metavar="LOW:HIGH",
-        help="ends of the curve [N], 1 .. 10000; default 20:3000, wider if the part's [box] is",
-    )
+    ends = "ends of the curve [N], 1 .. 10000; default 20:3000, wider if the part's [box] is"
+    _options.add(parser, {"--load LOW:HIGH": ends})
     _options.add_parameters(parser, SPEC)
     _options.add_options(parser, GRID)
     _output.add_targets(parser, out="write the points as CSV", plot="draw the curve with its folds")

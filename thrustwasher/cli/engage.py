@@ -29,20 +29,18 @@ WIDTH = 18
 TIMES = ("duration", "ramp", "step")
 LONGEST = 3600.0  # s
 MAX_POINTS = 200_000
+OPTIONS = {
+    "--duration TIME": "time from the start to zero slip [s], default 0.5 s",
+    "--ramp TIME": "time in which the load rises to its value [s], default 0.1 s",
+    "--step TIME": "distance of the points [s], default 1 ms",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_inputs(parser, SPEC.inputs)
-    parser.add_argument(
-        "--duration", default="0.5 s", help="time from the start to zero slip [s], default 0.5 s"
-    )
-    parser.add_argument(
-        "--ramp",
-        default="0.1 s",
-        help="time in which the load rises to its value [s], default 0.1 s",
-    )
-    parser.add_argument("--step", default="1 ms", help="distance of the points [s], default 1 ms")
+    _options.add(parser, OPTIONS)
+    parser.set_defaults(duration="0.5 s", ramp="0.1 s", step="1 ms")
     _options.add_parameters(parser, SPEC)
     _options.add_fidelity(parser, SPEC)
     _output.add_targets(parser, out="write all points as CSV", plot="draw the engagement")

@@ -8,6 +8,10 @@ from . import _options, _output
 
 HELP = "write one page in which a part is tried in any browser, without Python"
 USUAL = "washer"
+OPTIONS = {
+    "--preset PRESET": "preset of the model, `thrustwasher part list` names them",
+    "--out PAGE.html": "file to write, default explore-NAME.html",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -20,11 +24,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="PART.toml|MODEL",
         help=f"part file, or model with its defaults: {models}; default {USUAL}",
     )
-    parser.add_argument("--preset", help="preset of the model, `thrustwasher part list` names them")
+    _options.add(parser, OPTIONS)
     _options.add_oil(parser)
-    parser.add_argument(
-        "--out", metavar="PAGE.html", help="file to write, default explore-NAME.html"
-    )
 
 
 def run(arguments: argparse.Namespace) -> int:

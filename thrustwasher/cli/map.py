@@ -19,24 +19,20 @@ BUILD = (  # options of a map to build alone
 )
 POINTS = 60  # by default
 HELP = "chart a washer's solutions for look-up (build), list maps, check one against the mesh"
+OPTIONS = {
+    "--fidelity RUNG": "mesh to chart: fine, field; default: as the tolerance needs",
+    "--out FILE": "default washer.twm, PART.twm of a part file",
+    "--json": "one JSON object instead of words",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     parser.add_argument("deed", choices=["build", "list", "check"], help="what to do")
     parser.add_argument("file", nargs="?", help="build: a part file (.toml); check: the map file")
-    parser.add_argument(
-        "--fidelity", help="mesh to chart: fine, field; default: as the tolerance needs"
-    )
-    parser.add_argument("--out", metavar="FILE", help="default washer.twm, PART.twm of a part file")
-    parser.add_argument(
-        "--points",
-        default=60,
-        metavar="N",
-        type=int,
-        help="held-out points of the check, default 60",
-    )
-    parser.add_argument("--json", action="store_true", help="one JSON object instead of words")
+    _options.add(parser, OPTIONS)
+    points = "held-out points of the check, default 60"
+    parser.add_argument("--points", default=POINTS, metavar="N", type=int, help=points)
     parser.add_argument(
         "--tol",
         "--tolerance",

@@ -22,6 +22,12 @@ from . import _options, _output
 
 HELP = "write a part file of one's own (new), check one, list the presets"
 NEW = ("name", "preset", "settings", "out")  # of a new part alone
+OPTIONS = {
+    "--name NAME": "new: name of the part and of its FMU, default MyMODEL",
+    "--preset PRESET": "new: preset to start from, `part list` names them",
+    "--out FILE.toml": "new: file to write, default MODEL.toml; never over one",
+    "--json": "one JSON object instead of words",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -34,13 +40,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="MODEL|FILE",
         help=f"new: the model, {models}; check: the part file; list: the model, default all",
     )
-    parser.add_argument("--name", help="new: name of the part and of its FMU, default MyMODEL")
-    parser.add_argument("--preset", help="new: preset to start from, `part list` names them")
-    _options.add_settings(parser, "new: change a parameter")
-    parser.add_argument(
-        "--out", metavar="FILE.toml", help="new: file to write, default MODEL.toml; never over one"
-    )
-    parser.add_argument("--json", action="store_true", help="one JSON object instead of words")
+    _options.add(parser, OPTIONS)
+    _options.add_settings(parser, "new: change a parameter; may be repeated")
     _options.add_oil(parser)
 
 

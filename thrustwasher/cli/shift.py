@@ -20,72 +20,40 @@ OF_A_RUN = (
     *("no_guard", "ssp", "platforms", "oil"),
 )
 REPORT, TABLE, FOLDER = "report.html", "shift.csv", "shift-report"
+OPTIONS = {
+    "--scene NAME|FILE.toml": "a built-in scene (planetary, brake-test, msl, ...) or a TOML file; "
+    "default planetary",
+    "--list": "list the built-in scenes with their titles, and stop",
+    "--out DIR": "folder for report.html, overview.png and shift.csv; default shift-report",
+    "--no-report": "write no files, only say what came out",
+    "--step QUANTITY": "communication step [s], if not the scene's; up to a twentieth of the shift",
+    "--master NAME": "gauss-seidel, jacobi or linearly-implicit, if not the scene's",
+    "--fidelity [PART=]RUNG ...": "a rung for all parts that have it, or for one: field, "
+    "washer=map; auto:0.01 chooses the cheapest that holds 1 %% and checks it after the run; may "
+    "be repeated",
+    "--no-guard": "do not check the run afterwards: neither its step, nor whether steady washers "
+    "hold, nor rungs that auto chose",
+    "--ssp FILE.ssp": "write the shift as an SSP package for other tools, instead of running it",
+    "--platforms LIST": "of the package's FMUs: names with commas, all, or local; default: all "
+    "that can be linked here",
+    "--json": "one JSON object with every number",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument(
-        "--scene",
-        metavar="NAME|FILE.toml",
-        help="a built-in scene (planetary, brake-test, msl, ...) or a TOML file; default planetary",
-    )
-    parser.add_argument(
-        "--list", action="store_true", help="list the built-in scenes with their titles, and stop"
-    )
-    parser.add_argument(
-        "--out",
-        metavar="DIR",
-        default=FOLDER,
-        help="folder for report.html, overview.png and shift.csv; default shift-report",
-    )
+    _options.add(parser, OPTIONS)
+    parser.set_defaults(out=FOLDER)
     parser.add_argument(
         "--compare",
         metavar=("A", "B"),
         nargs=2,
         help="two shifts on one page, compare.html: each a report's folder, or a scene, which runs",
     )
-    parser.add_argument(
-        "--no-report", action="store_true", help="write no files, only say what came out"
-    )
-    parser.add_argument(
-        "--step",
-        metavar="QUANTITY",
-        help="communication step [s], if not the scene's; up to a twentieth of the shift",
-    )
-    parser.add_argument(
-        "--master",
-        metavar="NAME",
-        help="gauss-seidel, jacobi or linearly-implicit, if not the scene's",
-    )
     parser.add_argument("--master-tolerance", help=argparse.SUPPRESS)
-    _options.add_repeated(
-        parser,
-        "--fidelity",
-        "[PART=]RUNG",
-        "a rung for all parts that have it, or for one: field, washer=map; auto:0.01 chooses "
-        "the cheapest that holds 1 %% and checks it after the run",
-    )
-    parser.add_argument(
-        "--no-guard",
-        action="store_true",
-        help="do not check the run afterwards: neither its step, nor whether steady washers hold, "
-        "nor rungs that auto chose",
-    )
     parser.add_argument(
         "--fmu", choices=["native", "python"], default="native", help="kind of FMU; default native"
     )
-    parser.add_argument(
-        "--ssp",
-        metavar="FILE.ssp",
-        help="write the shift as an SSP package for other tools, instead of running it",
-    )
-    parser.add_argument(
-        "--platforms",
-        metavar="LIST",
-        help="of the package's FMUs: names with commas, all, or local; default: all that can be "
-        "linked here",
-    )
-    parser.add_argument("--json", action="store_true", help="one JSON object with every number")
     _options.add_oil(parser)
 
 

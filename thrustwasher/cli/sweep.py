@@ -16,45 +16,28 @@ from ._table import read_columns
 
 VALUES = "NAME=VALUES, e.g. load=50:1850:50 or speed=136,545"
 HELP = "solve a model over ranges of inputs and parameters, on all cores or on a cluster"
+OPTIONS = {
+    "--over NAME=VALUES ...": "vary an input or parameter: load=50:1850:50 (start:stop:step), "
+    "load=20:1850:x40 (40 values, equal ratios; n40: even), speed=136,545, "
+    '"oil_temperature [degC]=24,80"; may be repeated, the first input runs fastest',
+    "--points FILE.csv": "instead of --over, a file with a point in every line",
+    "--preset NAME": "named set of parameters to start from, e.g. paper",
+    "--fidelity RUNG": "rung of the model, its command's --help lists them; auto:0.01: the "
+    "cheapest whose torque is verified to 1 %% over all points",
+    "--out FILE": "table to write, .csv or .parquet; stopped, the same command goes on. Without: "
+    "CSV to standard output",
+    "--cluster ADDRESS": "Dask scheduler, e.g. tcp://10.0.0.1:8786, instead of processes",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     models = ", ".join(models_with_points())
     parser.add_argument("model", metavar="MODEL|FILE", help=f"{models}, or a part file (.toml)")
-    _options.add_repeated(
-        parser,
-        "--over",
-        "NAME=VALUES",
-        "vary an input or parameter: load=50:1850:50 (start:stop:step), load=20:1850:x40 (40 "
-        'values, equal ratios; n40: even), speed=136,545, "oil_temperature [degC]=24,80"; the '
-        "first input runs fastest",
-    )
-    parser.add_argument(
-        "--points", metavar="FILE.csv", help="instead of --over, a file with a point in every line"
-    )
-    _options.add_settings(
-        parser, "hold an input or parameter at a value, e.g. --set roughness=4e-7"
-    )
-    parser.add_argument(
-        "--preset", metavar="NAME", help="named set of parameters to start from, e.g. paper"
-    )
-    parser.add_argument(
-        "--fidelity",
-        metavar="RUNG",
-        help="rung of the model, its command's --help lists them; auto:0.01: the cheapest whose "
-        "torque is verified to 1 %% over all points",
-    )
-    parser.add_argument(
-        "--out",
-        metavar="FILE",
-        help="table to write, .csv or .parquet; stopped, the same command goes on. Without: CSV "
-        "to standard output",
-    )
+    held = "hold an input or parameter at a value, e.g. --set roughness=4e-7; may be repeated"
+    _options.add_settings(parser, held)
+    _options.add(parser, OPTIONS)
     _options.add_workers(parser, "processes; default: one per core, 1: none")
-    parser.add_argument(
-        "--cluster", metavar="ADDRESS", help="Dask scheduler, e.g. tcp://10.0.0.1:8786, instead"
-    )
     _options.add_oil(parser)
     inputs = parser.add_argument_group("inputs that are held (as with --set)")
     for name, units in _inputs().items():

@@ -1,7 +1,8 @@
 """The report of several shifts in one run: a row per shift, all signals over the whole time."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from ...units import format_quantity as say
@@ -78,23 +79,18 @@ def _table(records: Sequence[Record]) -> Table:
         *("lock_after_ramp_start", "slip_energy", "peak_clutch_temperature"),
         *("peak_brake_temperature", "peak_jerk", "least_washer_film_ratio"),
     )
-    found = [[record.figure(name) for name in names] for record in records]
-    shown = [k for k in range(len(names)) if any(row[k] for row in found)]
-    heads = [_head(records, [row[k] for row in found]) for k in shown]
-    return Table(
-        heads=("shift", "begins", *heads),
-        rows=[
-            (
-                f"{i} {'up' if record.engaging == 'clutch' else 'down'}",
-                f"{record.ramp_start:.5g} s",
-                *(
-                    ""
-                    if (f := row[k]) is None or f.value is None
-                    else say(f.value, f.unit, digits=4, difference=f.difference)
-                    for k in shown
-                ),
-            )
-            for i, (record, row) in enumerate(zip(records, found, strict=True), 1)
-        ],
-        numbers=range(1, len(shown) + 2),
-    )
+    columns: dict[str, Callable[[Any], str]] = {
+        "shift": lambda k: f"{k + 1} {'up' if records[k].engaging == 'clutch' else 'down'}",
+        "begins": lambda k: f"{records[k].ramp_start:.5g} s",
+    }
+    for name in names:
+        row = [record.figure(name) for record in records]
+        if any(row):
+            columns[_head(records, row)] = partial(_cell, row)
+    return Table.of(range(len(records)), columns)
+
+
+def _cell(row: Sequence[KeyFigure | None], k: int) -> str:
+    if (f := row[k]) is None or f.value is None:
+        return ""
+    return say(f.value, f.unit, digits=4, difference=f.difference)

@@ -242,12 +242,6 @@ def settings(record: Record) -> dict[str, str]:
     return given | own
 
 
-def source_texts(record: Record) -> list[str]:
-    """Return where the defaults of the models in this run come from."""
-    docs = {p.spec.name: (p.spec.params.__doc__ or "").replace("``", "") for p in record.parts}
-    return [f"{model}. {' '.join(words.split())}" for model, words in docs.items()]
-
-
 def _plain(value: Any) -> str:
     """Return a parameter's value in SI units."""
     if isinstance(value, bool) or not isinstance(value, int | float):

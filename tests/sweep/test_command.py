@@ -58,7 +58,7 @@ def test_an_input_that_is_not_given_is_where_the_model_s_command_has_it(capsys):
         (["washer", "--over", "load=1,2", "--over", "load=3"], "twice"),
         (["washer", "--over", "load=1,2", "--set", "tilt=1e-3", "--tilt", "2e-3"], "twice"),
         (["washer", "--over", "load=1,2", "--power", "3"], "no input of ThrustWasher"),
-        (["washer", "--over", "load=1,2", "--workers", "two"], "--workers two"),
+        (["washer", "--over", "load=1,2", "--workers", "two"], "--workers: two"),
         (["washer", "--points", "nowhere.csv"], "nowhere.csv"),
     ],
 )

@@ -25,7 +25,7 @@ from thrustwasher.model.part_file import made_of
 from thrustwasher.model.registry import spec_of
 from thrustwasher.study.cases import Case, cases, own_case
 from thrustwasher.study.measured_chart import deviation, floor_of
-from thrustwasher.study.reference_cache import answer, reference_points, source_of
+from thrustwasher.study.reference_cache import SOURCES, answer, reference_points
 from thrustwasher.study.reference_values import OK, ReferencePoint
 
 SEED = 2026
@@ -63,7 +63,7 @@ def points_of(case: Case, n: int, charts: Iterable[str] | None = None) -> Points
     case = dataclasses.replace(case, seed=SEED)
     known = [
         t
-        for t in reference_points(case, source_of(case.spec.key), n)
+        for t in reference_points(case, SOURCES[case.spec.key], n)
         if not t.beside_fold and (charts is None or t.chart in charts)
     ]
     floors = {c: floor_of([t for t in known if t.chart == c]) for c in {t.chart for t in known}}

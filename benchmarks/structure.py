@@ -23,8 +23,8 @@ PACKAGE = ROOT / "thrustwasher"
 SUFFIXES = (".py", ".toml", ".jinja", ".js", ".css", ".c", ".h")
 FMI_HEADER = re.compile(r"fmi[23]\w*(Functions|FunctionTypes|TypesPlatform|PlatformTypes)\.h")
 FORMAT_MARK = re.compile(r"#\s*fmt:\s*(skip|off|on)\b")
-DOTTED = re.compile(r"(\w+(?:\.\w+)+):\w+")  # what is imported where it is needed: "module:NAME"
-LEAST_WIDTH, LINE_WIDTH = 0.09, 1.3e-5  # of a box, as shares of the picture; per line of code
+DOTTED = re.compile(r'"(\w+(?:\.\w+)+):\w+"')  # what could be imported by a name: "module:NAME"
+LEAST_WIDTH, LINE_WIDTH = 0.085, 1e-5  # of a box, as shares of the picture; per line of code
 HALF_HEIGHT = 0.22  # of a box, in layers
 SPACE = 0.015  # between a box and an arrow that passes it
 ARROW = {"arrowstyle": "-|>", "color": "0.5", "lw": 0.9, "shrinkA": 0, "shrinkB": 0}
@@ -57,27 +57,14 @@ def imports() -> dict[str, set[str]]:
     return found
 
 
-@cache
-def all_edges() -> dict[str, set[str]]:
-    """Return the imports, and as such what a module names as "module:NAME".
-
-    The names of a TOML file count for its package and for the modules beside it that read it.
-    """
-    found = {name: set(others) for name, others in imports().items()}
-    for name, path in modules().items():
-        nodes = (n for n in ast.walk(tree_of(path)) if isinstance(n, ast.Constant))
-        found[name] |= _dotted(str(n.value) for n in nodes if isinstance(n.value, str))
-        text = path.read_text("utf-8").replace("spec_beside(__file__", '"interface.toml"')
-        for table in path.parent.glob("*.toml"):
-            if path.name == "__init__.py" or f'"{table.name}"' in text:
-                found[name] |= _dotted(re.findall(r'"([^"\n]*)"', table.read_text("utf-8")))
-        found[name].discard(name)
+def names_of_modules() -> dict[str, set[str]]:
+    """Return the modules that sources name in strings, as "module:NAME": file -> modules."""
+    found = {}
+    for path in sources():
+        named = {name for name in DOTTED.findall(path.read_text("utf-8")) if name in modules()}
+        if named:
+            found[path.relative_to(ROOT).as_posix()] = named
     return found
-
-
-def _dotted(texts: Iterable[str]) -> set[str]:
-    """Return the modules that texts name which are "module:NAME" and nothing else."""
-    return {m[1] for m in map(DOTTED.fullmatch, texts) if m} & modules().keys()
 
 
 def _targets(node: ast.AST, package: str) -> Iterable[str]:
@@ -350,7 +337,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--draw", metavar="FILE", type=Path, help="draw the folders and imports")
     given = parser.parse_args()
-    found = circles(all_edges())
+    found = circles(imports())
     wide, n = folder_widths().most_common(1)[0]
     lines = source_lines()
     kinds = ", ".join(f"{count} {suffix[1:]}" for suffix, count in lines.most_common())

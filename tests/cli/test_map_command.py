@@ -89,7 +89,7 @@ def test_build_makes_the_map_of_a_part_once_and_puts_it_inside(tmp_path, monkeyp
     with zipfile.ZipFile("dist/native-fmi2/Mine.fmu") as fmu:
         assert "resources/map-0.bin" in fmu.namelist()
         assert "map, when built" in fmu.read("documentation/index.html").decode()
-    monkeypatch.setattr("thrustwasher.washer.map.look_up.MAKER", "none.such:maker")
+    monkeypatch.setattr("thrustwasher.washer.map.map_tables.make_map", None)
     assert main(words) == 0
     assert "no map" not in capsys.readouterr().err
 
@@ -97,7 +97,7 @@ def test_build_makes_the_map_of_a_part_once_and_puts_it_inside(tmp_path, monkeyp
 def test_build_takes_the_map_that_was_built_for_the_part_file(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr("thrustwasher.washer.map.look_up.MAKER", "none.such:maker")
+    monkeypatch.setattr("thrustwasher.washer.map.map_tables.make_map", None)
     (tmp_path / "mine.toml").write_text(MINE)
     few = ["--tol", "0.02", "--workers", "1", "--points", "4"]
     assert main(["map", "build", "mine.toml", *few]) == 0

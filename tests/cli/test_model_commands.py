@@ -20,6 +20,7 @@ from thrustwasher import (
 from thrustwasher.cli import MODELS, engage, main
 from thrustwasher.gearmesh.parameters import SPEC as MESH_SPEC
 from thrustwasher.model.part_file import preset_parts
+from thrustwasher.washer.model import Washer
 
 WASHER = {"load": 300.0, "speed": 953.0, "tilt": 0.002}
 PACK = {"load": 9000.0, "speed": -2.0}
@@ -223,9 +224,11 @@ def test_an_engagement_is_written_whole(tmp_path):
 
 
 def test_a_record_alone_makes_a_command(capsys, monkeypatch):
-    washer = MODELS["washer"]
-    told = replace(washer.command, help="solve a ring", title="ring", options=(), figure="")
-    monkeypatch.setitem(MODELS, "ring", replace(washer, key="ring", command=told))
+    class Ring(Washer):
+        key = "ring"
+        command = replace(Washer.command, help="solve a ring", title="ring", options=(), plot="")
+
+    monkeypatch.setitem(MODELS, "ring", Ring())
     monkeypatch.setattr(cli, "COMMANDS", (*cli.COMMANDS, "ring"))
     assert "  ring      solve a ring\n" in shown([], capsys)
     assert shown(["ring", "--load", "300"], capsys).startswith("ring at load 300 N")

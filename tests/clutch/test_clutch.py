@@ -49,9 +49,12 @@ def test_arrays_are_taken_and_a_scalar_stays_a_scalar():
         (lambda: boundary_friction(0.1, 1.5), "shear_ratio = 1.5, allowed: 0 .. 1"),
         (lambda: boundary_friction(np.nan, 0.5), "x = nan"),
         (lambda: boundary_friction([0.1, 0.2], [0.1, 0.2, 0.3]), r"shapes \(2,\), \(3,\)"),
-        (lambda: boundary_friction("a", 1), "x = 'a', numbers are wanted"),
-        (lambda: boundary_friction(0.1, [[1.0], [0.5, 0.2]]), "shear_ratio = .*numbers are wanted"),
-        (lambda: boundary_friction(0.1, 0.5, {}), "plough_weight = {}, numbers are wanted"),
+        (lambda: boundary_friction("a", 1), "x = 'a', numbers are required"),
+        (
+            lambda: boundary_friction(0.1, [[1.0], [0.5, 0.2]]),
+            "shear_ratio = .*numbers are required",
+        ),
+        (lambda: boundary_friction(0.1, 0.5, {}), "plough_weight = {}, numbers are required"),
         (
             lambda: solve_clutch(PACK, load=-1.0, speed=1.0),
             r"load = -1.0 N, allowed: 0 ..",

@@ -242,7 +242,7 @@ def test_hopeless_questions_get_an_honest_answer(slip, mu, fit, width):
         ({"fit": ("load",)}, "does not depend on load"),
         ({"fit": ("plough_wight",)}, "did you mean plough_weight"),
         ({"fit": ("constant_friction",)}, "friction_law 'wang'"),
-        ({"pack": BOUNDARY}, "oil_temperature is missing, wanted with"),
+        ({"pack": BOUNDARY}, "oil_temperature is missing, required with"),
         ({"pack": BOUNDARY, "oil_temperature": 260.0}, "twice the shear of the settled film"),
     ],
 )

@@ -11,13 +11,12 @@ import needed
 import pytest
 
 from thrustwasher.explore.description import describe, inputs_of
-from thrustwasher.explore.page import page
-from thrustwasher.explore.view import WEB
+from thrustwasher.explore.page import VIEWS, page
 from thrustwasher.model.parameters import as_numbers
 from thrustwasher.model.part_file import find_part
-from thrustwasher.model.record import resolve
 from thrustwasher.model.registry import find_model
 from thrustwasher.native.library import web_module
+from thrustwasher.report.web_worker import WEB
 
 HERE = Path(__file__).parent
 MODELS = ("washer", "gearmesh", "clutch")
@@ -35,7 +34,7 @@ def html(model):
 def about(model):
     """What the page's scripts read."""
     found = find_model(model)
-    view = resolve(found.explore)
+    view = VIEWS[model]
     point = {s.name: view.usual.get(s.name, s.usual) for s in inputs_of(found, view)}
     return describe(found, view, find_part(model), point)
 
@@ -49,11 +48,11 @@ def wasm_file(kernel):
 
 def answers(model, tasks, *, params=None, rung=None):
     """Return what the worker answers to its tasks, the parameters set first, and the seconds."""
-    spec, view = find_model(model).spec, resolve(find_model(model).explore)
+    spec, view = find_model(model).spec, VIEWS[model]
     module = wasm_file(spec.kernel)
     numbers = as_numbers(params or spec.params())
     given = {
-        "scripts": [str(WEB / f"{stem}.js") for stem in ("kernel", view.worker)],
+        "scripts": [str(WEB / f"{stem}.js") for stem in ("kernel", view.worker.script)],
         "about": about(model)["worker"],
         "module": str(module),
         "tasks": [["set", numbers, rung or spec.default_fidelity], *tasks],

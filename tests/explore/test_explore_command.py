@@ -11,10 +11,9 @@ from pages import MODELS, WEB, about, html
 
 from thrustwasher import WasherParams, cli, solve_washer
 from thrustwasher.errors import ParameterError
-from thrustwasher.explore.page import page
+from thrustwasher.explore.page import VIEWS, page
 from thrustwasher.model.part_file import find_part
-from thrustwasher.model.record import resolve
-from thrustwasher.model.registry import all_models, find_model
+from thrustwasher.model.registry import find_model, models_with_points
 
 LARGEST = 1_500_000  # bytes of a page
 OUR_LINES = 2500  # of JavaScript in the package
@@ -84,11 +83,11 @@ def test_units_ranges_and_texts_are_those_of_the_interface(model):
         if given["name"] in names:
             s = names[given["name"]]
             assert (given["unit"], given["help"], given["max"]) == (s.unit, s.help, s.high)
-    view = resolve(find_model(model).explore)
+    view = VIEWS[model]
     assert {*view.main} <= {f.name for f in fields(spec.params)}
     assert {*view.figures} <= told["outputs"].keys()
-    assert told["worker"]["functions"].keys() == {*view.calls}
-    assert all((WEB / f"{stem}.js").exists() for stem in (view.worker, view.page))
+    assert told["worker"]["functions"].keys() == {*view.worker.calls}
+    assert all((WEB / f"{stem}.js").exists() for stem in (view.worker.script, view.page))
 
 
 def test_a_page_of_a_part_begins_with_its_values_inside_its_box(tmp_path):
@@ -116,7 +115,7 @@ def test_a_page_holds_its_equations_and_names_the_other_pages():
 
 
 def test_models_with_a_page_are_those_with_a_command():
-    assert {m.key for m in all_models() if m.explore} == {m.key for m in all_models() if m.command}
+    assert VIEWS.keys() == models_with_points().keys()
 
 
 def test_our_javascript_stays_short():

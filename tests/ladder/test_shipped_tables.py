@@ -8,7 +8,7 @@ from thrustwasher.ladder.error_table import QUANTITIES, fresh_rungs, load_tables
 from thrustwasher.storage.digests import DATA
 from thrustwasher.study.cases import cases
 from thrustwasher.study.measured_chart import deviation
-from thrustwasher.study.reference_cache import answer, source_of
+from thrustwasher.study.reference_cache import SOURCES, answer
 from thrustwasher.study.reference_values import OK
 
 MODELS = ("washer", "clutch", "gearmesh")
@@ -47,7 +47,7 @@ def test_every_region_holds_thirty_points_and_all_hold_three_hundred(case):
 
 @pytest.mark.parametrize("case", CASES, ids=label)
 def test_points_solved_again_err_as_their_table_says(case):
-    known = [t for k in AGAIN for t in source_of(case.spec.key).solve(case.params, case.point(k))]
+    known = [t for k in AGAIN for t in SOURCES[case.spec.key].solve(case.params, case.point(k))]
     known = [t for t in known if not t.beside_fold]
     assert known
     for name, rung in fresh_rungs(case.spec.key, case.params).items():

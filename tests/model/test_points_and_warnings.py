@@ -21,7 +21,7 @@ from thrustwasher import (
 )
 from thrustwasher.calibration.model_fit import calibrate
 from thrustwasher.cli import main
-from thrustwasher.model.kept import kept_warnings
+from thrustwasher.model.idle import kept_warnings
 from thrustwasher.model.part_file import find_part, preset_parts
 from thrustwasher.model.registry import models_with_points
 from thrustwasher.washer.kernel_arguments import Recent

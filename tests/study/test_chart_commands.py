@@ -7,9 +7,10 @@ import pytest
 
 from thrustwasher import cli
 from thrustwasher.errors import ParameterError
-from thrustwasher.model.registry import models_with_cards
+from thrustwasher.model.registry import models_with_cards, spec_of
 from thrustwasher.study.charts.chart_page import command_lines
-from thrustwasher.study.charts.chart_series import cases_of, series_of
+from thrustwasher.study.charts.chart_series import cases_of
+from thrustwasher.study.charts.work_precision import CHARTS
 from thrustwasher.study.macro_steps import WAYS
 
 
@@ -17,7 +18,7 @@ def marks():
     """Yield model, study and sample of every mark that a chart can have, in every case."""
     for model in models_with_cards():
         cases = [vars(case) for case in cases_of(model)]
-        for one in series_of(model):
+        for one in CHARTS[model].series(spec_of(model)):
             sample = {**vars(one), "errors": {}}
             for case in cases:
                 yield model, {"cases": cases}, sample, case["name"]

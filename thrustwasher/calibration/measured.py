@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from ..errors import FIRST_FAILURE, ParameterError, Status, suggestion
 from ..model.part_file import PartFile
-from ..model.record import OwnOutputs, resolve
 from ..model.registry import find_model
 from ..model.spec import ModelSpec
 from ..numerics.jit import Array
@@ -19,13 +18,6 @@ from ..sweep.sweep_plan import Plan, make_plan
 from ..units import parse_quantity
 
 ERROR = "_error"  # ending of the column with an output's standard deviation
-
-
-def own_outputs(spec: ModelSpec) -> OwnOutputs:
-    """Return the outputs that a model's record adds."""
-    name = find_model(spec.key).fits.outputs
-    found: OwnOutputs = resolve(name) if name else OwnOutputs(units={})
-    return found
 
 
 @dataclass(frozen=True)
@@ -54,7 +46,7 @@ class Measured:
 
     def computed(self, changes: Mapping[str, float]) -> tuple[Array, dict[int, Status]]:
         """Return the outputs [SI] with changed parameters, (n,), and the rows that failed, why."""
-        plan, own = self.plan, own_outputs(self.plan.spec)
+        plan, own = self.plan, find_model(self.plan.spec.key).fits.outputs
         sets = [_changed(params, changes) for params in plan.params]
         params = tuple(sets[i] for i in plan.params_of)
         starts = tuple(plan.starts.tolist())
@@ -87,7 +79,9 @@ def _changed(params: Any, changes: Mapping[str, float]) -> Any:
 
 def output_units(spec: ModelSpec) -> dict[str, str]:
     """Return the unit of every output that can be measured."""
-    return {s.name: s.unit for s in output_signals(spec)[0]} | dict(own_outputs(spec).units)
+    return {s.name: s.unit for s in output_signals(spec)[0]} | dict(
+        find_model(spec.key).fits.outputs.units
+    )
 
 
 def column_units(spec: ModelSpec) -> dict[str, str]:
@@ -108,7 +102,7 @@ def measured(
 ) -> Measured:
     """Return measured points, or name the first thing that cannot be used."""
     spec = part.spec
-    units, known, own = output_units(spec), column_units(spec), own_outputs(spec)
+    units, known, own = output_units(spec), column_units(spec), find_model(spec.key).fits.outputs
     for name in data:
         if name not in known:
             hint = suggestion(name, known, "did you mean {}? ") + f"outputs: {', '.join(units)}"

@@ -9,7 +9,6 @@ import numpy as np
 from ..errors import ParameterError, SolveError
 from ..model.parameters import allowed
 from ..model.part_file import PartFile, find_part
-from ..model.record import resolve
 from ..model.registry import find_model, models_with_points
 from ..numerics.jit import Array
 from ..sweep.solve_rows import check_rung
@@ -17,7 +16,7 @@ from .estimates import Calibration
 from .fit import chosen_names, fitted
 from .identifiability import Verdict, counted
 from .least_squares import Problem
-from .measured import Measured, measured, output_units, own_outputs
+from .measured import Measured, measured, output_units
 
 ModelCalibration = Calibration  # its name while a law's fit was another one
 STEP = 1e-3  # of a parameter's scale, for differences of converged solutions
@@ -142,7 +141,11 @@ class ModelProblem(Problem):
             return
         failed = points.computed(self.values(first))[1]
         i = int(np.argmin(np.isfinite(computed)))
-        row, name, own = int(points.row[i]), points.output[i], own_outputs(plan.spec)
+        row, name, own = (
+            int(points.row[i]),
+            points.output[i],
+            find_model(plan.spec.key).fits.outputs,
+        )
         inputs = (f"{key} {plan.shown[key][row]:g}" for key in plan.shown if key in plan.units)
         where = f"point {row + 1} ({', '.join(inputs)}): {name}"
         if name in own.units:
@@ -161,7 +164,7 @@ class ModelProblem(Problem):
 
     def drawn_over(self, output: str) -> dict[str, tuple[str, Array]]:
         """Return unit and values of the inputs of all measured values, over which one is drawn."""
-        plan, own = self.points.plan, own_outputs(self.points.plan.spec)
+        plan, own = self.points.plan, find_model(self.points.plan.spec.key).fits.outputs
         left_out = own.without if output in own.units else ""
         names = (name for name in plan.units if name != left_out)
         return {name: (plan.units[name], plan.shown[name][self.points.row]) for name in names}
@@ -317,9 +320,10 @@ def calibrate(
     start, params = _start(part)
     spec = start.spec
     data, at = {**(data or {}), **columns}, at or {}
-    own = own_outputs(spec)
+    model = find_model(spec.key)
+    own = model.fits.outputs
     is_law = not own.computed and not own.units.keys().isdisjoint(data)
-    kind: type[ModelProblem] = resolve(find_model(spec.key).fits.law) if is_law else ModelProblem
+    kind: type[ModelProblem] = (model.fits.law if is_law else None) or ModelProblem
     points = measured(start, params, data, at, errors or {}, fidelity or start.fidelity)
     points, names = kind.asked(points, fit, {*data, *at})
     if twice := set(names) & set(data):

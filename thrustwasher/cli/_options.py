@@ -19,7 +19,7 @@ from ..model.part_file import (
     preset_parts,
 )
 from ..model.point import Point, point_of
-from ..model.record import Option, resolve
+from ..model.record import Option
 from ..model.registry import find_model, spec_of
 from ..sweep.axes import Place, split_settings
 from ..units import has_unit, parse_quantity
@@ -287,8 +287,8 @@ def read_options(arguments: argparse.Namespace, options: Iterable[Option]) -> di
     """Return the value of every option, None where it was left out."""
     found = {}
     for o in options:
-        text, read = getattr(arguments, o.name), resolve(o.read) if o.read else str
-        found[o.name] = None if text is None else read(text)
+        text = getattr(arguments, o.name)
+        found[o.name] = None if text is None else o.read(text)
     return found
 
 
@@ -317,14 +317,6 @@ def refuse_unused(
             option = option_name({"settings": "set", "tolerance": "tol"}.get(name, name))
             given = value if name == "file" else option
             raise ParameterError(f"{given}: has no effect with {what}; leave it out")
-
-
-def read_grid(text: str) -> tuple[int, int]:
-    """Return (n_r, n_theta); the model checks its limits."""
-    match = re.fullmatch(r"\s*(\d{1,5})\s*[xX,]\s*(\d{1,5})\s*", text)
-    if match is None:
-        raise ParameterError(f"grid = {text!r}, allowed: two node counts as in 9x32")
-    return int(match[1]), int(match[2])
 
 
 def option_name(name: str) -> str:

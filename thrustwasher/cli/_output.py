@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..errors import ParameterError, Status
-from ..model.record import resolve
 from ..model.spec import ModelSpec
 from ..storage.whole_files import new_folder
 from ..storage.whole_files import whole_file as whole_file
@@ -177,12 +176,11 @@ class Targets(NamedTuple):
                 table.writerow(map(as_json, row))
         note(f"wrote {self.out}")
 
-    def draw(self, figure: str, *shown: Any) -> None:
-        """Draw the figure that the function of a dotted name makes of what is to be shown."""
-        if self.plot is None:
-            return
+    def draw(self, figure: Any) -> None:
+        """Write a figure of matplotlib."""
+        assert self.plot is not None
         with whole_file(self.plot) as draft:
-            resolve(figure)(*shown).savefig(draft)
+            figure.savefig(draft)
         note(f"wrote {self.plot}")
 
 

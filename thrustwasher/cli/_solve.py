@@ -6,8 +6,7 @@ import time
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ..model.point import command_inputs
-from ..model.record import Command, Model, Variants, resolve
+from ..model.record import Command, Model, Variants
 from ..model.spec import ModelSpec
 from . import _options, _output
 
@@ -24,32 +23,34 @@ class PointCommand:
         """Declare the options."""
         model, spec = self._command, self._model.spec
         # The model's own inputs come first.
-        inputs = sorted(command_inputs(self._model), key=lambda signal: signal not in spec.inputs)
+        inputs = sorted(self._model.inputs(), key=lambda signal: signal not in spec.inputs)
         _options.add_inputs(parser, inputs)
         _options.add_parameters(parser, spec)
         _options.add_fidelity(parser, spec, auto=self._model.ladder is not None)
         _options.add_options(parser, model.options)
-        _output.add_targets(parser, plot=model.figure_help if model.figure else "")
+        _output.add_targets(parser, plot=model.plot)
 
     def run(self, arguments: argparse.Namespace) -> int:
         """Solve, then print or draw."""
         model, spec = self._command, self._model.spec
-        inputs = command_inputs(self._model)
+        inputs = self._model.inputs()
         at = _options.read_point(arguments, spec, inputs)
         point, params = at.there.values, at.part.params
         given = {"preset": getattr(arguments, "preset", None), "part": arguments.part}
         options = _options.read_options(arguments, model.options)
         targets = _output.targets(arguments)
 
-        solve = resolve(model.solve)
-        place = resolve(model.place)(point) if model.place else point
+        place = self._model.place(point)
         fidelity = _rung(arguments.fidelity or at.part.fidelity, spec, params, place)
         began = time.perf_counter()
-        result = solve(params, **point, fidelity=fidelity, **options)
+        result = self._model.solve(params, **point, fidelity=fidelity, **options)
         wall_time = time.perf_counter() - began
-        own = resolve(model.warning)(result) if model.warning and not any(options.values()) else ""
+        own = "" if any(options.values()) else self._model.doubt(result)
         warnings = at.warn(filter(None, [*result.warnings, own]))
-        targets.draw(model.figure, result, point, params)
+        if targets.plot:
+            from ..report.model_plots import FIGURES
+
+            targets.draw(FIGURES[spec.key](result, point, params))
         found, parameters = _output.scalars(result), _output.parameters_of(params)
         if arguments.json:
             _output.print_json({**found, **point, **given, **at.record(warnings, wall_time)})

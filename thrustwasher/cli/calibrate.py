@@ -24,7 +24,6 @@ LAW_UNITS = {
     "oil_temperature": "K",
 }
 LAW_OPTIONAL = ("friction_error", "oil_temperature")
-FIGURE = "thrustwasher.report.model_plots.fit_plot:calibration_figure"
 MISFIT = 25.0  # reduced chi-square from which a fit is none: five errors on average
 SETTINGS = {"set": "NAME=VALUE", "error": "NAME=VALUE", "bounds": "NAME=LOW:HIGH"}
 OPTIONS = {
@@ -102,7 +101,10 @@ def run(arguments: argparse.Namespace) -> int:
     warnings = [*found.warnings, *doubts]
     _options.tell_oil(part)
     _output.warn(warnings)
-    targets.draw(FIGURE, found)
+    if targets.plot:
+        from ..report.model_plots.fit_plot import calibration_figure
+
+        targets.draw(calibration_figure(found))
     if target:
         _write(target, part, found, data)
     if arguments.json:

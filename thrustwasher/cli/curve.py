@@ -6,8 +6,8 @@ from typing import Any
 
 from ..errors import ParameterError
 from ..model.part_file import PartFile
-from ..model.registry import find_model
 from ..units import format_quantity, parse_quantity
+from ..washer.model import GRID
 from ..washer.parameters import SPEC
 from . import _options, _output
 
@@ -25,8 +25,6 @@ COLUMNS = _output.columns(
     contact_load="N",
     branch="",
 )
-COMMAND = find_model("washer").command
-GRID = [option for option in COMMAND.options if option.name == "grid"] if COMMAND else []
 TABLE = ("load", "film_ratio", "friction_torque", "friction_coefficient", "temperature", "branch")
 WIDTH = 22
 LOAD_MIN, LOAD_MAX = 20.0, 3000.0  # N
@@ -38,7 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     ends = "ends of the curve [N], 1 .. 10000; default 20:3000, wider if the part's [box] is"
     _options.add(parser, {"--load LOW:HIGH": ends})
     _options.add_parameters(parser, SPEC)
-    _options.add_options(parser, GRID)
+    _options.add_options(parser, [GRID])
     _output.add_targets(parser, out="write the points as CSV", plot="draw the curve with its folds")
 
 
@@ -46,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Trace, then print, write or draw."""
     at = _options.read_point(arguments, SPEC, INPUTS)
     point = at.there.values
-    grid = _options.read_options(arguments, GRID)
+    grid = _options.read_options(arguments, [GRID])
     targets = _output.targets(arguments)
 
     from ..washer.load_curve import load_curve
@@ -58,7 +56,10 @@ def run(arguments: argparse.Namespace) -> int:
     warnings = at.warn(curve.warnings)
     series = {name: [getattr(p, name) for p in curve.points] for name in COLUMNS}
     targets.write(COLUMNS, series)
-    targets.draw("thrustwasher.report.model_plots.washer_plots:curve_figure", curve, point)
+    if targets.plot:
+        from ..report.model_plots.washer_plots import curve_figure
+
+        targets.draw(curve_figure(curve, point))
     if arguments.json:
         found = {n: list(map(_output.scalars, getattr(curve, n))) for n in ("points", "folds")}
         _output.print_json({**found, **point, **at.record(warnings, wall_time)})

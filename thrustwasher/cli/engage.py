@@ -59,7 +59,10 @@ def run(arguments: argparse.Namespace) -> int:
     warnings = at.warn([*_short(times, point["load"]), *result.warnings])
     series = {name: getattr(result, name) for name in COLUMNS}
     targets.write(COLUMNS, series)
-    targets.draw("thrustwasher.report.model_plots.clutch_plot:engagement_figure", result)
+    if targets.plot:
+        from ..report.model_plots.clutch_plot import engagement_figure
+
+        targets.draw(engagement_figure(result))
     if arguments.json:
         inputs = {**times, **{n: point[n] for n in ("oil_temperature", "drum_speed")}}
         _output.print_json({**result.as_dict(), **inputs, **at.record(warnings, wall_time)})

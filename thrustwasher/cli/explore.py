@@ -2,7 +2,7 @@
 
 import argparse
 
-from ..model.registry import all_models
+from ..model.registry import models_with_points
 from ..model.rungs import gone_rung
 from . import _options, _output
 
@@ -16,7 +16,7 @@ OPTIONS = {
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    models = ", ".join(m.key for m in all_models() if m.explore)
+    models = ", ".join(models_with_points())
     parser.add_argument(
         "subject",
         nargs="?",

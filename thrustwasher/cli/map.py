@@ -82,9 +82,9 @@ def _build(arguments: argparse.Namespace) -> int:
 
     from ..ladder.own_tables import serves
     from ..native.files import write
-    from ..washer.map.look_up import TABLES, keep_own
     from ..washer.map.map_build import make_map
     from ..washer.map.map_plan import DEFAULT_BOX, TOLERANCE
+    from ..washer.map.map_tables import TABLES, keep_own
 
     tolerance = parse_quantity(arguments.tolerance or TOLERANCE, "1", "tolerance")
     card = make_map(

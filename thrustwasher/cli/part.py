@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..errors import ParameterError
-from ..model.kept import kept_warnings
+from ..model.idle import kept_warnings
 from ..model.part_file import (
     PartFile,
     checked_name,

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import SolveError, Status
+from ..model.advice import Plain
 from ..model.parameters import check_number
 from ..model.prepare import course_of, rising
 from ..model.rungs import rung_named
@@ -18,65 +19,44 @@ from .kernels import pack_friction, pack_outputs, rates
 from .parameters import DRUM, LOAD, OIL, SPEC, SPEED, ClutchParams
 from .solve import doubts_of_pack, pack_warnings, prepare
 
-Course = tuple[float, float, float, float, float, float, float, float]
-
-
-class PackCourse:
-    """A pack on its way; ``status`` tells how the last call went."""
-
-    def __init__(self, par: Any, load: float, oil: float) -> None:
-        self.par, self.work, self.out = par, np.zeros(k.NWORK), np.zeros(k.NOUT)
-        self.first, self.to_oil = oil, 0.0  # temperature at the start [K]; heat in the oil [J]
-        self.status = int(clutch_advance.load_memory(par, load, oil, np.zeros(k.NSTATE), self.work))
-        if self.status == Status.OK and not rates.moves_film(par):
-            self.work[k.W_NOW + k.Y_FILM] = 1.0
-            self.status = int(clutch_advance.settle_film(par, load, self.work))
-
-    def advance(self, course: Course, duration: float) -> int:
-        """Go along a stretch; return the number of substeps."""
-        power = self.out[k.O_POWER] / self.par[k.P_FACES]
-        self.status = int(
-            clutch_advance.advance(
-                self.par, course, duration, power, self.work[k.W_PROPOSED], self.work
-            )
-        )
-        return int(self.work[k.W_SUBSTEPS])
-
-    def show(self, load: float, slip: float, drum: float, duration: float = 0.0) -> Array:
-        """Return the real outputs at the present point, ``duration`` [s] after the last one."""
-        pack_outputs.fill_outputs(self.par, load, slip, drum, self.work, self.out)
-        self.out[k.O_TEMPERATURE], _ = pack_outputs.mean_surface(self.par, self.work)
-        self.out[k.O_ENERGY] = self.par[k.P_FACES] * self.work[k.W_NOW + k.Y_ENERGY]
-        self.out[k.O_STORED_HEAT] = pack_outputs.stored_heat(self.par, self.work, self.first)
-        before, self.to_oil = self.to_oil, self.out[k.O_ENERGY] - self.out[k.O_STORED_HEAT]
-        self.out[k.O_OIL_HEAT] = (self.to_oil - before) / duration if duration > 0.0 else 0.0
-        return self.out
-
 
 def outputs_over(
     par: Any, time: Array, load: Array, slip: Array, oil: float, drum: Array
 ) -> tuple[Array, int]:
-    """Return the real outputs of a pack at the points of its course, (n, NOUT), and all substeps.
+    """Return the real outputs of a pack at the points in time, (n, NOUT), and all substeps.
 
     ``par`` is that of the kernel, the rest as in ``engage_clutch``; SolveError too.
     """
-    rows, substeps, pack = np.empty((len(time), k.NOUT)), 0, PackCourse(par, load[0], oil)
-    for i in range(len(time)):
-        duration = time[i] - time[i - 1] if i else 0.0
-        if i and pack.status == Status.OK:
-            ends = (load[i - 1], slip[i - 1], oil, load[i], slip[i], oil, drum[i - 1], drum[i])
-            substeps += pack.advance(ends, duration)
-        if Status(pack.status).is_failure:
-            raise SolveError(
-                f"t = {time[i]:g} s, load = {load[i]:g} N, speed = {slip[i]:g} rad/s: "
-                f"{Status(pack.status).advice}"
+    work, out, rows = np.zeros(k.NWORK), np.zeros(k.NOUT), np.empty((len(time), k.NOUT))
+    substeps, to_oil, faces = 0, 0.0, par[k.P_FACES]  # to_oil: heat that reached the oil [J]
+    status = clutch_advance.load_memory(par, load[0], oil, np.zeros(k.NSTATE), work)
+    if status == Status.OK and not rates.moves_film(par):
+        work[k.W_NOW + k.Y_FILM] = 1.0
+        status = clutch_advance.settle_film(par, load[0], work)
+    for i, (now, force, speed, turns) in enumerate(zip(time, load, slip, drum, strict=True)):
+        if i and status == Status.OK:
+            ends = (load[i - 1], slip[i - 1], oil, force, speed, oil, drum[i - 1], turns)
+            status = clutch_advance.advance(
+                par, ends, now - time[i - 1], out[k.O_POWER] / faces, work[k.W_PROPOSED], work
             )
-        rows[i] = pack.show(load[i], slip[i], drum[i], duration)
+            substeps += int(work[k.W_SUBSTEPS])
+        if Status(status).is_failure:
+            raise SolveError(
+                f"t = {now:g} s, load = {force:g} N, speed = {speed:g} rad/s: "
+                f"{Status(status).advice}"
+            )
+        pack_outputs.fill_outputs(par, force, speed, turns, work, out)
+        out[k.O_TEMPERATURE], _ = pack_outputs.mean_surface(par, work)
+        out[k.O_ENERGY] = faces * work[k.W_NOW + k.Y_ENERGY]
+        out[k.O_STORED_HEAT] = pack_outputs.stored_heat(par, work, oil)
+        before, to_oil = to_oil, out[k.O_ENERGY] - out[k.O_STORED_HEAT]
+        out[k.O_OIL_HEAT] = (to_oil - before) / (now - time[i - 1]) if i else 0.0
+        rows[i] = out
     return rows, substeps
 
 
 @dataclass(frozen=True, slots=True)
-class Engagement:
+class Engagement(Plain):
     """An engagement at the points ``time``; arrays of one length, SI units."""
 
     time: Array
@@ -102,12 +82,6 @@ class Engagement:
     fidelity: str
     warnings: tuple[str, ...] = ()
     """What a reader must not miss, a line each."""
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return the fields as a dictionary that JSON can hold; status by name."""
-        found = {f.name: getattr(self, f.name) for f in fields(self)}
-        lists = {n: v.tolist() for n, v in found.items() if isinstance(v, np.ndarray)}
-        return found | lists | {"status": self.status.name}
 
 
 def engage_clutch(

@@ -6,15 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..errors import ParameterError
-from ..model.parameters import (
-    check_ranges,
-    check_rules,
-    choice,
-    count,
-    flag,
-    quantity,
-)
-from ..model.part_file import made_of
+from ..model.parameters import check_ranges, check_rules, choice, count, flag, quantity
+from ..model.part_file import preset_params
 from ..model.spec import Rule
 from ..model.toml_tables import spec_beside
 
@@ -273,7 +266,7 @@ class ClutchParams:
         ------
         ParameterError : no such preset, or a parameter out of range
         """
-        made: ClutchParams = made_of(SPEC, name, changes)
+        made: ClutchParams = preset_params(SPEC, name, changes)
         return made
 
     @property

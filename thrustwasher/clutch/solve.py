@@ -1,17 +1,17 @@
 """Wet clutch: coefficient of boundary friction, and a pack that slips at a constant speed."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SolveError, Status
-from ..model.advice import warnings_of
+from ..model.advice import Plain, warnings_of
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.prepare import filled
-from ..model.registry import find_model
+from ..model.record import Sweep
 from ..model.rungs import rung_named
 from ..model.spec import REGIMES, ModelSpec
 from ..numerics.jit import Array
@@ -25,13 +25,12 @@ BEYOND_LAW = (
     "lining's modulus"
 )
 PRESSED = "film_ratio = {:.3g}: " + BEYOND_LAW
-LEAST = {"film_ratio": (k.LEAST_RATIO, BEYOND_LAW)}  # of a sweep's rows
 LEAST_PRESSURE = 2e4  # Pa, an estimate: lightest pressure that friction over slip is measured at
 __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
 
 
 @dataclass(frozen=True, slots=True)
-class ClutchResult:
+class ClutchResult(Plain):
     """A pack slipping at constant load and speed: torque and steady temperatures, SI units."""
 
     friction_torque: float  # [N m] with the sign of the slip; 0 at slip 0
@@ -53,17 +52,13 @@ class ClutchResult:
     warnings: tuple[str, ...] = ()
     """What a reader must not miss, a line each."""
 
-    def as_dict(self) -> dict[str, Any]:
-        """Return the fields as a dictionary that JSON can hold; status by name."""
-        return asdict(self) | {"status": self.status.name}
-
 
 def _in_range(name: str, values: ArrayLike, low: float, high: float) -> Any:
     try:
         array = np.asarray(values, float)
     except (TypeError, ValueError):
         raise ParameterError(
-            f"{name} = {values!r}, numbers are wanted, allowed: {low:g} .. {high:g}"
+            f"{name} = {values!r}, numbers are required, allowed: {low:g} .. {high:g}"
         ) from None
     bad = ~((array >= low) & (array <= high))
     if bad.any():
@@ -319,8 +314,7 @@ def walk_steady(
 ) -> None:
     """Fill the rows of a sweep's line with the steady state of a pack that slips."""
     regimes = {name: i for i, name in enumerate(REGIMES, 1)}
-    left_out = find_model(spec.key).sweep.not_shown
-    names = [name for name in spec.real_outputs if name not in left_out]
+    names = [name for name in spec.real_outputs if name not in SWEEP.not_shown]
     result = None
     for (load, speed, oil, drum), row, flag in zip(inputs.tolist(), numbers, flags, strict=True):
         result = solve_clutch(
@@ -337,3 +331,11 @@ def walk_steady(
         flag[0], flag[-1] = regimes[result.regime], result.status
         if result.status.is_failure:
             result = None
+
+
+SWEEP = Sweep(
+    walk=walk_steady,
+    # It slips for ever: its heat has no end.
+    not_shown=("energy", "heat_flux", "viscosity", "oil_heat", "stored_heat"),
+    least={"film_ratio": (k.LEAST_RATIO, BEYOND_LAW)},
+)

@@ -2,6 +2,7 @@
 
 ==============  ===============================================================
 ``parameters``  the ramp as a part of its own, for systems that other tools run
+``model``       its record
 ``kernels``     compiled code
 ==============  ===============================================================
 """

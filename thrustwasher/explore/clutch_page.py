@@ -10,9 +10,10 @@ from ..clutch.engagement import engage_clutch
 from ..clutch.kernels import layout
 from ..clutch.parameters import DRUM, LOAD, OIL, SPEC, SPEED
 from ..errors import Status
-from ..model.record import resolve
 from ..model.spec import Signal
-from .view import Picture, View, numbers_of
+from ..report.model_plots.clutch_plot import engagement_figure
+from ..report.web_worker import WebWorker, numbers_of
+from .view import Picture, View
 
 POINTS, HANDLES = 248, 9  # a point at every handle
 LARGEST, RISING = 5000.0, 0.25  # N; share of the time in which the load rises to it at the start
@@ -55,17 +56,18 @@ def _result(params: Any, point: Mapping[str, float], rung: str) -> Any:
 
 
 def _pictures(_params: Any, result: Any, _point: Mapping[str, float]) -> list[Picture]:
-    draw = resolve("thrustwasher.report.model_plots.clutch_plot:engagement_figure")
-    return [("The engagement of the start.", draw(result.profile))]
+    return [("The engagement of the start.", engagement_figure(result.profile))]
 
 
 VIEW = View(
-    worker="clutch_worker",
+    worker=WebWorker(
+        script="clutch_worker",
+        calls="broken_rule derive load_memory settle_film advance fill_outputs mean_surface "
+        "stored_heat".split(),
+        layout=numbers_of(layout, HOT=Status.HOT),
+        rungs={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.rungs},
+    ),
     page="clutch_view",
-    calls="broken_rule derive load_memory settle_film advance fill_outputs mean_surface "
-    "stored_heat".split(),
-    layout=numbers_of(layout, HOT=Status.HOT),
-    rungs={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.rungs},
     main=("faces", "roughness", "initial_film", "permeability", "steel_thickness"),
     figures="friction_torque_max temperature_max energy power_max film_ratio_min "
     "boundary_from".split(),

@@ -7,7 +7,7 @@ from typing import Any, get_type_hints
 from ..ladder.error_table import QUANTITIES, SAFETY, Chart, RungErrors, fresh_rungs
 from ..model.oil import named_oils, oil
 from ..model.part_file import PartFile
-from ..model.record import Model, resolve
+from ..model.record import Model
 from ..model.rungs import rung_named
 from ..model.spec import REGIMES, Signal
 from ..units import UNITS, readable_units
@@ -20,8 +20,7 @@ def inputs_of(model: Model, view: View) -> list[Signal]:
     """Return the inputs of what the page solves."""
     if view.inputs:
         return list(view.inputs)
-    instead = model.command.instead if model.command else {}
-    return [Signal(**instead[s.name]) if s.name in instead else s for s in model.spec.inputs]
+    return model.inputs()
 
 
 def outputs_of(model: Model, view: View) -> dict[str, dict[str, Any]]:
@@ -33,7 +32,7 @@ def outputs_of(model: Model, view: View) -> dict[str, dict[str, Any]]:
             for name, (unit, words) in view.outputs.items()
         }
     assert model.command is not None
-    result = get_type_hints(resolve(model.command.solve))["return"]
+    result = get_type_hints(model.solve)["return"]
     for s in (s for s in model.spec.outputs if hasattr(result, s.name)):
         keys = ("unit", "help", "kind", "relative")
         found[s.name] = {**{key: getattr(s, key) for key in keys}, "scale": s.nominal}
@@ -51,7 +50,7 @@ def describe(
     """Return the JSON object of a model's page; ``point``: value of each input at the start."""
     spec = model.spec
     rung = rung_named(spec, part.fidelity)
-    rung = rung if rung in view.rungs else spec.default_fidelity
+    rung = rung if rung in view.worker.rungs else spec.default_fidelity
     params = part.params
     return {
         "key": spec.key,
@@ -72,13 +71,13 @@ def describe(
         "cards": [
             _card(rung, chart)
             for name, rung in fresh_rungs(spec.key, params).items()
-            if name in view.rungs
+            if name in view.worker.rungs
             for chart in rung.charts
         ],
         "safety": SAFETY,
         **view.more,
         "python": {"params": view.params, "solve": view.solve},
-        "worker": view.worker_data(spec),
+        "worker": view.worker.data(spec),
     }
 
 

@@ -5,22 +5,24 @@ from typing import Any
 
 from ..gearmesh.kernels import layout
 from ..gearmesh.parameters import SPEC
-from ..model.record import resolve
-from .view import Picture, View, numbers_of
+from ..report.model_plots.gearmesh_plot import gearmesh_figure
+from ..report.web_worker import WebWorker, numbers_of
+from .view import Picture, View
 
 
 def _pictures(params: Any, result: Any, point: Mapping[str, float]) -> list[Picture]:
-    draw = resolve("thrustwasher.report.model_plots.gearmesh_plot:gearmesh_figure")
     words = "Over the number of the pinion's teeth at the start's point."
-    return [(words, draw(result, point, params))]
+    return [(words, gearmesh_figure(result, point, params))]
 
 
 VIEW = View(
-    worker="gearmesh_worker",
+    worker=WebWorker(
+        script="gearmesh_worker",
+        calls=("broken_rule", "derive", "solve_point"),
+        layout=numbers_of(layout),
+        rungs={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.rungs},
+    ),
     page="gearmesh_view",
-    calls=("broken_rule", "derive", "solve_point"),
-    layout=numbers_of(layout),
-    rungs={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.rungs},
     main="pinion_teeth gear_ratio normal_module face_width helix_angle friction_law".split(),
     figures="friction_torque friction_power film_ratio bulk_temperature flash_max "
     "scuffing_safety pitting_safety".split(),

@@ -8,18 +8,23 @@ from typing import Any
 
 from .. import __version__
 from ..errors import ParameterError
+from ..fmu.documentation.html_page import equations
+from ..fmu.package.model_sources import model_folder, source_folder
 from ..ladder.error_table import error_estimate
 from ..model.part_file import PartFile
-from ..model.record import resolve
-from ..model.registry import all_models, find_model
+from ..model.registry import find_model
 from ..native.library import web_module
+from ..report.web_worker import WEB, joined
 from ..templates import policy_source, template
 from ..units import format_quantity
+from .clutch_page import VIEW as CLUTCH
 from .description import describe, inputs_of, outputs_of
-from .view import WEB, View, joined
+from .gearmesh_page import VIEW as GEARMESH
+from .view import View
+from .washer_page import VIEW as WASHER
 
+VIEWS = {"washer": WASHER, "clutch": CLUTCH, "gearmesh": GEARMESH}  # by the models' keys
 TEMPLATE = "explore.html.jinja"
-SOURCES = "thrustwasher.fmu.package.model_sources"
 PAGE = ("../draw", "dom", "plot")  # scripts that every page has
 DPI = 80
 
@@ -30,18 +35,17 @@ def page(part: PartFile) -> str:
     ParameterError: there is no page for its model, or its parameters have no solution at the start.
     """
     model = find_model(part.spec.key)
-    if not model.explore or model.command is None:
+    if model.key not in VIEWS:
         raise ParameterError(f"model = {model.key!r} has no page to explore")
-    view: View = resolve(model.explore)
+    view = VIEWS[model.key]
     inputs = inputs_of(model, view)
     point = {s.name: part.inside(s.name, view.usual.get(s.name, s.usual)) for s in inputs}
     about = describe(model, view, part, point)
     if view.result is not None:
         result = view.result(part.params, point, about["rung"])
     else:
-        result = resolve(model.command.solve)(part.params, **point, fidelity=about["rung"])
-    folder = resolve(f"{SOURCES}:model_folder")(model.spec, resolve(f"{SOURCES}:source_folder")())
-    equations = resolve("thrustwasher.fmu.documentation.html_page:equations")
+        result = model.solve(part.params, **point, fidelity=about["rung"])
+    folder = model_folder(model.spec, source_folder())
     pictures = view.pictures(part.params, result, point)
     script = joined(*(f"{stem}.js" for stem in (*PAGE, view.page, "page")))
     style = joined("../draw.css", "explore.css")
@@ -54,7 +58,7 @@ def page(part: PartFile) -> str:
         style=style,
         script=script,
         about=json.dumps(about, allow_nan=False, ensure_ascii=False).replace("<", "\\u003c"),
-        worker=view.worker_script(),
+        worker=view.worker.source(),
         module=base64.b64encode(web_module(model.spec.kernel)).decode("ascii"),
         figures=_figures(outputs_of(model, view), view.figures, result),
         large=view.figures,
@@ -64,7 +68,7 @@ def page(part: PartFile) -> str:
         rung=about["rung"],
         error=_error(view, part, point, about["rung"], result),
         equations=equations(folder).replace("<pre>", '<pre tabindex="0">'),
-        others=[m.key for m in all_models() if m.explore and m.key != model.key],
+        others=[key for key in VIEWS if key != model.key],
     )
     return filled
 

@@ -2,30 +2,21 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
-from ..errors import FIRST_FAILURE, Status
-from ..model.spec import ModelSpec, Signal
-from ..native.library import web_functions
+from ..model.spec import Signal
+from ..report.web_worker import WebWorker
 
-WEB = Path(__file__).parents[1] / "report" / "web" / "explore"
 Picture = tuple[str, Any]  # caption, matplotlib's figure
 Point = Mapping[str, float]
 
 
 @dataclass(frozen=True, kw_only=True)
 class View:
-    """A model's page.
+    """A model's page."""
 
-    Scripts are stems of files in ``report/web/explore``: what the worker runs, what the page runs.
-    """
-
-    worker: str
-    page: str
-    calls: Sequence[str]  # kernels that the worker calls
-    layout: Mapping[str, float]  # numbers of the kernels' layout
-    rungs: Mapping[str, Mapping[str, Any]]  # that can be chosen, with what the worker needs
+    worker: WebWorker
+    page: str  # its own script: stem of a file in ``report/web/explore``
     main: Sequence[str]  # parameters with sliders
     figures: Sequence[str]  # results shown large
     solve: str  # public name of what solves, and of its parameters
@@ -44,29 +35,3 @@ class View:
     terms: str = ""  # what words of the results mean
     least: Mapping[str, float] = field(default_factory=dict)
     """Least value of an input where the solve wants more than the FMU."""
-
-    def worker_data(self, spec: ModelSpec) -> dict[str, Any]:
-        """Return what the worker's scripts read, as JSON types."""
-        return {
-            "functions": web_functions(spec.kernel, self.calls),
-            "layout": self.layout,
-            "rungs": self.rungs,
-            "real_outputs": spec.real_outputs,
-            "statuses": {int(s): s.advice for s in Status},
-            "first_failure": FIRST_FAILURE,
-        }
-
-    def worker_script(self) -> str:
-        """Return the worker: the kernels' functions, the model, what answers the page."""
-        return joined("kernel.js", f"{self.worker}.js", "worker.js")
-
-
-def joined(*names: str) -> str:
-    """Return the text of files in ``report/web/explore``."""
-    return "\n".join((WEB / name).read_text("utf-8") for name in names)
-
-
-def numbers_of(*modules: Any, **more: float) -> dict[str, float]:
-    """Return all public numbers of layout modules by name."""
-    found = {n: v for m in modules for n, v in vars(m).items() if n.isupper()}
-    return {n: v for n, v in found.items() if isinstance(v, int | float)} | more

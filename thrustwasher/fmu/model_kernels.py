@@ -6,6 +6,7 @@ import sys
 from functools import cache
 from pathlib import Path
 
+from ..model.prepare import tables_of
 from ..model.registry import kernel_of
 from ..model.spec import ModelSpec
 from ..native.library import is_ready
@@ -29,7 +30,7 @@ def package_version() -> str:
 
 def content_digest(spec: ModelSpec) -> str:
     """Return 16 hex digits over everything that decides the numbers: kernels, maps, parameters."""
-    return _content_digest(spec.kernel, spec.params.__module__, bool(spec.table))
+    return _content_digest(spec.kernel, spec.params.__module__, tables_of(spec) is not None)
 
 
 @cache

@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from ..model.parameters import as_numbers, check_ranges, check_rules, choice, count, flag, quantity
-from ..model.part_file import made_of
+from ..model.part_file import preset_params
 from ..model.spec import Rule
 from ..model.toml_tables import spec_beside
 
@@ -403,7 +403,7 @@ class GearMeshParams:
         >>> GearMeshParams.preset("literal", pinion_teeth=30).face_width
         1.0
         """
-        made: GearMeshParams = made_of(SPEC, name, changes)
+        made: GearMeshParams = preset_params(SPEC, name, changes)
         return made
 
 
@@ -448,5 +448,11 @@ def absent_outputs(params: GearMeshParams) -> frozenset[str]:
     return frozenset(found)
 
 
-SPEC = spec_beside(__file__, GearMeshParams, RULES)
+def _counted() -> tuple[tuple[str, int], ...]:
+    from .kernels.layout import F_ITERATIONS
+
+    return (("viscosity iterations", F_ITERATIONS),)
+
+
+SPEC = spec_beside(__file__, GearMeshParams, RULES, counted=_counted, absent=absent_outputs)
 LOAD, SPEED, OIL = SPEC.inputs

@@ -2,16 +2,17 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from ..errors import ParameterError, SolveError, Status
-from ..model.advice import warnings_of
+from ..model.advice import Plain, warnings_of
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.prepare import filled
+from ..model.record import Sweep
 from ..model.rungs import rung_named
 from .kernels import layout as k
 from .kernels.constants import derive
@@ -26,12 +27,12 @@ SAFETIES = {
     "micropitting_safety": "the film is thinner than permissible_film_ratio allows, the flanks are "
     "expected to micropit; take cooler or thicker oil or smoother flanks",
 }
-LEAST = {name: (1.0, f"below 1: {fails}") for name, fails in SAFETIES.items()}  # of a sweep's rows
+SWEEP = Sweep(least={name: (1.0, f"below 1: {fails}") for name, fails in SAFETIES.items()})
 __all__ = ["GearMeshParams", "GearMeshResult", "solve_gearmesh"]
 
 
 @dataclass(frozen=True, slots=True)
-class GearMeshResult:
+class GearMeshResult(Plain):
     """A pair of gears at one operating point, seen where its flanks are hottest; SI units.
 
     With ``film_heat`` "atan" that is where contact starts, but for the fidelity "fine". None stands
@@ -103,10 +104,6 @@ class GearMeshResult:
     fidelity: str
     warnings: tuple[str, ...] = ()
     """What a reader must not miss, a line each."""
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return the fields as a dictionary that JSON can hold; status by name."""
-        return asdict(self) | {"status": self.status.name}
 
 
 def prepare(params: GearMeshParams, fidelity: str) -> Any:
@@ -204,7 +201,7 @@ def solve_gearmesh(
         *doubts_of_point(params, par, field, torque, speed, oil),
     ]
     absent = dict.fromkeys(absent_outputs(params))
-    said = warnings_of(SPEC, status, {"oil_temperature": oil}, _shown(field.tolist()))
+    messages = warnings_of(SPEC, status, {"oil_temperature": oil}, _shown(field.tolist()))
     point = {
         "status": status,
         "fidelity": rung_named(SPEC, fidelity),
@@ -212,7 +209,7 @@ def solve_gearmesh(
         **_size(params, par),
     }
     result = _result(par, field.tolist(), torque, speed, absent | point)
-    return replace(result, warnings=(*said, *_failures(result), *doubts))
+    return replace(result, warnings=(*messages, *_failures(result), *doubts))
 
 
 def _size(p: GearMeshParams, par: Any) -> dict[str, float]:

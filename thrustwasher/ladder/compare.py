@@ -2,13 +2,11 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from ..errors import ParameterError, SolveError
-from ..model.record import resolve
 from ..model.registry import find_model
 from ..model.spec import ModelSpec
 from .error_table import QUANTITIES, Box
@@ -88,16 +86,9 @@ class Comparison:
         return self._known[rung]
 
     def _value(self, rung: str, point: Point) -> float:
-        solve, place = self._ways
+        model, params = self._model, self._params
         try:
-            result = solve(self._params, **place(dict(point)), fidelity=rung, throw=False)
+            result = model.solve(params, **model.back(dict(point)), fidelity=rung, throw=False)
         except (ParameterError, SolveError):
             return math.nan
         return math.nan if result.status.is_failure else float(getattr(result, self._quantity))
-
-    @cached_property
-    def _ways(self) -> Any:
-        """What solves, and the way from the model's own inputs to those that this takes."""
-        command = self._model.command
-        assert command is not None
-        return resolve(command.solve), resolve(command.back) if command.back else dict

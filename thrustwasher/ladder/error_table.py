@@ -17,8 +17,8 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError
-from ..model.record import from_plain
 from ..model.registry import find_model
+from ..model.toml_tables import from_plain
 from ..native.files import user_cache
 from ..storage.digests import CHECK, DATA, closure, is_broken, kernel_digest, params_digest, sealed
 from ..storage.whole_files import whole_file

@@ -2,12 +2,12 @@
 
 ==============  ===============================================================================
 ``spec``        what a model shows to the outside: inputs, outputs, parameters, kernel; as data
-``record``      all that the rest of the package knows of a model: what ``model.toml`` holds
+``record``      all that the rest of the package knows of a model
 ``registry``    the models and their kernels by name
 ``parameters``  fields with unit, range and meaning; checks of numbers and courses over time
 ``part_file``   parts of one's own and presets: TOML
 ``advice``      warnings of a solution, one line each
-``kept``        what a part keeps of its preset though what it belongs to was changed
+``idle``        parameters without effect, or kept though what they belong to was changed
 ``point``       an operating point: what is given, what a part's box fixes, what is left to defaults
 ``oil``         an oil by name, data sheet or points, as parameters of a model; ``oil_laws``: how
 ``rungs``       names of rungs, and which one runs in the place of one that is gone

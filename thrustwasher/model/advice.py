@@ -1,12 +1,30 @@
 """What a reader of a result must not miss: warnings, one line each, the same everywhere."""
 
 from collections.abc import Iterable, Mapping
+from dataclasses import fields
 from typing import Any
 
 from ..errors import Status
 from ..units import format_quantity
-from .record import resolve
 from .spec import ModelSpec, Signal
+
+
+class Plain:
+    """Base of results that are dataclasses: shown as a dictionary."""
+
+    __slots__ = ()
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the fields as a dictionary that JSON can hold; status by name."""
+        return {f.name: _plain(getattr(self, f.name)) for f in fields(self)}  # type: ignore[arg-type]
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Status):
+        return value.name
+    if isinstance(value, list):
+        return [_plain(item) for item in value]
+    return value.tolist() if hasattr(value, "tolist") else value
 
 
 def quantity_text(signal: Signal, value: float) -> str:
@@ -47,9 +65,9 @@ def warnings_of(
     hot = [
         f"{quantity_text(s, outputs[s.name])}: {Status.HOT.advice}"
         for s in spec.outputs
-        if s.limit and s.name in outputs and outputs[s.name] > resolve(s.limit)
+        if s.limit and s.name in outputs and outputs[s.name] > s.limit
     ]
-    said = {Status.HOT: hot, Status.OUTSIDE_VERIFIED: [*outside, *more]}
-    if not status.is_failure and status is not Status.OK and not said.get(status):
+    explained = {Status.HOT: hot, Status.OUTSIDE_VERIFIED: [*outside, *more]}
+    if not status.is_failure and status is not Status.OK and not explained.get(status):
         found.append(f"{status.name}: {status.advice}")
     return (*found, *hot, *more, *outside)

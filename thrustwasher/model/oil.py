@@ -138,7 +138,7 @@ class Oil:
     def words(self, *specs: ModelSpec) -> str:
         """Say in one line what it is, how well the models' laws follow it, what stays theirs."""
         laws: dict[str, float] = {s.key: self.worst_error(s) for s in specs if law_of(s)}
-        told = ", ".join(f"{key} {100 * error:.2g} %" for key, error in laws.items())
+        shown = ", ".join(f"{key} {100 * error:.2g} %" for key, error in laws.items())
         stay = {p for s in specs for *_, p in NUMBERS.values() if p in _names(s)}
         stay -= {p for s in specs for p in self.parameters_for(s)}
         return "; ".join(
@@ -148,8 +148,8 @@ class Oil:
                     f"oil {self}",
                     f"density of the parts {density(self.density_15, AT):.4g} kg/m3, that at "
                     "40 degC",
-                    f"largest error of the viscosity law to ASTM D341 over 20 .. 150 degC: {told}"
-                    if told
+                    f"largest error of the viscosity law to ASTM D341 over 20 .. 150 degC: {shown}"
+                    if shown
                     else "",
                     f"given beside it: {', '.join(self.rest)}" if self.rest else "",
                     f"the part's own stay: {', '.join(sorted(stay))}" if stay else "",
@@ -168,10 +168,10 @@ class Oil:
             )
         errors = {s.key: self.error(s, temperature) for s in specs}
         if far := {key: x for key, x in errors.items() if abs(x) > FAR_OFF}:
-            told = ", ".join(f"{key} {100 * x:+.0f} %" for key, x in far.items())
+            shown = ", ".join(f"{key} {100 * x:+.0f} %" for key, x in far.items())
             found.append(
                 f"oil_temperature = {t:.4g} degC: the viscosity differs from ASTM D341 "
-                f"({told}), the laws hold over 20 .. 150 degC; set the viscosity "
+                f"({shown}), the laws hold over 20 .. 150 degC; set the viscosity "
                 "parameters for this range"
             )
         return found
@@ -283,7 +283,7 @@ def read_oil(where: str, given: Any) -> Oil | None:
 def _of_sheet(where: str, table: Mapping[str, Any], rest: dict[str, float]) -> Oil:
     for key in SHEET:
         if key not in table:
-            raise ParameterError(f"{where}: {key} is missing, wanted: {', '.join(SHEET)}")
+            raise ParameterError(f"{where}: {key} is missing, required: {', '.join(SHEET)}")
     cold, warm, at_15 = (number(where, k, table[k], rule) for k, rule in SHEET.items())
     if not warm < cold:
         raise ParameterError(

@@ -84,12 +84,12 @@ def roelands(points: Points) -> Constants:
     """Return scale [Pa s], G_o and S_o of mu = scale 10^(G_o x^-S_o), x = 1 + T/135 degC."""
     x = [1.0 + (t - ZERO) / 135.0 for t, _ in points]
     y = [math.log(viscosity) for _, viscosity in points]
-    wanted = (y[0] - y[1]) / (y[1] - y[2])
+    required = (y[0] - y[1]) / (y[1] - y[2])
 
     def ratio(s: float) -> float:
         return float((x[0] ** -s - x[1] ** -s) / (x[1] ** -s - x[2] ** -s))
 
-    s = _bisect(lambda s: ratio(s) - wanted, *EXPONENTS) if x[0] > 0.0 else math.nan
+    s = _bisect(lambda s: ratio(s) - required, *EXPONENTS) if x[0] > 0.0 else math.nan
     if not s > 0.0:
         raise _no_law(points)
     height = (y[0] - y[1]) / (x[0] ** -s - x[1] ** -s)
@@ -181,7 +181,7 @@ def _bisect(rising: Callable[[float], float], low: float, high: float) -> float:
 
 
 def _no_law(points: Points) -> ParameterError:
-    said = ", ".join(f"{x:.6g} Pa.s at {t - ZERO:.6g} degC" for t, x in points)
+    given = ", ".join(f"{x:.6g} Pa.s at {t - ZERO:.6g} degC" for t, x in points)
     return ParameterError(
-        f"viscosity = {said}, allowed: points of an oil, log viscosity falls ever more slowly"
+        f"viscosity = {given}, allowed: points of an oil, log viscosity falls ever more slowly"
     )

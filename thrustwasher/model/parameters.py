@@ -22,7 +22,7 @@ def quantity(default: float, unit: str, low: float, high: float, text: str, **ex
     """Return a real-valued field; ``low`` and ``high`` belong to the allowed range.
 
     ``tunable=True``: an FMU's host may change it between two steps. ``overrides``, ``belongs_to``,
-    ``when``: see ``model.kept``; ``read_by``: see ``model.idle``.
+    ``read_by``: see ``model.idle``.
     """
     meta = {"kind": "real", "unit": unit, "min": low, "max": high, "help": text, **extra}
     return field(default=default, metadata=meta)
@@ -189,7 +189,7 @@ def check_number(
             raise TypeError
         number = float(value)
     except (TypeError, ValueError):
-        raise ParameterError(f"{name} = {value!r}, a number in {unit} is wanted") from None
+        raise ParameterError(f"{name} = {value!r}, a number in {unit} is required") from None
     except OverflowError:
         number = math.inf
     if not low <= number <= high:

@@ -38,8 +38,7 @@ from .parameters import (
     plainly_named,
     renewed_values,
 )
-from .point import command_inputs, own_inputs, point_of
-from .record import resolve
+from .point import point_of
 from .registry import find_model
 from .rungs import rung_named
 from .spec import ModelSpec, tailored
@@ -87,11 +86,11 @@ class PartFile:
             {**self.parameters, "fidelity": rung_named(self.spec, self.fidelity)},
             starts,
             course=course,
-            **self.told,
+            **self.about,
         )
 
     @property
-    def told(self) -> dict[str, Any]:
+    def about(self) -> dict[str, Any]:
         """What the FMU says of this part, beside its values: fields of the model's record."""
         text = self.description.rstrip(".") or self.spec.help
         return {
@@ -120,7 +119,7 @@ class PartFile:
     @property
     def starts(self) -> dict[str, float]:
         """Value [SI] of each of the model's inputs where none is given: its default in the box."""
-        return own_inputs(self, point_of(self, {}).values)
+        return find_model(self.spec.key).place(point_of(self, {}).values)
 
     def solve(self, **inputs: Any) -> Any:
         """Return the result at an operating point, with the part's rung unless another is given.
@@ -140,10 +139,10 @@ class PartFile:
         ParameterError, SolveError : as of ``solve_*``; ParameterError too where the model is not
             solved at points
         """
-        command = find_model(self.spec.key).command
-        if command is None:
+        model = find_model(self.spec.key)
+        if model.command is None:
             raise ParameterError(f"{self.spec.name}: is not solved at operating points")
-        known = {s.name: s for s in (*self.spec.inputs, *command_inputs(find_model(self.spec.key)))}
+        known = {s.name: s for s in (*self.spec.inputs, *model.inputs())}
         given = {
             name: check_number(name, value, known[name].unit, *known[name].range)
             for name, value in inputs.items()
@@ -151,9 +150,7 @@ class PartFile:
         }
         point = point_of(self, given)
         more = {name: value for name, value in inputs.items() if name not in known}
-        result = resolve(command.solve)(
-            self.params, **point.values, **{"fidelity": self.fidelity, **more}
-        )
+        result = model.solve(self.params, **point.values, **{"fidelity": self.fidelity, **more})
         return replace(result, warnings=(*point.warnings, *result.warnings))
 
     def inside(self, name: str, value: float) -> float:
@@ -222,7 +219,7 @@ def preset_part(spec: ModelSpec, name: str) -> PartFile:
     return known[name]
 
 
-def made_of(spec: ModelSpec, preset: str | None, changes: Mapping[str, Any]) -> Any:
+def preset_params(spec: ModelSpec, preset: str | None, changes: Mapping[str, Any]) -> Any:
     """Return a model's parameters: its defaults, or those of a preset, some of them changed."""
     start = {} if preset is None else preset_part(spec, preset).parameters
     return spec.params(**{**start, **changes})

@@ -7,18 +7,17 @@ own: a gear mesh takes power for torque.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 from ..errors import ParameterError
 from .advice import quantity_text, range_text
 from .oil import Oil, oil_doubts
-from .record import Command, Model, resolve
+from .record import Values
 from .registry import find_model
 from .spec import ModelSpec, Signal
 
-Values = dict[str, float]
 OUTSIDE = (
     "{} is outside {}, the part's box: solved all the same, but it is not what the part is meant "
     "for; change the point, or [box] in the part file"
@@ -67,30 +66,18 @@ class Point:
 def taken_text(box: Values, default: Values, inputs: Sequence[Signal]) -> str:
     """Return a line that names what was taken from a box and by default; "" if nothing was."""
     default = {s.name: default[s.name] for s in inputs if s.name in default and not s.optional}
-    said = []
+    parts = []
     for words, values in {"from the part's box": box, "by default": default}.items():
         shown = [quantity_text(s, values[s.name]) for s in inputs if s.name in values]
         if shown:
-            said.append(f"{words}: {', '.join(shown)}")
-    return f"taken {'; '.join(said)}" if said else ""
+            parts.append(f"{words}: {', '.join(shown)}")
+    return f"taken {'; '.join(parts)}" if parts else ""
 
 
 def from_box(part: Boxed, name: str, value: float, usual: float) -> bool:
     """Tell if the value of an input that is not given is the box's doing."""
     low, high = part.box.get(name, (-math.inf, math.inf))
     return low == high or value != usual
-
-
-def command_inputs(model: Model) -> list[Signal]:
-    """Return the inputs of a model's command, in the order of the model's own."""
-    instead = model.command.instead if model.command else {}
-    return [Signal(**instead[s.name]) if s.name in instead else s for s in model.spec.inputs]
-
-
-def own_inputs(part: Boxed, values: Values) -> Values:
-    """Return the model's own inputs [SI] at a point of its command."""
-    place, _ = _ways(find_model(part.spec.key).command)
-    return dict(place(values))
 
 
 def point_of(
@@ -102,9 +89,8 @@ def point_of(
     the box is taken, with a warning.
     """
     model = find_model(part.spec.key)
-    inputs = tuple(command_inputs(model) if inputs is None else inputs)
+    inputs = tuple(model.inputs() if inputs is None else inputs)
     names, own = {s.name for s in inputs}, {s.name: s for s in part.spec.inputs}
-    place, back = _ways(model.command)
     values, box = dict(given), {}
     for s in inputs:
         if s.name not in given:
@@ -115,13 +101,13 @@ def point_of(
     if other:
         if both := names & given.keys() - own.keys():
             raise ParameterError(f"{both.pop()} and {', '.join(other)}: allowed: one of both")
-        values = back({n: v for n, v in values.items() if n in own} | other)
+        values = model.back({n: v for n, v in values.items() if n in own} | other)
         given = {**given, **{n: v for n, v in values.items() if n not in own}}
-    there = place(values)
+    there = model.place(values)
     for name in [n for n in values if n not in own and n not in given]:
         moved = {n: _moved(part, n, v) for n, v in there.items()}
         if moved != there:  # the box of the model's own input decides the one instead of it
-            there, values = moved, back(moved)
+            there, values = moved, model.back(moved)
             box[name] = values[name]
     outside = [
         OUTSIDE.format(quantity_text(own[n], there[n]), range_text(own[n], ends))
@@ -135,16 +121,9 @@ def point_of(
     return Point(values=values, box=box, default=default, warnings=tuple(outside), inputs=inputs)
 
 
-def _ways(command: Command | None) -> tuple[Callable[..., Values], Callable[..., Values]]:
-    """Return the ways from the command's inputs to the model's own, and back."""
-    if command is None or not command.place:
-        return dict, dict
-    return resolve(command.place), resolve(command.back)
-
-
 def _moved(part: Boxed, name: str, value: float) -> float:
     """Return a value moved into the box; where another input stands for it only its size counts."""
-    inside, command = part.inside(name, value), find_model(part.spec.key).command
-    if inside == value or command is None or name not in command.instead or not command.place:
+    inside = part.inside(name, value)
+    if inside == value or name in [s.name for s in find_model(part.spec.key).inputs()]:
         return inside
     return value if part.inside(name, -value) == -value else abs(inside)

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, Status
 from .parameters import as_numbers, check_rules
-from .record import resolve
+from .registry import MODELS, find_model
 from .rungs import rung_named
 from .spec import ModelSpec, Tables
 
@@ -75,7 +75,7 @@ def fill_table(spec: ModelSpec, params: Any, par: Any, work: Any) -> None:
 
 def tables_of(spec: ModelSpec, rung: str | None = None) -> Tables | None:
     """Return where a model, or one rung of it, looks its answers up; None if it solves."""
-    tables: Tables | None = resolve(spec.table) if spec.table else None
+    tables = find_model(spec.key).tables() if spec.key in MODELS else None
     return tables if tables and rung in (None, tables.rung) else None
 
 
@@ -88,7 +88,7 @@ def rising(time: ArrayLike) -> Array:
     """Return points in time [s]; at least two, rising."""
     points = course_of("time", time, "s", -1e9, 1e9)
     if len(points) < 2 or not (np.diff(points) > 0.0).all():
-        raise ParameterError("time: at least two rising points [s] are wanted")
+        raise ParameterError("time: at least two rising points [s] are required")
     return points
 
 
@@ -100,7 +100,7 @@ def course_of(
     try:
         array = np.asarray(values, float)
     except (TypeError, ValueError):
-        raise ParameterError(f"{name}: numbers{unit and ' in'}{unit} are wanted") from None
+        raise ParameterError(f"{name}: numbers{unit and ' in'}{unit} are required") from None
     if n is not None and array.ndim == 0:
         array = np.full(n, float(array))
     if array.ndim != 1 or len(array) != (n or len(array) or 1):

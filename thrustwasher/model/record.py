@@ -1,56 +1,26 @@
-"""The record of a model, ``model.toml``: all that the rest of the package knows of it.
+"""The record of a model: all that the layers below and above it know of it.
 
-What lies above a model (plots, commands, reference values) stands there as data or as a dotted name
-"module:NAME", which is resolved when it is asked for: a record imports nothing.
+Each model has a class of its own, in the module ``model`` of its folder. What it returns is
+imported when it is asked for. What draws a model, shows it in a browser or finds its reference
+values lies above it, in one list each: ``report.model_plots``, ``explore.page``,
+``study.reference_cache``, ``study.charts.work_precision``.
 """
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, is_dataclass
-from functools import cache
-from importlib import import_module
-from typing import TYPE_CHECKING, Any, get_args, get_origin, get_type_hints
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
-if TYPE_CHECKING:  # it needs numpy, which not every command does
-    from .spec import ModelSpec
+from .spec import ModelSpec, Signal, Tables
+
+if TYPE_CHECKING:  # not every command needs numpy
+    import numpy as np
+    from numpy.typing import NDArray
 
 Scaled = tuple[float, float, str]  # low, high, "linear" or "log"
-
-
-def resolve(name: str) -> Any:
-    """Return what a dotted name "module:NAME" stands for."""
-    module, _, attribute = name.partition(":")
-    return getattr(import_module(module), attribute)
-
-
-def absent_outputs(spec: ModelSpec, params: Any) -> frozenset[str]:
-    """Return the names of the outputs that have no value with these parameters."""
-    return resolve(spec.absent)(params) if spec.absent else frozenset()
-
-
-@cache
-def _anatomy(kind: Any) -> tuple[Any, tuple[Any, ...], dict[str, Any]]:
-    """Return what an annotation is made of: its origin, arguments, and fields if a dataclass."""
-    fields = get_type_hints(kind) if is_dataclass(kind) else {}
-    return get_origin(kind), get_args(kind), fields
-
-
-def from_plain(kind: Any, raw: Any) -> Any:
-    """Return what was read from JSON or TOML as the annotation ``kind`` says, lists as tuples.
-
-    KeyError, TypeError or AttributeError if it has other keys or another shape.
-    """
-    origin, inner, fields = _anatomy(kind)
-    if fields:
-        return kind(**{k: from_plain(fields[k], v) for k, v in raw.items()})
-    if origin is tuple:
-        return tuple(from_plain(inner[0], item) for item in raw)
-    if origin in (dict, Mapping):
-        return {k: from_plain(inner[1], item) for k, item in raw.items()}
-    if inner:  # one kind or None
-        return None if raw is None else from_plain(inner[0], raw)
-    return raw
+Values = dict[str, float]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,7 +30,7 @@ class Option:
     name: str
     help: str
     choices: tuple[str, ...] | None = None
-    read: str = ""  # dotted name of a function that makes its value of the text
+    read: Callable[[str], Any] = str  # makes its value of the text
     metavar: str | None = None
 
 
@@ -71,7 +41,7 @@ class Variants:
     head: str  # what a row is; the parameter of this name holds the chosen one
     rows: Mapping[str, str]  # words -> ending of the fields' names
     columns: Mapping[str, str]  # field without its ending -> head
-    chosen: str  # said of the row that the parameters choose
+    chosen: str  # words beside the row that the parameters choose
 
     def name(self, column: str, row: str) -> str:
         """Return the name of a field."""
@@ -88,19 +58,13 @@ class Command:
     """The command that solves a model at one operating point, beside what its interface says."""
 
     help: str
-    solve: str  # called with (parameters, **point, fidelity=, **options)
-    figure: str = ""  # called with (result, point, parameters); "": there is no --plot
-    figure_help: str = ""
     title: str  # may name parameters: "gear mesh, {pinion_teeth} teeth"
     closing: str = "{fidelity}"  # how it was solved; may name results
+    plot: str = ""  # what --plot draws
     extra: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     """Results that are no output: unit and meaning."""
-    warning: str = ""
-    """Dotted name: from a result to a warning that takes a solve of its own, "" if nothing."""
-    instead: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
-    """Name of a model's input -> fields of the signal that this command has instead of it."""
-    place: str = ""  # dotted name: from the command's point to the model's own inputs
-    back: str = ""  # dotted name: from these to the command's point
+    instead: Mapping[str, Signal] = field(default_factory=dict)
+    """Name of a model's input -> what this command has instead of it."""
     options: tuple[Option, ...] = ()  # more arguments of ``solve``
     variants: Variants | None = None
     more: tuple[str, ...] = ()  # other commands of this model, which are files
@@ -115,28 +79,15 @@ class Ladder:
     boxes: Mapping[str, Mapping[str, Scaled]]
     """Parameter set -> range of every input: "default", a scene, or "scene.part"."""
     part: str  # of a scene, where a parameter set names none
-    references: str  # dotted name: where reference values come from
-    chart: str  # dotted name: what the chart shows, at which operating points
     only: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     """Rung -> parameters and the values with which alone it differs from the one before."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Sweep:
-    """What a sweep does otherwise than by steps of the model's kernel."""
-
-    walk: str = ""  # dotted name of what fills the rows of a line
-    not_shown: tuple[str, ...] = ()  # outputs that make no sense there
-    more_inputs: tuple[Mapping[str, Any], ...] = ()  # fields of signals it takes as well
-    doubt: str = ""  # dotted name: (parameters, fidelity, inputs) to a warning or ""
-    least: str = ""  # dotted name: output -> (value it should not be below, what it means there)
 
 
 @dataclass(frozen=True, kw_only=True)
 class OwnOutputs:
     """Outputs of a model that can be measured beside those of its solutions at points."""
 
-    units: Mapping[str, str]
+    units: Mapping[str, str] = field(default_factory=dict)
     computed: Callable[[Any, Mapping[str, float], str], Mapping[str, float]] | None = None
     """Of parameters, point and rung, those that there are; None: a law of its own has them."""
     without: str = ""  # the input that these do not depend on
@@ -147,30 +98,77 @@ class OwnOutputs:
 class Fits:
     """What can be fitted to measurements beside the model's outputs at its points."""
 
-    outputs: str = ""  # dotted name of ``OwnOutputs``
-    law: str = ""  # dotted name of the ``ModelProblem`` that fits these by a law of the model's own
+    outputs: OwnOutputs = OwnOutputs()
+    law: type[Any] | None = None
+    """The ``ModelProblem`` that fits these by a law of the model's own."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Model:
+class Sweep:
+    """What a sweep does otherwise than by steps of the model's kernel."""
+
+    walk: Callable[..., None] | None = None  # fills the rows of a line
+    not_shown: tuple[str, ...] = ()  # outputs that make no sense there
+    doubt: Callable[[Any, str, NDArray[np.float64]], str] | None = None
+    """From parameters, fidelity and inputs to a warning or ""."""
+    least: Mapping[str, tuple[float, str]] = field(default_factory=dict)
+    """Output -> value that it should not be below, and what it means there."""
+
+
+class Model(ABC):
     """A model of the package."""
 
     key: str  # "washer": on the command line, in sweeps and cards
-    name: str  # "ThrustWasher": of the FMU
-    interface: str  # dotted name of the ``ModelSpec``: parameters, inputs, outputs, kernel
-    command: Command | None = None
-    ladder: Ladder | None = None
-    sweep: Sweep = Sweep()
-    fits: Fits = Fits()
-    explore: str = ""  # dotted name of its ``View``: how a page in the browser shows it
     wiring: tuple[str, ...] = ()  # sentences for the FMU's page: how to connect it
+    command: Command | None = None  # None: it is not solved at operating points
+    ladder: Ladder | None = None  # None: it has no cards
 
     @property
+    @abstractmethod
     def spec(self) -> ModelSpec:
         """What an importer sees."""
-        found: ModelSpec = resolve(self.interface)
-        return found
+
+    @property
+    def name(self) -> str:
+        """Name of its FMU."""
+        return self.spec.name
+
+    @property
+    def solve(self) -> Callable[..., Any]:
+        """What solves it at a point: called with (parameters, **point, fidelity=, **options)."""
+        raise NotImplementedError(self.key)
 
     def commands(self) -> tuple[str, ...]:
         """Return the names of the model's commands."""
         return (self.key, *self.command.more) if self.command else ()
+
+    def inputs(self) -> list[Signal]:
+        """Return the inputs of its command, in the order of the model's own."""
+        instead = self.command.instead if self.command else {}
+        return [instead.get(s.name, s) for s in self.spec.inputs]
+
+    def place(self, point: Values) -> Values:
+        """Return the model's own inputs at a point of its command."""
+        return dict(point)
+
+    def back(self, inputs: Values) -> Values:
+        """Return the point of its command with these inputs of the model."""
+        return dict(inputs)
+
+    def doubt(self, _result: Any) -> str:
+        """Return a warning that takes a solve of its own, "" if nothing."""
+        return ""
+
+    def tables(self) -> Tables | None:
+        """Return where one of its rungs looks its answers up; None if all of them solve."""
+        return None
+
+    @property
+    def sweep(self) -> Sweep:
+        """What a sweep of it does otherwise."""
+        return Sweep()
+
+    @property
+    def fits(self) -> Fits:
+        """What can be fitted beside its outputs."""
+        return Fits()

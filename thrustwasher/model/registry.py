@@ -1,21 +1,16 @@
 """Which models there are: the one list, by the package each lives in.
 
-A model is a package with its record in ``model.toml`` and with compiled code in the package
-``kernels``, whose head says what of it Python calls (``CALLED``). Nothing is imported before it is
-asked for.
+A model is a package with its record, ``MODEL`` in the module ``model``, and with compiled code in
+the package ``kernels``, whose head says what of it Python calls (``CALLED``). Nothing is imported
+before it is asked for.
 """
 
-import tomllib
-from functools import cache
 from importlib import import_module
-from importlib.resources import files
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..errors import ParameterError, suggestion
-from .record import Ladder, Model, from_plain, resolve
-
-if TYPE_CHECKING:
-    from .spec import ModelSpec
+from .record import Ladder, Model
+from .spec import ModelSpec
 
 MODELS = {
     "washer": "thrustwasher.washer",
@@ -35,10 +30,8 @@ def compiled_packages() -> tuple[str, ...]:
     return (*(f"{home}.kernels" for home in (MODELS | HELPERS).values()), *OTHERS)
 
 
-@cache
 def _model_in(home: str) -> Model:
-    text = files(home).joinpath("model.toml").read_text("utf-8")
-    model: Model = from_plain(Model, tomllib.loads(text))
+    model: Model = import_module(f"{home}.model").MODEL
     return model
 
 
@@ -62,9 +55,9 @@ def find_model(name: str) -> Model:
     homes = MODELS | HELPERS
     if name in homes:
         return _model_in(homes[name])
-    for home in homes.values():
-        if _model_in(home).name == name:
-            return _model_in(home)
+    for model in map(_model_in, homes.values()):
+        if model.name == name:
+            return model
     raise _unknown(name)
 
 
@@ -75,14 +68,13 @@ def _unknown(name: str, why: str = "") -> ParameterError:
     return ParameterError(f"model = {name!r}{why}, allowed: {known}{hint}")
 
 
-def find_spec(name: str) -> "ModelSpec":
+def find_spec(name: str) -> ModelSpec:
     """Return the interface of a model by key, by the name of its FMU or by "module:NAME"."""
     if ":" not in name:
         return find_model(name).spec
-    from .spec import ModelSpec
-
+    module, _, attribute = name.partition(":")
     try:
-        found = resolve(name)
+        found = getattr(import_module(module), attribute)
     except (ImportError, AttributeError, TypeError, ValueError) as problem:
         raise _unknown(name, f" ({problem})") from problem
     if not isinstance(found, ModelSpec):
@@ -90,12 +82,12 @@ def find_spec(name: str) -> "ModelSpec":
     return found
 
 
-def all_specs(*, helpers: bool = False) -> "list[ModelSpec]":
+def all_specs(*, helpers: bool = False) -> list[ModelSpec]:
     """Return the interfaces of all models, in the order they are built; ``helpers``: those too."""
     return [model.spec for model in (*all_models(), *map(find_model, HELPERS if helpers else ()))]
 
 
-def spec_of(name: str) -> "ModelSpec":
+def spec_of(name: str) -> ModelSpec:
     """Return the interface of a model that is solved at points; ParameterError names those."""
     return _among(models_with_points(), name).spec
 
@@ -116,6 +108,6 @@ def ladder_of(name: str) -> Ladder:
     return found
 
 
-def kernel_of(spec: "ModelSpec") -> Any:
+def kernel_of(spec: ModelSpec) -> Any:
     """Return the module with a model's compiled step."""
     return import_module(spec.kernel)

@@ -25,7 +25,7 @@ class Signal:
     e.g. "Regime", "SolverStatus"). ``start`` is for inputs only. ``depends`` lists the inputs that
     enter an output at once, at the same time point; an output that is an integral of the past
     has none. ``events``, of a Boolean output, says what happens when it becomes true, then false.
-    ``limit`` names the temperature that an output should stay below, as "module:NAME".
+    ``limit`` is the temperature [K] that an output should stay below.
     ``verified`` is the range of an input for which the accuracy was verified; empty: all of it.
     """
 
@@ -42,7 +42,7 @@ class Signal:
     relative: bool = False  # a temperature difference, no absolute temperature
     optional: bool = False  # an input that may be left out: it is at its start then
     events: tuple[str, str] | None = None
-    limit: str = ""
+    limit: float | None = None
     verified: tuple[float, ...] = ()
 
     @property
@@ -57,6 +57,11 @@ class Signal:
         return -math.inf if low is None else low, math.inf if high is None else high
 
 
+def no_outputs(_params: Any) -> frozenset[str]:
+    """Return the outputs without a value of a model that has a value of all."""
+    return frozenset()
+
+
 def output(
     name: str, unit: str, nominal: float, help: str, depends: tuple[str, ...] = (), **more: Any
 ) -> Signal:
@@ -66,7 +71,7 @@ def output(
 
 @dataclass(frozen=True)
 class Rule:
-    """What is said when parameters contradict each other.
+    """The message when parameters contradict each other.
 
     ``text`` names parameters in braces and stands for itself wherever no Python runs; ``exact``,
     if given, makes the message from the parameters with figures that have to be computed.
@@ -129,14 +134,13 @@ class ModelSpec:
     terminals: tuple[Terminal, ...] = ()
     stop_time: float = 1.0
     step_size: float = 1e-3
-    table: str = ""  # "module:NAME" of the ``Tables`` that a rung looks up in
     # The reference run: rows of time and all inputs, linear between; none: inputs at their start.
     course: tuple[tuple[float, ...], ...] = ()
-    # What the solver counts: (text, "module:NAME" of the place in work).
-    counts: tuple[tuple[str, str], ...] = ()
-    # "module:NAME": from parameters to the names of outputs without a value; an FMU has the number
-    # there that the output's help names.
-    absent: str = ""
+    counted: Callable[[], tuple[tuple[str, int], ...]] = tuple
+    """Returns what the solver counts: text, place in ``work``."""
+    absent: Callable[[Any], frozenset[str]] = no_outputs
+    """From parameters to the names of outputs without a value; an FMU has the number there that
+    the output's help names."""
     # Of a part of one's own: the name of the model, the inputs it is meant for, what else is known.
     kind: str = ""
     box: Mapping[str, tuple[float, float]] = field(default_factory=dict)

@@ -1,15 +1,15 @@
 """TOML files and their tables: read, with quantities in SI units, or an error that says where."""
 
 import tomllib
-from collections.abc import Collection, Iterable
-from dataclasses import replace
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import is_dataclass, replace
+from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args, get_origin, get_type_hints
 
 from ..errors import ParameterError, suggestion, within
 from ..units import has_unit, parse_quantity
 from .parameters import allowed, check_number, check_value
-from .record import from_plain
 from .spec import ModelSpec, Rule
 
 
@@ -36,24 +36,58 @@ def table_beside(module: str, name: str) -> dict[str, Any]:
     return read_file("table", Path(module).with_name(name))
 
 
-def spec_beside(module: str, params: type[Any], rules: tuple[Rule, ...] = ()) -> ModelSpec:
+@cache
+def _anatomy(kind: Any) -> tuple[Any, tuple[Any, ...], dict[str, Any]]:
+    """Return the parts of an annotation: its origin, arguments, and fields if a dataclass."""
+    fields = get_type_hints(kind) if is_dataclass(kind) else {}
+    return get_origin(kind), get_args(kind), fields
+
+
+def from_plain(kind: Any, raw: Any) -> Any:
+    """Return what was read from JSON or TOML as the annotation ``kind`` says, lists as tuples.
+
+    KeyError, TypeError or AttributeError if it has other keys or another shape.
+    """
+    origin, inner, fields = _anatomy(kind)
+    if fields:
+        return kind(**{k: from_plain(fields[k], v) for k, v in raw.items()})
+    if origin is tuple:
+        return tuple(from_plain(inner[0], item) for item in raw)
+    if origin in (dict, Mapping):
+        return {k: from_plain(inner[1], item) for k, item in raw.items()}
+    if inner:  # one kind or None
+        return None if raw is None else from_plain(inner[0], raw)
+    return raw
+
+
+def spec_beside(
+    module: str, params: type[Any], rules: tuple[Rule, ...] = (), **more: Any
+) -> ModelSpec:
     """Return what a model shows to the outside, of the ``interface.toml`` beside a module.
 
-    A row of an output is its unit, nominal value if it is a real number, meaning, then the other
-    fields of its ``Signal``; it depends on all inputs unless these say otherwise.
+    A row of an input is its unit, least, largest, nominal and start value, meaning; one of an
+    output its unit, nominal value if it is a real number, meaning. Other fields of its ``Signal``
+    may follow; an output depends on all inputs unless these say otherwise. ``more`` are fields of
+    the ``ModelSpec`` that are no data.
     """
-    told = table_beside(module, "interface.toml")
-    inputs = [{"name": name, **fields} for name, fields in told["inputs"].items()]
-    outputs = []
-    for name, row in told["outputs"].items():
-        *most, more = row if isinstance(row[-1], dict) else [*row, {}]
-        unit, *nominal, text = most
-        usual = {"nominal": nominal[0]} if nominal else {}
-        signal = {"name": name, "unit": unit, "help": text, "depends": [*told["inputs"]]}
-        outputs.append(signal | usual | more)
-    told |= {"inputs": inputs, "outputs": outputs, "params": params}
-    spec: ModelSpec = from_plain(ModelSpec, told)
-    return replace(spec, rules=rules)
+    table = table_beside(module, "interface.toml")
+    numbers = {"inputs": ("low", "high", "nominal", "start"), "outputs": ("nominal",)}
+    signals: dict[str, Any] = {"inputs": [], "outputs": []}
+    for kind, names in numbers.items():
+        for name, row in table[kind].items():
+            *most, rest = row if isinstance(row[-1], dict) else [*row, {}]
+            unit, *values, text = most
+            signal = {
+                "name": name,
+                "unit": unit,
+                "help": text,
+                **dict(zip(names, values, strict=False)),
+            }
+            if kind == "outputs":
+                signal["depends"] = [*table["inputs"]]
+            signals[kind].append(signal | rest)
+    spec: ModelSpec = from_plain(ModelSpec, table | signals | {"params": params})
+    return replace(spec, rules=rules, **more)
 
 
 def unknown(where: str, key: str, known: Iterable[str]) -> ParameterError:
@@ -73,7 +107,7 @@ def nothing_else(where: str, keys: Iterable[str], known: Collection[str]) -> Non
 def quantity(where: str, key: str, value: Any, unit: str) -> float:
     """Return a number in SI units."""
     if isinstance(value, bool) or not isinstance(value, str | int | float):
-        raise ParameterError(f"{where}: {key} = {value!r}, a number in {unit} is wanted")
+        raise ParameterError(f"{where}: {key} = {value!r}, a number in {unit} is required")
     with within(where):
         return parse_quantity(value, unit, key)
 
@@ -94,7 +128,7 @@ def read_value(where: str, key: str, value: Any, meta: Any) -> Any:
             with within(where):
                 check_value(key, found, meta, stated=True)
         return found
-    wanted = {"integer": int, "boolean": bool, "enumeration": str}[meta["kind"]]
-    if not isinstance(value, wanted) or (wanted is int and isinstance(value, bool)):
+    required = {"integer": int, "boolean": bool, "enumeration": str}[meta["kind"]]
+    if not isinstance(value, required) or (required is int and isinstance(value, bool)):
         raise ParameterError(f"{where}: {key} = {value!r}, allowed: {allowed(meta)}")
     return value

@@ -7,5 +7,6 @@
 ``shift``        the report of a shift, chapter by chapter
 ``style``        one look for all plots
 ``web``          styles and scripts of the pages, and the library they plot with
+``web_worker``   a model's kernels in a web worker: what its scripts are and read
 ===============  ============================================================
 """

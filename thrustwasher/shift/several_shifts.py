@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError, SolveError
-from ..model.record import resolve
 from ..transmission.parameters import course_points
 from .checks.guard import REMEDY, followed_washers
 from .checks.step_error import by_step, parts_of_a_step, recorded_parts
@@ -57,7 +56,8 @@ class SequenceResult:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What must not be missed, a line each; of shifts alike, that of the first."""
-        warnings_of: Any = resolve("thrustwasher.report.shift.summary:warnings_of")
+        from ..report.shift.summary import warnings_of
+
         return tuple(warnings_of(self))
 
     @property

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError
-from ..model.record import absent_outputs, resolve
 from ..storage.whole_files import whole_file
 from .checks.step_estimate import StepError
 from .key_figures.events_and_phases import Event, Phase
@@ -87,7 +86,8 @@ class ShiftResult:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What must not be missed, a line each: doubts about the figures, then faults they show."""
-        warnings_of: Any = resolve("thrustwasher.report.shift.summary:warnings_of")
+        from ..report.shift.summary import warnings_of
+
         return tuple(warnings_of(self))
 
     def comparison(self) -> list[dict[str, Any]]:
@@ -155,7 +155,7 @@ class ShiftResult:
         """Write time and all signals with a value; heads carry the units. All of it or nothing."""
         target = Path(path)
         units, parts = self.units(), self.scene.parts.items()
-        absent = {f"{n}.{own}" for n, p in parts for own in absent_outputs(p.spec, p.params)}
+        absent = {f"{n}.{own}" for n, p in parts for own in p.spec.absent(p.params)}
         signals = {name: s for name, s in self.signals.items() if name not in absent}
         head = ["time [s]", *(f"{name} [{units[name]}]" for name in signals)]
         columns = [self.time.tolist(), *(s.tolist() for s in signals.values())]

@@ -21,7 +21,7 @@ import numpy as np
 from ..model.prepare import fill_table, filled
 from ..model.registry import HELPERS, find_spec, kernel_of
 from ..model.spec import ModelSpec
-from .reference_cache import source_of
+from .reference_cache import SOURCES
 from .reference_values import ReferencePoint
 
 BATCH = 10e-3  # [s] least time between two looks at the clock
@@ -77,7 +77,7 @@ def stepper(
     kernel = kernel_of(spec)
     step = step or kernel.step
     par = filled(spec, params, fidelity, kernel.NPAR, kernel.derive)
-    branches = source_of(spec.key).branches
+    branches = SOURCES[spec.key].branches
     first = [known.point.get(s.name, s.usual) for s in spec.inputs]
     inp = np.array([*first, *([branches.get(known.branch or "", 0.0)] if branches else [])])
     state, work = np.zeros(kernel.NSTATE), np.zeros(kernel.NWORK)

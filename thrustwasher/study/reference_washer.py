@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..errors import SolveError, Status
 from ..ladder.error_table import QUANTITIES
-from ..model.part_file import made_of
+from ..model.part_file import preset_params
 from ..washer.kernel_arguments import constants
 from ..washer.kernels.constants import WasherModel, washer_model
 from ..washer.kernels.layout import S_FACTOR_VALID, S_FIELDS
@@ -201,7 +201,7 @@ def _at_case(
     point: tuple[float, ...], before: tuple[tuple[float, ...], ...] = (), preset: str | None = None
 ) -> ReferenceValues:
     """Return the reference's answer at a case of the charts, on the branch that leads there."""
-    params, result = made_of(SPEC, preset, {}), None
+    params, result = preset_params(SPEC, preset, {}), None
     for load, speed, tilt, oil, _ in (*before, point):
         result = solve_washer(
             params, load=load, speed=speed, tilt=tilt, oil_temperature=oil, start=result

@@ -37,7 +37,7 @@ from ..storage.digests import DATA, changed_fields, params_digest
 from .cases import POINTS, Case, cases, own_case
 from .costs import call_cost
 from .measured_chart import chart_of
-from .reference_cache import answer, reference_points, source_of
+from .reference_cache import SOURCES, answer, reference_points
 from .reference_values import ReferencePoint
 from .surroundings import surroundings
 
@@ -99,7 +99,7 @@ def measure_part(
 
 def measured(case: Case, n: int, show: Show, run: Run = run_here) -> ErrorTable:
     """Return the errors of a case's rungs at ``n`` random points of its box."""
-    spec, params, source = case.spec, case.params, source_of(case.spec.key)
+    spec, params, source = case.spec, case.params, SOURCES[case.spec.key]
     known = reference_points(case, source, n, lambda k: show(k, n), run)
     rungs = [rung_errors(case, rung, known) for rung in rungs_of(spec, params)]
     around = surroundings(VERIFY)

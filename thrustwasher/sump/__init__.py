@@ -2,6 +2,7 @@
 
 ==============  ===============================================================
 ``parameters``  parameters, inputs and outputs: the one list of all interfaces
+``model``       its record
 ``kernels``     compiled code
 ==============  ===============================================================
 """

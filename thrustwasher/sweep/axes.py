@@ -9,7 +9,7 @@ from typing import Any
 from ..errors import ParameterError, suggestion
 from ..model.parameters import check_value
 from ..model.registry import find_model
-from ..model.spec import ModelSpec, Signal
+from ..model.spec import ModelSpec
 from ..units import has_unit, parse_quantity
 
 MOST_POINTS = 4_000_000
@@ -61,9 +61,10 @@ class Axis:
 
 def places(spec: ModelSpec) -> dict[str, Place]:
     """Return everything of a model that a sweep may vary or hold, by name."""
-    more = find_model(spec.key).sweep.more_inputs
-    found = {}
-    for s in (*spec.inputs, *(Signal(**fields_) for fields_ in more)):
+    found: dict[str, Place] = {}
+    for s in (*spec.inputs, *find_model(spec.key).inputs()):
+        if s.name in found:
+            continue
         low, high = s.range
         meta = {"kind": "real", "unit": s.unit, "min": low, "max": high, "relative": s.relative}
         found[s.name] = Place(s.name, True, meta)

@@ -10,7 +10,6 @@ import numpy as np
 
 from ..errors import Status
 from ..model.advice import quantity_text
-from ..model.record import resolve
 from ..model.registry import find_model
 from ..model.spec import ModelSpec, Signal
 
@@ -56,9 +55,8 @@ def joined(pieces: Iterable[Beyond]) -> list[Beyond]:
 
 def _bounds(spec: ModelSpec) -> list[tuple[Signal, float, float, str]]:
     """Return the outputs that have a bound, 1 for an upper and -1 for a lower one, and advice."""
-    known, least = {s.name: s for s in spec.outputs}, find_model(spec.key).sweep.least
-    lowest = resolve(least) if least else {}
+    known, lowest = {s.name: s for s in spec.outputs}, find_model(spec.key).sweep.least
     return [
-        *((s, 1.0, resolve(s.limit), Status.HOT.advice) for s in spec.outputs if s.limit),
+        *((s, 1.0, s.limit, Status.HOT.advice) for s in spec.outputs if s.limit),
         *((known[name], -1.0, bound, text) for name, (bound, text) in lowest.items()),
     ]

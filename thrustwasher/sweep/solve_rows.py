@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from ..errors import FIRST_FAILURE, ParameterError, Status
 from ..model.prepare import fill_table, filled, wants_table
-from ..model.record import absent_outputs, resolve
 from ..model.registry import find_model, kernel_of, spec_of
 from ..model.spec import ModelSpec, Signal
 from ..native.load import bound
@@ -55,15 +54,14 @@ def solve_task(task: Task) -> tuple[Array, Flags]:
     real, whole = output_signals(spec)
     numbers = np.empty((len(task.inputs), len(real)))
     flags = np.zeros((len(task.inputs), len(whole)), np.int32)
-    given = find_model(spec.key).sweep.walk
-    walk = resolve(given) if given else _walk_kernel
+    walk = find_model(spec.key).sweep.walk or _walk_kernel
     for a, b, params in zip(task.starts[:-1], task.starts[1:], task.params, strict=True):
         if params is None:
             flags[a:b, -1] = Status.BAD_INPUT
         else:
             try:
                 walk(spec, params, task.fidelity, task.inputs[a:b], numbers[a:b], flags[a:b])
-                absent = absent_outputs(spec, params)
+                absent = spec.absent(params)
                 numbers[a:b, [i for i, s in enumerate(real) if s.name in absent]] = np.nan
             except ParameterError:  # parameters that only the kernel's constants refuse
                 flags[a:b, -1] = Status.BAD_INPUT

@@ -17,7 +17,6 @@ from ..model.oil import oil_doubts
 from ..model.parameters import params_of
 from ..model.part_file import PartFile, find_part
 from ..model.point import from_box, taken_text
-from ..model.record import resolve
 from ..model.registry import find_model, spec_of
 from ..model.rungs import rung_named
 from ..model.spec import ModelSpec
@@ -265,11 +264,11 @@ def _doubt(
     ParameterError: the only part has no answer to a row; of several that is a warning.
     """
     doubt, sound = find_model(spec.key).sweep.doubt, np.isfinite(inputs).all(1)
-    for k, part in enumerate(params if doubt else ()):
-        if part is None:
+    for k, part in enumerate(params):
+        if part is None or doubt is None:
             continue
         try:
-            text = resolve(doubt)(part, fidelity, inputs[sound & (part_of == k)])
+            text = doubt(part, fidelity, inputs[sound & (part_of == k)])
         except ParameterError as problem:
             if len(params) == 1:
                 raise

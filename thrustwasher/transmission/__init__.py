@@ -2,6 +2,7 @@
 
 ================  ==============================================================
 ``parameters``    parameters; with ``signals`` the one list of all interfaces
+``model``         its record
 ``signals``       inputs, outputs and plugs
 ``bearings``      thrust bearings of sun and ring: parameters and rules
 ``vehicle``       a vehicle as inertia and load of the output

@@ -6,10 +6,7 @@ from ..model.parameters import choice, quantity
 from ..model.spec import Rule
 
 # Name -> shafts it lies between and mean radius [m], an estimate of a car-sized set.
-BEARINGS = {
-    "sun_bearing": ("sun", "carrier", 0.025),
-    "ring_bearing": ("ring", "case", 0.033),
-}
+BEARINGS = {"sun_bearing": ("sun", "carrier", 0.025), "ring_bearing": ("ring", "case", 0.033)}
 SHAFT = {
     "sun": "the sun and what turns with it",
     "carrier": "the carrier, the output",

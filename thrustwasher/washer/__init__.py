@@ -2,6 +2,7 @@
 
 ====================  =========================================================================
 ``parameters``        parameters; with ``interface.toml`` the one list all interfaces come from
+``model``             its record: command, rungs, sweeps
 ``kernel_arguments``  what its kernels take: constants, and memory that each thread keeps
 ``solve``             one operating point
 ``washer_result``     what a solve returns, and the error to expect of it

@@ -1,13 +1,13 @@
 """The washer over time: inputs are given at points, friction and heat follow."""
 
 import math
-from dataclasses import dataclass, fields
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SolveError, Status
+from ..model.advice import Plain
 from ..model.parameters import as_numbers
 from ..model.prepare import course_of, rising
 from ..model.rungs import gone_rung, rung_named
@@ -26,7 +26,7 @@ MOST_PIECES = 32
 
 
 @dataclass(frozen=True, slots=True)
-class WasherCourse:
+class WasherCourse(Plain):
     """A washer at the points ``time``; arrays of one length, SI units."""
 
     time: Array
@@ -59,12 +59,6 @@ class WasherCourse:
     grid: tuple[int, int]
     warnings: tuple[str, ...] = ()
     """What a reader must not miss, a line each."""
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return the fields as a dictionary that JSON can hold; status by name."""
-        found = {f.name: getattr(self, f.name) for f in fields(self)}
-        lists = {n: v.tolist() for n, v in found.items() if isinstance(v, np.ndarray)}
-        return found | lists | {"status": [s.name for s in self.status]}
 
 
 class CourseError(SolveError):
@@ -140,14 +134,14 @@ def follow_washer(
     inputs, rung = np.column_stack(columns), rung_named(SPEC, fidelity)
     run = Follower(params, resolve_grid(rung, grid))
     rows, lost = np.empty((len(points), kernel.NOUT)), np.zeros(len(points), bool)
-    said: list[Status] = []
+    statuses: list[Status] = []
 
     def packed(n: int) -> WasherCourse:
         """Return the first points."""
         return WasherCourse(
             time=points[:n],
             distress=lost[:n].copy(),
-            status=said,
+            status=statuses,
             fidelity=rung,
             thermal_mode=params.thermal_mode,
             grid=run.grid,
@@ -166,7 +160,7 @@ def follow_washer(
             text = f"t = {points[i]:g} s, {values}: {Status(code).advice}"
             raise CourseError(text, packed(i))
         rows[i], lost[i] = run.out, bool(run.iout[L.IO_DISTRESS])
-        said.append(Status(int(run.iout[L.IO_STATUS])))
+        statuses.append(Status(int(run.iout[L.IO_STATUS])))
     return packed(len(points))
 
 

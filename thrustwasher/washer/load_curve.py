@@ -60,8 +60,8 @@ class LoadCurve:
         points = sorted(self.points[:-1], key=lambda p: p.load)
         for p in points:
             for text in [w for w in p.warnings if w not in idle][p.distress :]:
-                told = f"at load = {p.load:.4g} N: {text}"
-                found.setdefault(re.split(r"[=\d]", text)[0], []).append(told)
+                line = f"at load = {p.load:.4g} N: {text}"
+                found.setdefault(re.split(r"[=\d]", text)[0], []).append(line)
         n = len(points)
         lines = (f"{len(texts)} of {n} points, {texts[0]}" for texts in found.values())
         return (*self.told, *idle, *lines)
@@ -186,12 +186,14 @@ def _labelled(points: list[WasherResult], folds: list[Fold]) -> list[WasherResul
             branch = "film" if p.film_ratio >= 3.0 else "contact"
         rise = p.temperature - p.oil_temperature
         distress = (bool(folds) and branch == "contact") or rise > 200.0
-        told = (lost_text(p.film_ratio, rise), *p.warnings) if distress else p.warnings
+        messages = (lost_text(p.film_ratio, rise), *p.warnings) if distress else p.warnings
         p._state[L.S_BRANCH] = _NUMBERS[branch]
         p._state[L.S_MULTIPLICITY] = L.MULTIPLE if folds else L.SINGLE
         status = advised(p.point(), p.temperature_max, distress, Status.OK)
         named.append(
-            dataclasses.replace(p, branch=branch, distress=distress, status=status, warnings=told)
+            dataclasses.replace(
+                p, branch=branch, distress=distress, status=status, warnings=messages
+            )
         )
     return named
 
@@ -287,8 +289,8 @@ class Continuation:
             step, status = load - self.load, OK
             continuation.remember(self.w, 0.0)
             for _ in range(12):
-                wanted, tolerance = self.load + step, self.w.curve[L.ACCURACY]
-                status = newton(self.w, self.pt, LOAD, wanted, NO_FLOOR, tolerance, 20.0)
+                target, tolerance = self.load + step, self.w.curve[L.ACCURACY]
+                status = newton(self.w, self.pt, LOAD, target, NO_FLOOR, tolerance, 20.0)
                 if status == OK:
                     break
                 continuation.recall(self.w, 0.0)

@@ -14,7 +14,7 @@ from ..model.parameters import (
     quantity,
     renewed,
 )
-from ..model.part_file import made_of
+from ..model.part_file import preset_params
 from ..model.spec import Rule
 from ..model.toml_tables import spec_beside
 
@@ -95,13 +95,7 @@ def _body(name: str, **extra: Any) -> Any:
     common, body = name.rsplit("_", 1)
     unit, _, _, largest, text = MATERIAL[common]
     return quantity(
-        0.0,
-        unit,
-        0.0,
-        largest,
-        f"{text} of the {body} (0: {common})",
-        overrides=(common,),
-        **extra,
+        0.0, unit, 0.0, largest, f"{text} of the {body} (0: {common})", overrides=(common,), **extra
     )
 
 
@@ -362,7 +356,7 @@ class WasherParams:
         ------
         ParameterError : no such preset, or a parameter out of range
         """
-        made: WasherParams = made_of(SPEC, name, changes)
+        made: WasherParams = preset_params(SPEC, name, changes)
         return made
 
     def __post_init__(self) -> None:
@@ -372,4 +366,10 @@ class WasherParams:
         check_rules(self, RULES, broken_rule)
 
 
-SPEC = spec_beside(__file__, WasherParams, RULES)
+def _counted() -> tuple[tuple[str, int], ...]:
+    from .kernels.layout import FACTORED, ITERATIONS
+
+    return ("Newton iterations", ITERATIONS), ("heat factors made", FACTORED)
+
+
+SPEC = spec_beside(__file__, WasherParams, RULES, counted=_counted)

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..errors import FIRST_FAILURE, BranchError, ParameterError, SolveError, Status
 from ..model.parameters import check_number
+from ..model.record import Sweep
 from ..model.rungs import gone_rung, rung_named
 from ..native.load import bound
 from ..numerics.jit import Array
@@ -22,7 +23,7 @@ from .kernels import step as kernel
 from .kernels.regime_and_status import LEAST_TEMPERATURE
 from .kernels.workspace import size_of_state, size_of_work
 from .parameters import SPEC, WasherParams
-from .washer_result import BRANCH_NAMES, BRANCHES, BY_CARD, Inputs, WasherResult, result_of
+from .washer_result import BRANCH_NAMES, BRANCHES, BY_CARD, OVERLAP, Inputs, WasherResult, result_of
 
 __all__ = ["WasherParams", "WasherResult", "solve_washer"]
 
@@ -57,7 +58,7 @@ def resolve_grid(rung: str, grid: tuple[int, int] | None) -> tuple[int, int]:
 
 
 RANGES = tuple(
-    # an FMU takes 0 from an unconnected input; here a load is wanted
+    # an FMU takes 0 from an unconnected input; here a load is required
     (s.name, s.unit, 1.0 if s.name == "load" else float(s.low or 0.0), float(s.high or 0.0))
     for s in SPEC.inputs
 )
@@ -154,7 +155,7 @@ def solve_washer(
     fidelity : "field" (10 x 32 nodes), "fine" (19 x 64) or "map", which answers outside its box
         with the field; the result says so
     grid : (n_r, n_theta), overrides the nodes of the fidelity
-    branch : "film" or "contact", the one wanted where several solutions exist; without it the
+    branch : "film" or "contact", the one to take where several solutions exist; without it the
         branch of ``start``, else the film branch up to its fold and the contact branch beyond
     start : a result to start from; same parameters and grid, else only its branch is used
     throw : raise on failure, or return the best estimate with its status
@@ -181,24 +182,24 @@ def solve_washer(
     >>> f"{r.friction_torque:.3f} N m, film ratio {r.film_ratio:.1f}, {r.branch}"
     '0.258 N m, film ratio 20.8, film'
     """
-    rung, told = rung_named(SPEC, fidelity), gone_rung(SPEC, fidelity)
+    rung, messages = rung_named(SPEC, fidelity), gone_rung(SPEC, fidelity)
     nodes = resolve_grid(rung, grid)
     point = check_point(params, load, speed, tilt, oil_temperature, far_face_temperature)
     if branch is not None and branch not in BRANCHES:
         raise ParameterError(f"branch = {branch!r}, allowed: 'film' or 'contact'")
-    wanted = BRANCHES[branch] if branch is not None else 0.0
+    preferred = BRANCHES[branch] if branch is not None else 0.0
     found: WasherResult | None = None
     if rung == "map":
         if grid is not None:
             raise ParameterError(f"grid = {grid!r}, allowed: none; fidelity 'map' has no mesh")
-        found = _map_solver()(params, point, wanted, start)
+        found = _map_solver()(params, point, preferred, start)
         if not found:  # outside the map
-            rung, told = "field", (NOT_IN_MAP,)
-    result = found or _solve(params, point, rung, nodes, wanted, start, grid is None)
-    if told:
-        result = replace(result, warnings=(*told, *result.warnings))
+            rung, messages = "field", (NOT_IN_MAP,)
+    result = found or _solve(params, point, rung, nodes, preferred, start, grid is None)
+    if messages:
+        result = replace(result, warnings=(*messages, *result.warnings))
     if grid is not None and nodes[0] >= 9 and nodes[1] >= 16:
-        result = _with_embedded_estimate(result, wanted)
+        result = _with_embedded_estimate(result, preferred)
     if throw and result.status is Status.NO_BRANCH:
         raise BranchError(
             f"branch = {branch!r} has no solution at load = {point[0]:g} N, speed = {point[1]:g} "
@@ -225,7 +226,7 @@ def other_branch(result: WasherResult) -> str:
 
 @cache
 def _map_solver() -> Any:
-    """Return what solves by look-up; maps are read only where they are wanted."""
+    """Return what solves by look-up; maps are read only where they are needed."""
     from .map.look_up import solve_by_map
 
     return solve_by_map
@@ -244,6 +245,19 @@ def doubt_of_rows(params: WasherParams, fidelity: str, points: Array) -> str:
         with suppress(ParameterError):  # without a map nothing is solved
             return outside_text(params, points, "points")
     return ""
+
+
+SWEEP = Sweep(
+    not_shown=("energy", "stored_heat"),
+    doubt=doubt_of_rows,
+    least={
+        "stick_margin": (
+            1.0,
+            "gap 2 cannot hold the washer, which would slip on the gear; here both turn together",
+        ),
+        "film_thickness": (0.0, OVERLAP),
+    },
+)
 
 
 class _Prepared:
@@ -271,7 +285,7 @@ def _solve(
     point: Inputs,
     fidelity: str,
     nodes: tuple[int, int],
-    wanted: float,
+    preferred: float,
     start: WasherResult | None,
     card: bool = False,
 ) -> WasherResult:
@@ -281,10 +295,10 @@ def _solve(
         state = start._state.copy()
     else:
         state = np.zeros(size_of_state(*nodes))
-        if start is not None and wanted == 0.0:
-            wanted = BRANCHES.get(start.branch, 0.0)
-            return _prefer(params, point, fidelity, nodes, wanted, card)
-    ready.inp[:] = (*point, wanted)
+        if start is not None and preferred == 0.0:
+            preferred = BRANCHES.get(start.branch, 0.0)
+            return _prefer(params, point, fidelity, nodes, preferred, card)
+    ready.inp[:] = (*point, preferred)
     code = ready.step(state, 0.0, 1.0)
     status = OK if code == 0 else Status(code)
     work = ready.work
@@ -318,17 +332,17 @@ def _prefer(
     point: Inputs,
     fidelity: str,
     nodes: tuple[int, int],
-    wanted: float,
+    preferred: float,
     card: bool = False,
 ) -> WasherResult:
     """Solve from nothing on a preferred branch, on the other if it does not exist."""
-    result = _solve(params, point, fidelity, nodes, wanted, None, card)
+    result = _solve(params, point, fidelity, nodes, preferred, None, card)
     if result.status is Status.NO_BRANCH:
         return _solve(params, point, fidelity, nodes, 0.0, None, card)
     return result
 
 
-def _with_embedded_estimate(result: WasherResult, wanted: float) -> WasherResult:
+def _with_embedded_estimate(result: WasherResult, preferred: float) -> WasherResult:
     """Replace the error estimate by the change from a grid of half the intervals."""
     half = ((result.grid[0] - 1) // 2 + 1, result.grid[1] // 2)
     point = result.point()

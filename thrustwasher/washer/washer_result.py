@@ -30,13 +30,6 @@ OVERLAP = (
     "raise roughness or viscosity"
 )
 PRESSED = "film_thickness = {:.3g} um: " + OVERLAP
-LEAST = {  # of a sweep's rows
-    "stick_margin": (
-        1.0,
-        "gap 2 cannot hold the washer, which would slip on the gear; here both turn together",
-    ),
-    "film_thickness": (0.0, OVERLAP),
-}
 BY_CARD = -1.0  # in place of an error: a card is looked at when somebody asks
 INPUTS = tuple(signal.name for signal in SPEC.inputs)
 Inputs = tuple[float, float, float, float, float]  # of a solution, in that order

@@ -32,6 +32,12 @@ class ToyParams:
         check_rules(self, RULES, broken_rule)
 
 
+def _counted():
+    from .kernel import SUBSTEPS
+
+    return (("substeps", SUBSTEPS),)
+
+
 SPEC = ModelSpec(
     key="toy.spec:SPEC",
     name="ToyClutch",
@@ -126,7 +132,7 @@ SPEC = ModelSpec(
         ),
     ),
     kernel="toy.kernel",
-    counts=(("substeps", "toy.kernel:SUBSTEPS"),),
+    counted=_counted,
     rules=RULES,
     terminals=(
         Terminal(

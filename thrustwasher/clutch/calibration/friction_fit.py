@@ -19,14 +19,13 @@ from numpy.typing import ArrayLike
 
 from ...calibration.estimates import Calibration, Estimate
 from ...calibration.identifiability import Information, Verdict
-from ...model.record import OwnOutputs
+from ...model.record import Fits, OwnOutputs
 from ...numerics.jit import Array
 from ...storage.digests import finite
 from . import friction_law as law
 from .friction_law import FrictionProblem
 from .reach import hidden_fall, out_of_reach, rising
 
-FRICTION = OwnOutputs(units={"friction": "1"})
 SAME_LOAD = 1e-6  # relative spread of loads below which there is nothing to compare
 FOLLOWS = 1e-4  # share of the load's spread that the law's constants must leave free
 
@@ -177,3 +176,6 @@ def _load_test(problem: FrictionProblem, best: Array, told: Information) -> Load
             "the law knows no load, fit narrower ranges of load one by one"
         )
     return LoadTest(change, p_value, text)
+
+
+FITS = Fits(outputs=OwnOutputs(units={"friction": "1"}), law=FrictionFit)

@@ -164,8 +164,8 @@ class FrictionProblem(ModelProblem):
         if params.friction_data == "boundary":
             if "oil_temperature" not in given:
                 raise ParameterError(
-                    "oil_temperature is missing, wanted with friction_data = 'boundary': shear of "
-                    "the oil is taken off the measured friction"
+                    "oil_temperature is missing, required with friction_data = 'boundary': shear "
+                    "of the oil is taken off the measured friction"
                 )
             oil = points.input("oil_temperature")
             shear = settled_shear(params, points.input("speed"), load, oil)

@@ -12,7 +12,6 @@ from functools import cached_property
 from typing import Any
 
 from ...errors import Status
-from ...model.record import resolve
 from ...model.spec import REGIMES, ModelSpec, Signal
 
 LOG_CATEGORIES = {  # in the order of the enum in the shell's tables.h
@@ -117,12 +116,12 @@ class Interface:
     @cached_property
     def counts(self) -> tuple[tuple[str, int], ...]:
         """What the model's solver counts: text, place in ``work``."""
-        return tuple((text, int(resolve(where))) for text, where in self.spec.counts)
+        return self.spec.counted()
 
     @cached_property
     def categories(self) -> dict[str, str]:
         """The categories this model sends messages in, with what they mean."""
-        silent = set() if self.spec.counts else {"logNonlinearSystems"}
+        silent = set() if self.counts else {"logNonlinearSystems"}
         if not self.switches:
             silent.add("logEvents")
         return {name: text for name, text in LOG_CATEGORIES.items() if name not in silent}

@@ -34,7 +34,7 @@ def model_folder(spec: ModelSpec, sources: Path) -> Path:
     """
     home = HOMES.get(spec.key, PACKAGE.name)
     if home.partition(".")[0] != PACKAGE.name:
-        return Path(str(files(home) / "model.toml")).parent
+        return Path(str(files(home) / "model.py")).parent
     return sources / re.sub(r"(?<=[a-z])(?=[A-Z])", "_", spec.kind or spec.name).lower()
 
 

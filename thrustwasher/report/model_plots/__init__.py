@@ -7,3 +7,18 @@
 ``washer_plots``   the washer: maps over its annulus, its load curve with the folds
 =================  =====================================================================
 """
+
+from collections.abc import Callable
+
+from matplotlib.figure import Figure
+
+from .clutch_plot import slip_figure
+from .gearmesh_plot import gearmesh_figure
+from .washer_plots import field_figure
+
+# What --plot of a model's command draws, by the models' keys: of (result, point, parameters).
+FIGURES: dict[str, Callable[..., Figure]] = {
+    "washer": field_figure,
+    "clutch": slip_figure,
+    "gearmesh": gearmesh_figure,
+}

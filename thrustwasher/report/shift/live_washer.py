@@ -5,12 +5,52 @@ import zlib
 from typing import Any
 
 from ...model.parameters import as_numbers
-from ...model.record import resolve
-from ...model.registry import models_with_points
 from ...native import shipped
 from ...native.targets import WEB
+from ...numerics.banded import N_SIDES
+from ...washer.kernels import layout, newton, workspace
+from ...washer.kernels.constants import size_of_par
+from ...washer.kernels.workspace import size_of_state, size_of_work
+from ...washer.parameters import SPEC
+from ...washer.solve import GRIDS
+from ..web_worker import WebWorker, numbers_of
 from .shift_record import Record
 from .worst_moments import LEAST_LOAD, rung_with_fields
+
+WORKER = WebWorker(
+    script="washer_worker",
+    calls=(
+        "step",
+        "broken_rule",
+        "derive_grid",
+        "enter_curve",
+        "find_fold",
+        "recall",
+        "remember",
+        "walk_to",
+        "newton",
+        "outputs_at",
+    ),
+    layout=numbers_of(
+        layout,
+        MODE_LOAD=newton.LOAD,
+        NO_FLOOR=newton.NO_FLOOR,
+        N_SIDES=N_SIDES,
+        N_NODAL=workspace.N_NODAL,
+    ),
+    rungs={
+        name: {
+            "grid": GRIDS[name],
+            "code": list(SPEC.fidelities).index(name) + 1,
+            "sizes": {
+                "par": size_of_par(*GRIDS[name]),
+                "state": size_of_state(*GRIDS[name]),
+                "work": layout.N_HEAD + size_of_work(*GRIDS[name]),
+            },
+        }
+        for name in ("field", "fine")
+    },
+)
 
 
 def live_washer(record: Record) -> dict[str, Any] | None:
@@ -19,16 +59,14 @@ def live_washer(record: Record) -> dict[str, Any] | None:
     None without a washer, or where its kernels are not those that are shipped for browsers.
     """
     part = record.part("washer")
-    model = models_with_points().get(part.spec.key) if part else None
     module = shipped.library_file(part.spec.kernel, WEB.name) if part else None
-    if part is None or model is None or not model.explore or module is None:
+    if part is None or module is None:
         return None
-    view = resolve(model.explore)
     packed = zlib.compress(module.read_bytes(), 9)
     return {
         "module": base64.b64encode(packed).decode("ascii"),
-        "script": view.worker_script(),
-        "about": view.worker_data(part.spec),
+        "script": WORKER.source(),
+        "about": WORKER.data(part.spec),
         "parameters": as_numbers(part.params()),
         "rung": rung_with_fields(part),
         "least_load": LEAST_LOAD,

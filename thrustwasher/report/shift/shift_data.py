@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from ...errors import ParameterError
-from ...model.record import absent_outputs, resolve
 from ...units import UNITS, pretty_unit
 from . import shift_tables, summary
 from .shift_record import PACKS, Array, Record
@@ -67,7 +66,7 @@ def run_data(
     ``texts`` are its summary and its warnings, if they are not those of one shift.
     Signals that change are packed in ``room`` characters, all others are a number each.
     """
-    absent = {f"{p.name}.{n}" for p in record.parts for n in absent_outputs(p.spec, p.params())}
+    absent = {f"{p.name}.{n}" for p in record.parts for n in p.spec.absent(p.params())}
     signals = {n: values for n, values in record.signals.items() if n not in absent}
     signals |= _of_the_vehicle(record) | _with_oil(record)
     moving = [name for name, values in signals.items() if np.ptp(values) != 0.0]
@@ -178,7 +177,7 @@ def signal_of(record: Record, name: str) -> dict[str, Any]:
         words = f"{of}: {WITH_OIL}" if own == "friction_with_oil" else own.replace("_", " ")
         return {"name": name, "help": words, **_shown("1")}
     words = found.help if of == "transmission" else f"{of.replace('_', ' ')}: {found.help}"
-    limit = {"limit": float(resolve(found.limit))} if found.limit else {}
+    limit = {"limit": found.limit} if found.limit else {}
     return {"name": name, "help": words, **_shown(found.unit, found.relative), **limit}
 
 

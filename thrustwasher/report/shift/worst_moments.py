@@ -6,7 +6,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...errors import ParameterError, SolveError
-from ...model.record import resolve
 from ...model.registry import models_with_points
 from .shift_record import Part, Record
 
@@ -80,13 +79,12 @@ def solve_moment(record: Record, time: float) -> Moment | None:
     if part is None or recorded is None or model is None or model.command is None:
         return None
     fidelity, params = rung_with_fields(part), part.params()
-    solve = resolve(model.command.solve)
     point = {s.name: record.at(f"washer.{s.name}", time) or 0.0 for s in part.spec.inputs}
     point["load"] = max(point["load"], LEAST_LOAD)
     found = []
     for branch in (None, "film", "contact"):
         with suppress(ParameterError, SolveError):
-            found.append(solve(params, **point, fidelity=fidelity, branch=branch))
+            found.append(model.solve(params, **point, fidelity=fidelity, branch=branch))
     if not found:
         return None
     nearest = min(found, key=lambda r: abs(r.film_ratio - recorded))

@@ -6,7 +6,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model.record import resolve
 from ...model.toml_tables import table_beside
 from ...numerics.jit import Array
 from ..oscillation.judder import FEW
@@ -66,9 +65,8 @@ def find_events(scene: Scene, time: Array, signals: Signals) -> list[Event]:
             if kind == "brake_locked":
                 when = _standstill(time, signals, int(i))
             found.append(Event(when, kind, text))
-    limited = ((n, s) for n, p in scene.parts.items() for s in p.spec.outputs if s.limit)
-    for part, signal in limited:
-        limit = resolve(signal.limit)
+    limited = ((n, s, s.limit) for n, p in scene.parts.items() for s in p.spec.outputs if s.limit)
+    for part, signal, limit in limited:
         hot = np.flatnonzero(signals[f"{part}.{signal.name}"] > limit)
         if len(hot):
             when = float(time[hot[0]])

@@ -5,7 +5,6 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model.record import absent_outputs
 from ...numerics.jit import Array
 from ..oscillation.judder import Judder, judder_figures
 from ..scene.connections import MESHES, PACKS
@@ -329,9 +328,7 @@ def mesh_figures(scene: Scene, time: Array, signals: Signals) -> Found:
     def of_all(name: str) -> list[Array]:
         """Return a signal of all meshes in which it has a value."""
         rated = [
-            p
-            for p, m in zip(MESHES, meshes, strict=False)
-            if name not in absent_outputs(m.spec, m.params)
+            p for p, m in zip(MESHES, meshes, strict=False) if name not in m.spec.absent(m.params)
         ]
         return [signals[f"{p}.{name}"] for p in rated if f"{p}.{name}" in signals]
 

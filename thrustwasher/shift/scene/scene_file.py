@@ -360,4 +360,4 @@ def _start(spec: ModelSpec, file: Any, preset: Any) -> tuple[dict[str, Any], str
     if own.spec.key != spec.key:
         raise ParameterError(f"part = {file!r} is one of {own.spec.name}, allowed: {spec.name}")
     values = {k: x for k, x in own.parameters.items() if k not in RESERVED}
-    return values, own.fidelity, own.told if file else {}
+    return values, own.fidelity, own.about if file else {}

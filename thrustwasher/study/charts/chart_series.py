@@ -1,7 +1,8 @@
 """What a chart is: fixed operating points, hard corners included, and the series of ways to solve.
 
-A series goes over every rung, or over meshes and tolerances; it is named in the model's record. The
-points are those of ``cases.toml``. A changed list of points is another list (``digest``).
+A series goes over every rung, or over meshes and tolerances; ``work_precision`` lists those of
+the models. The points are those of ``cases.toml``. A changed list of points is another list
+(``digest``).
 """
 
 import hashlib
@@ -10,8 +11,6 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from ...model.record import resolve
-from ...model.registry import ladder_of, spec_of
 from ...model.spec import ModelSpec
 from ...model.toml_tables import table_beside
 from .methods import ChartCase, KernelMethod, Method
@@ -56,7 +55,7 @@ class Quantity:
 
 def rungs(spec: ModelSpec, *, quick: bool = False) -> list[Configuration]:
     """Return every named fidelity that the kernel knows."""
-    counted = spec.counts[0][0] if spec.counts else "calls"
+    counted = next((text for text, _ in spec.counted()), "calls")
     return [
         Configuration("rungs", name, "rung", name, partial(KernelMethod, spec, name), counted)
         for name in spec.rungs
@@ -77,12 +76,6 @@ KELVIN = Quantity("temperature", False, unit="K")
 RUNGS = Chart((Quantity("friction_torque", True, 1e-4), KELVIN), WARM, rungs)
 
 
-def chart_of(model: str) -> Chart:
-    """Return what a model's chart shows."""
-    found: Chart = resolve(ladder_of(model).chart)
-    return found
-
-
 def cases_of(model: str, *, quick: bool = False) -> tuple[ChartCase, ...]:
     """Return the cases of a model, or those of a quick look."""
     given = table_beside(__file__, "cases.toml")[model]
@@ -98,8 +91,3 @@ def digest(cases: tuple[ChartCase, ...]) -> str:
     """Return a short digest of a list of cases."""
     text = repr([(c.name, c.point, c.before) for c in cases])
     return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
-def series_of(model: str, *, quick: bool = False) -> list[Configuration]:
-    """Return everything that is measured for a model."""
-    return chart_of(model).series(spec_of(model), quick=quick)

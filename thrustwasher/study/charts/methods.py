@@ -9,7 +9,6 @@ import numpy as np
 
 from ...errors import Status
 from ...model.prepare import fill_table, filled, tables_of
-from ...model.record import resolve
 from ...model.registry import kernel_of
 from ...model.spec import ModelSpec
 from ..costs import idle_step
@@ -81,7 +80,7 @@ class KernelMethod:
         self._out, self._iout = np.empty(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
         self._real = spec.real_outputs
         # where the kernel leaves the first of its counts in ``work``
-        self._count = int(resolve(spec.counts[0][1])) if spec.counts else None
+        self._count = next((place for _, place in spec.counted()), None)
 
     def _walk(self, case: ChartCase) -> tuple[Any, int, float]:
         """Return state, status and count after walking to a case from nothing."""

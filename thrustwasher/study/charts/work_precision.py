@@ -12,12 +12,17 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from ...errors import ParameterError, Status
+from ...model.registry import spec_of
 from ...storage.digests import finite
 from ..costs import REPEATS, Timing, time_call
-from ..reference_cache import source_of
+from ..reference_cache import SOURCES
 from ..reference_values import ReferenceValues
-from .chart_series import Configuration, Quantity, cases_of, chart_of, digest, series_of
+from .chart_series import RUNGS, Configuration, Quantity, cases_of, digest
+from .clutch_chart import CLUTCH
 from .methods import ChartCase, Method, MethodAnswer
+from .washer_chart import WASHER
+
+CHARTS = {"washer": WASHER, "clutch": CLUTCH, "gearmesh": RUNGS}  # by the models' keys
 
 Progress = Callable[[str], None]
 GOOD = (Status.OK, Status.DISTRESS, Status.HOT)
@@ -177,13 +182,13 @@ def work_precision(
     """Measure all series of a model; return cases, true values and samples, as JSON types."""
     cases = cases_of(model, quick=quick)
     progress(f"{model}: reference values of {len(cases)} cases")
-    source = source_of(model)
-    settings = series_of(model, quick=quick)
+    source = SOURCES[model]
+    settings = CHARTS[model].series(spec_of(model), quick=quick)
     known = {
         preset: [source.at_case(case.point, case.before, *words) for case in cases]
         for preset, words in {s.preset: [s.preset] if s.preset else [] for s in settings}.items()
     }
-    chart = chart_of(model)
+    chart = CHARTS[model]
     quantities = chart.quantities
     samples = []
     for setting in settings:

@@ -3,20 +3,14 @@
 import math
 import os
 import threading
-from collections.abc import Callable, Mapping
-from functools import partial
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ...errors import ParameterError, Status
 from ...model.parameters import as_numbers
-from ...model.record import resolve
-from ...model.spec import Tables
 from ...native.load import bound
 from ...numerics.jit import Array
-from ...storage.digests import params_digest
 from ..kernel_arguments import NO_MESH, Recent
 from ..kernels import layout as L
 from ..kernels.map import map_layout as M
@@ -28,9 +22,8 @@ from ..kernels.workspace import Point
 from ..parameters import SPEC, WasherParams
 from ..washer_result import BRANCH_NAMES, BRANCHES, BY_CARD, Fold, Inputs, WasherResult, result_of
 from . import map_file
-from .map_plan import INPUTS, TOLERANCES, coverable, least_of, lines_about
+from .map_plan import INPUTS
 
-MAKER = "thrustwasher.washer.map.map_build:make_map"  # by name: it looks up too
 OUTPUTS = (*SPEC.real_outputs[: L.O_ENERGY], "fluid_load", "contact_load")
 PLACES = (*range(L.O_ENERGY), L.O_FLUID_LOAD, L.O_CONTACT_LOAD)  # of them
 NOTHING = (math.nan,) * L.N_ALL
@@ -274,57 +267,3 @@ def map_for(params: WasherParams, path: str | os.PathLike[str] | None = None) ->
             "`thrustwasher map build`, or use fidelity 'field'"
         )
     return found
-
-
-def build_own(
-    params: WasherParams,
-    box: Mapping[str, tuple[float, float]],
-    tolerance: float,
-    workers: int,
-    progress: Any,
-) -> None:
-    """Build the map of one's own washer and keep it in the user's cache; as ``make_map``.
-
-    The box is cut at what a map can cover.
-    """
-    keep_own(
-        params,
-        partial(
-            resolve(MAKER),
-            params,
-            box=coverable(box),
-            tolerance=tolerance,
-            workers=workers,
-            progress=progress,
-        ),
-    )
-
-
-def keep_own(params: WasherParams, make: Callable[[Path], Any]) -> None:
-    """Keep the map that ``make`` writes to a path where all find it: in the user's cache."""
-    path = map_file.own_folder() / f"washer-{params_digest(params)[:16]}{map_file.SUFFIX}"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    make(path)
-    map_file.forget_unused()
-
-
-def kept_maps() -> str:
-    """Return in words what is kept of one's own washers."""
-    own, most = map_file.own_folder(), map_file.MOST_KEPT
-    kept = [path for path in map_file.map_paths() if path.is_relative_to(own)]
-    return f"{len(kept)} maps of one's own washers, of at most {most}, in {own}"
-
-
-TABLES = Tables(
-    "map",
-    map_file.map_paths,
-    map_file.all_maps,
-    map_for,
-    lambda p: WasherMap(p).box,
-    map_file.plain,
-    build_own,
-    lambda p, box, tol: lines_about(p, coverable(box), tol),
-    least_of,
-    TOLERANCES,
-    kept_maps,
-)

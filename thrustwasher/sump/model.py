@@ -1,0 +1,26 @@
+"""The record of the oil sump."""
+
+from ..model.record import Model
+from ..model.spec import ModelSpec
+
+
+class Sump(Model):
+    """The oil sump."""
+
+    key = "sump"
+    wiring = (
+        "Feed each part's oil_heat to one of heat_1 .. heat_6; factor_i says how many such parts "
+        "there are. Feed temperature back as their oil_temperature.",
+        "Heat is held over a step: the temperature errs by less than the heat of one step would "
+        "warm the sump (0.05 K for 1 kJ).",
+    )
+
+    @property
+    def spec(self) -> ModelSpec:
+        """What an importer sees."""
+        from .parameters import SPEC
+
+        return SPEC
+
+
+MODEL = Sump()

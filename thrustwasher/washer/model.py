@@ -1,0 +1,130 @@
+"""The record of the thrust washer."""
+
+import re
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from ..errors import ParameterError
+from ..model.record import Command, Fits, Ladder, Model, Option, Sweep
+from ..model.spec import ModelSpec, Tables
+
+if TYPE_CHECKING:
+    from .washer_result import WasherResult
+
+MESHED = tuple(f"thrustwasher.washer.kernels.{name}" for name in ("solve", "outputs", "constants"))
+
+
+def read_grid(text: str) -> tuple[int, int]:
+    """Return (n_r, n_theta); the model checks its limits."""
+    match = re.fullmatch(r"\s*(\d{1,5})\s*[xX,]\s*(\d{1,5})\s*", text)
+    if match is None:
+        raise ParameterError(f"grid = {text!r}, allowed: two node counts as in 9x32")
+    return int(match[1]), int(match[2])
+
+
+GRID = Option(
+    name="grid",
+    help="nodes along the radius x around, e.g. 9x32 or 17x64",
+    metavar="RxT",
+    read=read_grid,
+)
+BRANCH = Option(
+    name="branch",
+    help="solution to take where several exist; default: a washer loaded up from light load",
+    choices=("film", "contact"),
+)
+
+
+class Washer(Model):
+    """The thrust washer."""
+
+    key = "washer"
+    wiring = (
+        "The model is quasi-steady: the step only decides how finely the inputs are followed.",
+        "Near the load at which the film is lost the torque jumps: a master that iterates should "
+        "save the state first and go back to it.",
+    )
+    command = Command(
+        help="solve the thrust washer at one load, speed and tilt",
+        title="thrust washer",
+        closing="{iterations} iterations, {fidelity}, grid {grid[0]}x{grid[1]}",
+        plot="draw film, pressures, temperatures and the flow of the oil",
+        options=(GRID, BRANCH),
+        more=("curve", "map"),
+        extra={
+            "fluid_load": ("N", "carried by the oil film"),
+            "contact_load": ("N", "carried by the asperities"),
+            "washer_tilt_x": ("rad", "rotation of the washer about x"),
+            "washer_tilt_y": ("rad", "rotation of the washer about y"),
+            "branch": ("1", "which of the possible solutions this is"),
+            "error_estimate": (
+                "1",
+                "relative error expected in friction_torque, by its card or a second mesh",
+            ),
+        },
+    )
+    ladder = Ladder(
+        part="washer",
+        kernels={
+            "map": ("thrustwasher.washer.kernels.map.map_step",),
+            "field": MESHED,
+            "fine": MESHED,
+        },
+        boxes={
+            "default": {
+                "load": (20.0, 1850.0, "log"),
+                "speed": (50.0, 1400.0, "log"),
+                "tilt": (1e-3, 3e-3, "log"),
+                "oil_temperature": (290.0, 400.0, "linear"),
+            },
+            "planetary": {
+                "load": (2.0, 200.0, "log"),
+                "speed": (1.0, 650.0, "log"),
+                "tilt": (0.8e-3, 1.6e-3, "log"),
+                "oil_temperature": (250.0, 400.0, "linear"),
+            },
+        },
+    )
+
+    @property
+    def spec(self) -> ModelSpec:
+        """What an importer sees."""
+        from .parameters import SPEC
+
+        return SPEC
+
+    @property
+    def solve(self) -> "Callable[..., WasherResult]":
+        """What solves it at a point."""
+        from .solve import solve_washer
+
+        return solve_washer
+
+    def doubt(self, result: Any) -> str:
+        """Return a warning if there is a solution on the other branch too."""
+        from .solve import other_branch
+
+        return other_branch(result)
+
+    def tables(self) -> Tables:
+        """Return the maps."""
+        from .map.map_tables import TABLES
+
+        return TABLES
+
+    @property
+    def sweep(self) -> Sweep:
+        """What a sweep of it does otherwise."""
+        from .solve import SWEEP
+
+        return SWEEP
+
+    @property
+    def fits(self) -> Fits:
+        """The loads of the folds."""
+        from .load_curve import FOLDS
+
+        return Fits(outputs=FOLDS)
+
+
+MODEL = Washer()

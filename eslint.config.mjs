@@ -9,7 +9,7 @@ const here = ["performance", "MessageChannel", "postMessage", "navigator", "loca
 // explore: what one script declares and another one uses
 const joined = ["ABOUT", "Disc", "Kernel", "Model", "Plot", "PointModel", "VIEW", "allowed", "ask", "axisUnit", "digits", "el", "escaped", "headed",
   "fields", "inputChanged", "last", "pixelsOf", "pretty", "readQuantity", "shown", "state"];
-const shared = ["el", "Disc", "pixelsOf", "uPlot", "Runs", "Parts", "Plots", "Controls", "Flow", "Live", "Discs", "Slip"];
+const shared = ["el", "Disc", "pixelsOf", "uPlot", "Runs", "colour", "number", "Plots", "Controls", "Flow", "Live", "Discs", "Slip"];
 
 const globals = (names, may = "readonly") => Object.fromEntries(names.map((name) => [name, may]));
 const rules = {

@@ -36,7 +36,7 @@ def test_a_part_file_is_never_overwritten(mine, capsys):
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["new"], "a model, e.g. washer is wanted"),
+        (["new"], "a model, e.g. washer is required"),
         (["new", "whasher"], "model = 'whasher'"),
         (["new", "washer", "--name", "2nd"], "name = '2nd'"),
         (["new", "washer", "--preset", "rosy"], "'bronze' or 'paper'"),

@@ -289,10 +289,10 @@ def test_the_clutch_says_the_error_of_its_cards_engagement(opened, rung):
 
 
 ADDRESSES = [
-    ("#load=abc", "The address: load = abc: a number is wanted, in N or kN or MN or "),
+    ("#load=abc", "The address: load = abc: a number is required, in N or kN or MN or "),
     ("#load=1e9", "The address: load = 1e9 N, allowed: 1 .. 10000 N. "),
     ("#load=", "The address: load: a number is missing; allowed: 1 .. 10000 N. "),
-    ("#load=1,5", "The address: load = 1,5: a decimal point is wanted, no comma; allowed"),
+    ("#load=1,5", "The address: load = 1,5: a decimal point is required, no comma; allowed"),
     ("#load=300&load=-1", "The address: load = -1 N, allowed"),
     ("#weight=3", "The address: weight is nothing that this page knows. "),
     (
@@ -302,7 +302,7 @@ ADDRESSES = [
     ("#fidelity=map", "The address: fidelity = map, allowed: field or fine. "),
     ("#fidelity=constructor", "The address: fidelity = constructor, allowed: field or fine. "),
     ("#branch=<script>window.hit=1</script>", "The address: branch = <script>window.hit=1</scri"),
-    ("#load=%E0%A4%A", "The address: load = %E0%A4%A: a number is wanted"),
+    ("#load=%E0%A4%A", "The address: load = %E0%A4%A: a number is required"),
     ("#<img src=x onerror=window.hit=1>", "The address: %3Cimg%20src is nothing that this page"),
     ("#conduction=toString", "The address: conduction = toString, allowed: "),
     ("#oil_cooling=perhaps", "The address: oil_cooling = perhaps, allowed: true or false. "),

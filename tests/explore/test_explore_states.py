@@ -102,11 +102,11 @@ def test_a_field_takes_what_the_command_line_takes(opened, name, text):
         ("oil_temperature", "300 degC", "oil_temperature = 300 °C, allowed: -40 .. 200 °C"),
         ("speed", "1e5 rpm", "speed = 1e5 rpm, allowed: -19098.6 .. 19098.6 rpm"),
         ("load", "", "load: a number is missing; allowed: 1 .. 10000 N"),
-        ("load", "1,5", "load = 1,5: a decimal point is wanted, no comma; allowed: 1 .. 10000 N"),
+        ("load", "1,5", "load = 1,5: a decimal point is required, no comma; allowed: 1 .. 10000 N"),
         (
             "load",
             "3 m",
-            "load = 3 m: a number is wanted, in N or kN or MN or daN or kgf or kp or lbf; "
+            "load = 3 m: a number is required, in N or kN or MN or daN or kgf or kp or lbf; "
             "allowed: 1 .. 10000 N",
         ),
     ],

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from thrustwasher.model.registry import find_spec
-from thrustwasher.report.shift.shift_record import Cost, Event, KeyFigure, Part, Phase, Record
+from thrustwasher.report.shift.shift_record import Event, KeyFigure, Part, Phase, Record
+from thrustwasher.shift.shift_result import Cost
 
 UNITS = {
     "time": "s",
@@ -200,7 +201,19 @@ def record(washer: bool = True, mesh: bool = False) -> Record:
         energy=energy,
         key_figures=key_figures(figures),
         parts=parts,
-        costs=[Cost(part.name, "field", 0.01, 0.001, 2500, 0.05) for part in parts],
+        cost=[
+            Cost(
+                part=part.name,
+                model=part.spec.name,
+                fidelity="field",
+                instantiate=0.01,
+                initialize=0.001,
+                steps=2500,
+                wall_time=0.05,
+                share=0.1,
+            )
+            for part in parts
+        ],
         wall_time=0.4,
         messages=("a remark of the run",),
     )

@@ -16,7 +16,7 @@ from thrustwasher.report.html import render, save_plots
 from thrustwasher.report.model_plots.clutch_plot import clutch_figure
 from thrustwasher.report.model_plots.washer_plots import curve_figure, field_figure
 from thrustwasher.report.shift import overview_plot, shift_report, shift_tables, summary
-from thrustwasher.report.shift.shift_record import KeyFigure, Published
+from thrustwasher.report.shift.shift_record import KeyFigure
 from thrustwasher.report.shift.trust import trust_texts
 from thrustwasher.report.shift.worst_moments import Moment, highest, worst_film
 from thrustwasher.report.style import decade_ticks, new_figure
@@ -142,9 +142,13 @@ def test_a_scene_with_a_mesh_shows_teeth_and_their_stress(record):
 
 
 def test_what_a_source_says_stands_beside_the_run(record):
+    names = ("name", "text", "unit", "difference", "published", "run")
     said = [
-        Published("friction_mean", "mean friction", "1", False, 0.053, 0.06),
-        Published("lock_speed", "speed", "rad/s", False, 100.0, None),
+        dict(zip(names, row, strict=True))
+        for row in (
+            ("friction_mean", "mean friction", "1", False, 0.053, 0.06),
+            ("lock_speed", "speed", "rad/s", False, 100.0, None),
+        )
     ]
     told = replace(record, published=said, source="somebody's table 2")
     section = next(s for s in shift_report.shift_page(told).sections if s.anchor == "friction")
@@ -267,7 +271,7 @@ def test_energy_table_adds_up(record):
 
 
 def test_parameters_tell_scene_from_default(record):
-    washer = next(t for t in shift_tables.parameter_tables(record) if t.title.startswith("washer"))
+    washer = shift_tables.parameter_table(record.part("washer"))
     origin = {row[0]: row[4] for row in washer.rows}
     assert (origin["inner_radius"], origin["roughness"]) == ("scene", "default")
 

@@ -58,7 +58,7 @@ def test_an_input_that_is_not_given_is_where_the_model_s_command_has_it(capsys):
         (["washer", "--over", "load=1,2", "--over", "load=3"], "twice"),
         (["washer", "--over", "load=1,2", "--set", "tilt=1e-3", "--tilt", "2e-3"], "twice"),
         (["washer", "--over", "load=1,2", "--power", "3"], "no input of ThrustWasher"),
-        (["washer", "--over", "load=1,2", "--workers", "two"], "--workers two"),
+        (["washer", "--over", "load=1,2", "--workers", "two"], "--workers: two"),
         (["washer", "--points", "nowhere.csv"], "nowhere.csv"),
     ],
 )
@@ -79,4 +79,4 @@ def test_a_file_without_a_known_column_is_refused(tmp_path, capsys):
     points = tmp_path / "points.csv"
     points.write_text("force [N]\n100\n")
     assert main(["sweep", "clutch", "--points", str(points)]) == 2
-    assert "wanted: load, speed, oil_temperature" in capsys.readouterr().err
+    assert "required: load, speed, oil_temperature" in capsys.readouterr().err

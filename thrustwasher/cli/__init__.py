@@ -189,7 +189,7 @@ class Stopped(KeyboardInterrupt):
 
 
 class Watch:
-    """Which signal wanted this process to end, if any: Ctrl-C or SIGTERM.
+    """Which signal asked this process to end, if any: Ctrl-C or SIGTERM.
 
     Only the first one counts while things are tidied up; one that comes a second later stops
     whatever still runs. A stop that arrives as another failure, because some library in between
@@ -228,5 +228,5 @@ class Watch:
 
     @property
     def word(self) -> str:
-        """What is said."""
+        """The message."""
         return "terminated" if self.number == signal.SIGTERM else "stopped"

@@ -42,8 +42,8 @@ def run(arguments: argparse.Namespace, load: Step, simulate: Step) -> int:
     _output.warn(warnings)
     if arguments.json:
         names = ("title", "figures", "events", "phases", "warnings")
-        told = [{name: run[name] for name in names} for run in runs]
-        _output.print_json({"a": told[0], "b": told[1], "warnings": warnings, "out": str(folder)})
+        a, b = ({name: run[name] for name in names} for run in runs)
+        _output.print_json({"a": a, "b": b, "warnings": warnings, "out": str(folder)})
         return 0
     for text, *values in difference_table(runs).rows:
         print(f"{text}: A {values[0] or '-'}, B {values[1] or '-'}")

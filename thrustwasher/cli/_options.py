@@ -2,11 +2,12 @@
 
 import argparse
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..errors import ParameterError, suggestion
+from ..model.idle import idle_warnings
 from ..model.oil import refuse_two_ways, sheet_oil
 from ..model.parameters import allowed, check_number, earlier_of
 from ..model.part_file import (
@@ -17,11 +18,12 @@ from ..model.part_file import (
     preset_part,
     preset_parts,
 )
+from ..model.point import Point, point_of
 from ..model.record import Option
 from ..model.registry import find_model, spec_of
-from ..sweep.axes import Place
+from ..sweep.axes import Place, split_settings
 from ..units import has_unit, parse_quantity
-from ._output import note
+from ._output import note, parameters_of, warn
 
 LIKELY_RPM = 1000.0  # a speed without a unit from here on may be one in rpm
 if TYPE_CHECKING:  # they need numpy, which not every command does
@@ -43,15 +45,9 @@ def add_inputs(parser: argparse.ArgumentParser, inputs: "Iterable[Signal]") -> N
         )
 
 
-def read_inputs(arguments: argparse.Namespace, inputs: "Iterable[Signal]") -> dict[str, Any]:
-    """Return the inputs that are given, in SI units."""
-    given = vars(arguments)
-    return {s.name: read_input(given[s.name], s) for s in inputs if given[s.name] is not None}
-
-
-def doubts(arguments: argparse.Namespace, inputs: "Iterable[Signal]") -> list[str]:
+def _doubts(given: Mapping[str, Any], inputs: "Iterable[Signal]") -> list[str]:
     """Return warnings of speeds without a unit that were probably meant in rpm."""
-    given, found = vars(arguments), []
+    found = []
     for s in inputs:
         text = given[s.name]
         bare = text is not None and s.unit == "rad/s" and re.fullmatch(r"\s*[+-]?[\d.]+\s*", text)
@@ -74,18 +70,16 @@ def read_input(text: str, signal: "Signal") -> float:
 def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:
     """Add ``--part``, ``--set``, ``--oil``, ``--parameters``, ``--preset`` if there are presets."""
     group = parser.add_argument_group("parameters")
-    add_start(group, preset_parts(spec))
+    start = group.add_mutually_exclusive_group()
+    start.add_argument("--part", metavar="FILE.toml", help="part file that --set starts from")
+    if presets := preset_parts(spec):
+        words = "; ".join(f"{name}: {part.description}" for name, part in presets.items())
+        help = f"preset that --set starts from; {words}".replace("%", "%%")
+        start.add_argument("--preset", choices=list(presets), help=help)
     names = {f.name: _default(f) for f in fields(spec.params)}
     first = next(iter(names))
     example = "roughness=4e-7" if "roughness" in names else f"{first}={names[first]}"
-    group.add_argument(
-        "--set",
-        dest="settings",
-        metavar="NAME=VALUE",
-        action="append",
-        default=[],
-        help=f"change a parameter, e.g. --set {example}; may be repeated",
-    )
+    add_settings(group, f"change a parameter, e.g. --set {example}; may be repeated")
     add_oil(group)
     group.add_argument(
         "--parameters",
@@ -96,14 +90,68 @@ def add_parameters(parser: argparse.ArgumentParser, spec: "ModelSpec") -> None:
     )
 
 
-def add_start(group: Any, presets: Mapping[str, PartFile]) -> None:
-    """Add what ``--set`` starts from: a part file, or one of the presets."""
-    either = group.add_mutually_exclusive_group()
-    either.add_argument("--part", metavar="FILE.toml", help="part file that --set starts from")
-    if presets:
-        words = "; ".join(f"{name}: {part.description}" for name, part in presets.items())
-        help = f"preset that --set starts from; {words}".replace("%", "%%")
-        either.add_argument("--preset", choices=list(presets), help=help)
+def add(parser: Any, options: Mapping[str, str]) -> None:
+    """Add flags (``"--quick": help``) and options of one value (``"--out FILE": help``).
+
+    One that may be repeated has dots behind it: ``"--error NAME=VALUE ..."``.
+    """
+    for words, help in options.items():
+        name, _, metavar = words.partition(" ")
+        more: Any = {"metavar": metavar} if metavar else {"action": "store_true"}
+        if metavar.endswith(" ..."):
+            more = {"metavar": metavar[:-4], "action": "append", "default": []}
+        parser.add_argument(name, help=help, **more)
+
+
+def add_settings(parser: Any, help: str) -> None:
+    """Add ``--set``."""
+    look: Any = {"metavar": "NAME=VALUE", "dest": "settings"}
+    parser.add_argument("--set", action="append", default=[], help=help, **look)
+
+
+def add_workers(parser: Any, help: str = "processes; default: all cores") -> None:
+    """Add ``--workers``."""
+    parser.add_argument("--workers", type=_workers, metavar="N", help=help)
+
+
+def _workers(text: str) -> int:
+    if not text.strip().isdecimal() or len(text) > 6 or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text}, allowed: a whole number from 1 on")
+    return int(text)
+
+
+class PartPoint(NamedTuple):
+    """A part at an operating point, as the options give them."""
+
+    part: PartFile
+    there: Point
+    doubts: list[str]  # of speeds without a unit
+
+    def warn(self, more: Iterable[str]) -> list[str]:
+        """Write what the oil is and all warnings, which are returned; called before figures."""
+        warnings = [*self.doubts, *self.there.warnings, *more]
+        tell_oil(self.part)
+        warn(warnings)
+        return warnings
+
+    def record(self, warnings: list[str], wall_time: float) -> dict[str, Any]:
+        """Return what JSON has of every solution at a point."""
+        return {
+            "parameters": parameters_of(self.part.params),
+            "wall_time": wall_time,
+            "taken": {"box": self.there.box, "default": self.there.default},
+            "warnings": warnings,
+            **oil_record(self.part),
+        }
+
+
+def read_point(
+    arguments: argparse.Namespace, spec: "ModelSpec", inputs: "Sequence[Signal]"
+) -> PartPoint:
+    """Return the part and the point that the options give."""
+    part, given = read_part(arguments, spec), vars(arguments)
+    values = {s.name: read_input(given[s.name], s) for s in inputs if given[s.name] is not None}
+    return PartPoint(part, point_of(part, values, inputs), _doubts(given, inputs))
 
 
 def read_part(arguments: argparse.Namespace, spec: "ModelSpec") -> PartFile:
@@ -147,7 +195,7 @@ class _ListParameters(argparse.Action):
 def read_oil(
     arguments: argparse.Namespace, spec: "ModelSpec", others: Iterable[str]
 ) -> "Oil | None":
-    """Return the oil of ``--oil``; ParameterError if it is said in ``others`` as well."""
+    """Return the oil of ``--oil``; ParameterError if ``others`` set it as well."""
     if arguments.oil is None:
         return None
     oil = sheet_oil("--oil", arguments.oil)
@@ -173,6 +221,11 @@ def tell_oil(part: PartFile) -> None:
         note(part.oil_words)
 
 
+def part_warnings(part: PartFile) -> list[str]:
+    """Return what is to be known of a part that is not solved."""
+    return [*idle_warnings(part.spec.key, part.params, part.fidelity), *part.oil_warnings]
+
+
 def oil_record(part: PartFile) -> dict[str, Any]:
     """Return what JSON says of the oil of a part, if it has a name or a data sheet."""
     return {"oil": part.oil.as_dict(part.spec)} if part.oil else {}
@@ -181,21 +234,15 @@ def oil_record(part: PartFile) -> dict[str, Any]:
 def read_settings(settings: Iterable[str], spec: "ModelSpec") -> dict[str, Any]:
     """Return the values that ``--set NAME=VALUE`` gives, by name."""
     metadata = {f.name: f.metadata for f in fields(spec.params)} | earlier_of(spec.params)
-    values: dict[str, Any] = {}
-    for setting in settings:
-        name, equals, text = (part.strip() for part in setting.partition("="))
-        if not equals or not text:
-            raise ParameterError(f"--set {setting}: allowed: NAME=VALUE, e.g. roughness=4e-7")
+    given = split_settings(settings, "--set", "NAME=VALUE, e.g. roughness=4e-7")
+    for name, text in given.items():
         if name not in metadata:
             hint = suggestion(name, metadata, "did you mean {}? ")
             raise ParameterError(
-                f"--set {setting}: {spec.name} has no parameter {name!r}; {hint}"
+                f"--set {name}={text}: {spec.name} has no parameter {name!r}; {hint}"
                 f"thrustwasher {spec.key} --parameters lists them"
             )
-        if name in values:
-            raise ParameterError(f"--set {setting}: {name} is given twice")
-        values[name] = Place(name, False, metadata[name]).check(text)
-    return values
+    return {name: Place(name, False, metadata[name]).check(text) for name, text in given.items()}
 
 
 def parameter_table(spec: "ModelSpec") -> str:
@@ -227,19 +274,7 @@ def add_fidelity(parser: argparse.ArgumentParser, spec: "ModelSpec", *, auto: bo
         words.append("auto:0.01: the cheapest rung whose torque is verified to 1 % at this point")
     usual = spec.default_fidelity
     help = "; ".join([*words, f"default {usual} or the part file's"]).replace("%", "%%")
-    parser.add_argument("--fidelity", help=help, type=_rung(spec, auto), metavar="RUNG")
-
-
-def _rung(spec: "ModelSpec", auto: bool) -> Callable[[str], str]:
-    """Return the check of the option's text."""
-
-    def check(text: str) -> str:
-        if text not in spec.fidelities and not (auto and text.startswith("auto")):
-            known = " or ".join(map(repr, [*spec.rungs, *(["auto:TOLERANCE"] if auto else [])]))
-            raise argparse.ArgumentTypeError(f"{text!r}, allowed: {known}")
-        return text
-
-    return check
+    parser.add_argument("--fidelity", help=help, metavar="RUNG")
 
 
 def add_options(parser: argparse.ArgumentParser, options: Iterable[Option]) -> None:
@@ -280,8 +315,8 @@ def refuse_unused(
         value = getattr(arguments, name, default)
         if value != default and value not in ([], False):
             option = option_name({"settings": "set", "tolerance": "tol"}.get(name, name))
-            told = value if name == "file" else option
-            raise ParameterError(f"{told}: has no effect with {what}; leave it out")
+            given = value if name == "file" else option
+            raise ParameterError(f"{given}: has no effect with {what}; leave it out")
 
 
 def option_name(name: str) -> str:

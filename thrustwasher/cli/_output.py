@@ -13,7 +13,8 @@ from enum import Enum
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..errors import ParameterError
+from ..errors import ParameterError, Status
+from ..model.spec import ModelSpec
 from ..storage.whole_files import new_folder
 from ..storage.whole_files import whole_file as whole_file
 from ..storage.whole_files import whole_folder as whole_folder
@@ -86,6 +87,17 @@ def shown(value: Any, unit: str, difference: bool = False) -> str:
     return value.name if isinstance(value, Enum) else str(value)
 
 
+def status_words(status: Status) -> str:
+    """Return the advice of a sound solution, else the name of what is to be known of it."""
+    return status.advice if status is Status.OK else status.name
+
+
+def columns(spec: ModelSpec, names: Iterable[str], **others: str) -> dict[str, str]:
+    """Return the unit of each column: an input or output of the model, or one of the others."""
+    units = {s.name: s.unit for s in (*spec.inputs, *spec.outputs)} | others
+    return {name: units[name] for name in names}
+
+
 def note(message: str) -> None:
     """Write a message for a person to standard error."""
     print(message, file=sys.stderr)
@@ -135,11 +147,16 @@ def add_targets(
     parser: argparse.ArgumentParser, *, plot: str, out: str = "", instead: str = "a table"
 ) -> None:
     """Add ``--out`` and ``--plot`` where there is something to write or draw, and ``--json``."""
-    if out:
-        parser.add_argument("--out", metavar="FILE", help=out)
-    if plot:
-        parser.add_argument("--plot", metavar="FILE", help=plot)
+    for option, help in {"--out": out, "--plot": plot}.items():
+        if help:
+            parser.add_argument(option, metavar="FILE", help=help)
     parser.add_argument("--json", action="store_true", help=f"one JSON object instead of {instead}")
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a file, all of it or nothing."""
+    with whole_file(path) as draft:
+        draft.write_text(text, encoding="utf-8")
 
 
 class Targets(NamedTuple):
@@ -192,7 +209,7 @@ def check_file(path: str, option: str, suffixes: tuple[str, ...] = ()) -> Path:
         words = f"{', '.join(others)} or {last}" if others else last
         raise ParameterError(f"{option} {path}: allowed: a file name ending in {words}")
     if target.is_dir():
-        raise ParameterError(f"{option} {path}: is a folder, the name of a file is wanted")
+        raise ParameterError(f"{option} {path}: is a folder, the name of a file is required")
     check_folder(str(target.parent), option)
     return target
 
@@ -209,7 +226,7 @@ def check_folder(path: str, option: str) -> Path:
     """Return the folder if files can be written there; leave no trace of the test."""
     folder = Path(path).absolute()
     if folder.exists() and not folder.is_dir():
-        raise ParameterError(f"{option} {path}: is a file, a folder is wanted")
+        raise ParameterError(f"{option} {path}: is a file, a folder is required")
     try:
         with new_folder(folder, stays=False), tempfile.TemporaryFile(dir=folder):
             pass

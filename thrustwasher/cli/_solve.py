@@ -6,8 +6,6 @@ import time
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ..errors import Status
-from ..model.point import point_of
 from ..model.record import Command, Model, Variants
 from ..model.spec import ModelSpec
 from . import _options, _output
@@ -36,34 +34,26 @@ class PointCommand:
         """Solve, then print or draw."""
         model, spec = self._command, self._model.spec
         inputs = self._model.inputs()
-        part = _options.read_part(arguments, spec)
-        there = point_of(part, _options.read_inputs(arguments, inputs))
-        point, params = there.values, part.params
+        at = _options.read_point(arguments, spec, inputs)
+        point, params = at.there.values, at.part.params
         given = {"preset": getattr(arguments, "preset", None), "part": arguments.part}
         options = _options.read_options(arguments, model.options)
         targets = _output.targets(arguments)
 
         place = self._model.place(point)
-        fidelity = _rung(arguments.fidelity or part.fidelity, spec, params, place)
+        fidelity = _rung(arguments.fidelity or at.part.fidelity, spec, params, place)
         began = time.perf_counter()
         result = self._model.solve(params, **point, fidelity=fidelity, **options)
         wall_time = time.perf_counter() - began
-        doubts = _options.doubts(arguments, inputs)
-        warnings = [*doubts, *there.warnings, *result.warnings]
-        if not any(options.values()):
-            warnings += filter(None, [self._model.doubt(result)])
-        _options.tell_oil(part)
-        _output.warn(warnings)
+        own = "" if any(options.values()) else self._model.doubt(result)
+        warnings = at.warn(filter(None, [*result.warnings, own]))
         if targets.plot:
             from ..report.model_plots import FIGURES
 
             targets.draw(FIGURES[spec.key](result, point, params))
         found, parameters = _output.scalars(result), _output.parameters_of(params)
         if arguments.json:
-            told = {**found, **point, **given, "parameters": parameters, "wall_time": wall_time}
-            taken = {"box": there.box, "default": there.default}
-            told |= {"taken": taken, "warnings": warnings, **_options.oil_record(part)}
-            _output.print_json(told)
+            _output.print_json({**found, **point, **given, **at.record(warnings, wall_time)})
             return 0
         where = ", ".join(
             f"{s.name} {_output.shown(point[s.name], s.unit)}{_turns(point[s.name], s.unit)}"
@@ -71,13 +61,13 @@ class PointCommand:
             if not s.optional or point[s.name] != s.start
         )
         print(f"{model.title.format(**parameters)} at {where}")
-        if there.taken:
-            print(f"  {there.taken}")
+        if at.there.taken:
+            print(f"  {at.there.taken}")
         _output.print_rows(list(_rows(model, spec, result, point)))
         if model.variants:
             _print_variants(model.variants, result, parameters)
-        said = result.status.advice if result.status is Status.OK else result.status.name
-        print(f"  {said}; {model.closing.format(**found)}, {wall_time:.3g} s")
+        words = f"{_output.status_words(result.status)}; {model.closing.format(**found)}"
+        print(f"  {words}, {wall_time:.3g} s")
         return 0
 
 
@@ -131,5 +121,5 @@ def _print_variants(variants: Variants, result: Any, parameters: Mapping[str, An
             for column, head in variants.columns.items()
         )
         mine = parameters[variants.head] == words.replace(" ", "")
-        said = f"  ({variants.chosen})" if mine else ""
-        print("  " + words.ljust(22) + "".join(cells) + said)
+        note = f"  ({variants.chosen})" if mine else ""
+        print("  " + words.ljust(22) + "".join(cells) + note)

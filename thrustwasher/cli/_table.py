@@ -17,11 +17,11 @@ COMMAS = "; if these are decimal commas they shift the columns: the decimal sign
 def read_columns(
     path: str, units: Mapping[str, str], optional: tuple[str, ...] = (), *, strict: bool = False
 ) -> dict[str, list[Any]]:
-    """Return the columns wanted, each a list of numbers in SI units.
+    """Return the columns, each a list of numbers in SI units.
 
     The head names the columns, with the unit of the numbers in brackets: ``speed [rpm]``; without
     it they are SI. Empty lines and lines that begin with # are passed over, other columns too, with
-    a line, unless their name is nearly one that is wanted. Comma,
+    a line, unless their name is nearly one of these. Comma,
     semicolon or tab separate; the decimal sign is a point. ``units`` holds the SI unit of every
     column by its name, ``optional`` the names that may be missing. ``strict``: other columns are
     refused unless their names begin with _, and a cell may be empty: None. Errors name line and
@@ -29,7 +29,7 @@ def read_columns(
     """
     lines = _lines(path)
     if not lines:
-        raise ParameterError(f"{path}: is empty, a line of column names is wanted first")
+        raise ParameterError(f"{path}: is empty, a line of column names is required first")
     head = lines[0][1]
     separator = max(",;\t", key=head.count)
     names = _cells(head, separator)
@@ -58,7 +58,7 @@ def read_columns(
 def _lines(path: str) -> list[tuple[int, str]]:
     """Return the lines that count, with their numbers in the file."""
     if Path(path).is_dir():
-        raise ParameterError(f"{path}: is a folder, a CSV file is wanted")
+        raise ParameterError(f"{path}: is a folder, a CSV file is required")
     found = []
     try:
         with open(path, encoding="utf-8-sig", newline=None) as stream:
@@ -70,7 +70,7 @@ def _lines(path: str) -> list[tuple[int, str]]:
                 if line.strip(" \t\r\n,;") and not line.lstrip().startswith("#"):
                     found.append((number, line.rstrip("\r\n")))
     except UnicodeDecodeError:
-        raise ParameterError(f"{path}: is not UTF-8 text, a CSV file is wanted") from None
+        raise ParameterError(f"{path}: is not UTF-8 text, a CSV file is required") from None
     return found
 
 
@@ -88,7 +88,7 @@ def _cells(line: str, separator: str) -> list[str]:
 def _find(
     path: str, head: list[str], units: Mapping[str, str], optional: tuple[str, ...], strict: bool
 ) -> tuple[dict[str, tuple[int, str]], list[str]]:
-    """Return the place and the written unit of every column wanted, and those passed over."""
+    """Return the place and the written unit of every column, and those passed over."""
     found: dict[str, tuple[int, str]] = {}
     passed = []
     for index, cell in enumerate(head):
@@ -116,7 +116,7 @@ def _find(
     if missing:
         names = ", ".join(cell.strip() for cell in head)
         raise ParameterError(
-            f"{path}: column {missing[0]} is missing; wanted: {', '.join(units)}; found: {names}"
+            f"{path}: column {missing[0]} is missing; required: {', '.join(units)}; found: {names}"
         )
     return found, passed
 
@@ -127,5 +127,5 @@ def _number(place: str, text: str, written: str, unit: str) -> float:
         float(text)
     except ValueError:
         comma = "; the decimal sign is a point" if re.fullmatch(r"[+-]?\d+,\d+", text) else ""
-        raise ParameterError(f"{place} = {text!r}, a number is wanted{comma}") from None
+        raise ParameterError(f"{place} = {text!r}, a number is required{comma}") from None
     return parse_quantity(f"{text} {written}".strip(), unit, place)

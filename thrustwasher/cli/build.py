@@ -4,7 +4,6 @@ import argparse
 from typing import Any
 
 from ..errors import ParameterError
-from ..model.idle import idle_warnings
 from ..model.oil import sheet_oil
 from ..model.part_file import PartFile, is_part, load_part
 from ..model.registry import all_models, all_specs, find_spec
@@ -14,6 +13,18 @@ from . import _options, _output
 
 TOL = "0.01"  # by default
 HELP = f"build FMUs for co-simulation: {', '.join(model.name for model in all_models())}"
+OPTIONS = {
+    "--platforms LIST": "native only: names with commas (linux64, win64, aarch64-linux, "
+    "darwin-x86_64, darwin-arm64), all, or local; default: all (of what was edited: those that "
+    "can be linked here)",
+    "--out DIR": "the FMUs go to DIR/<target>-fmi<N>/<MODEL>.fmu; default dist",
+    "--no-maps": "native only: leave out what the washer's fidelity map looks up (2.5 MB); it is "
+    "refused then",
+    "--tol X": "relative error of the torque allowed in the map of a part file's washer, which is "
+    "built and kept if there is none; default 0.01",
+    "--terminals": "put the plugs into FMI 2.0 FMUs too, where some tools call them an error",
+    "--json": "one JSON object with the paths",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -39,38 +50,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=int,
         help="FMI version; default 2; 3 for target native only",
     )
-    parser.add_argument(
-        "--platforms",
-        metavar="LIST",
-        help="native only: names with commas (linux64, win64, aarch64-linux, darwin-x86_64, "
-        "darwin-arm64), all, or local; default: all (of what was edited: those that can be "
-        "linked here)",
-    )
-    parser.add_argument(
-        "--out",
-        metavar="DIR",
-        default="dist",
-        help="the FMUs go to DIR/<target>-fmi<N>/<MODEL>.fmu; default dist",
-    )
-    parser.add_argument(
-        "--no-maps",
-        action="store_true",
-        help="native only: leave out what the washer's fidelity map looks up (2.5 MB); it is "
-        "refused then",
-    )
-    parser.add_argument(
-        "--tol",
-        metavar="X",
-        default="0.01",
-        help="relative error of the torque allowed in the map of a part file's washer, which is "
-        "built and kept if there is none; default 0.01",
-    )
-    parser.add_argument(
-        "--terminals",
-        action="store_true",
-        help="put the plugs into FMI 2.0 FMUs too, where some tools call them an error",
-    )
-    parser.add_argument("--json", action="store_true", help="one JSON object with the paths")
+    _options.add(parser, OPTIONS)
+    parser.set_defaults(out="dist", tol=TOL)
     _options.add_oil(parser)
 
 
@@ -87,11 +68,7 @@ def run(arguments: argparse.Namespace) -> int:
         _options.refuse_unused(arguments, "models without a part file", (), tol=TOL)
     parts = [load_part(name) for name in filter(is_part, arguments.models)]
     parts = parts if oil is None else [part.with_oil(oil) for part in parts]
-    warnings = [
-        text
-        for p in parts
-        for text in (*idle_warnings(p.spec.key, p.params, p.fidelity), *p.oil_warnings)
-    ]
+    warnings = [text for part in parts for text in _options.part_warnings(part)]
     _output.warn(warnings)
     if arguments.target == "native" and not arguments.no_maps:
         for part in parts:

@@ -26,6 +26,18 @@ LAW_UNITS = {
 LAW_OPTIONAL = ("friction_error", "oil_temperature")
 MISFIT = 25.0  # reduced chi-square from which a fit is none: five errors on average
 SETTINGS = {"set": "NAME=VALUE", "error": "NAME=VALUE", "bounds": "NAME=LOW:HIGH"}
+OPTIONS = {
+    "--fit NAMES": "parameters to fit, separated by commas; without PART constants of the "
+    "friction law, default plough_weight,shear_floor,stick_speed,decay_speed",
+    "--set NAME=VALUE ...": "what is held, and where the fit starts; an input that all points "
+    "share; may be repeated",
+    "--error NAME=VALUE ...": "standard deviation of an output: friction_torque=2%%, of its value; "
+    "may be repeated",
+    "--bounds NAME=LOW:HIGH ...": "narrower range of a parameter; may be repeated",
+    "--confidence P": "probability of the intervals; above 0, below 1, default 0.95",
+    "--preset NAME": "preset to start from, e.g. paper",
+    "--fidelity RUNG": "rung of the model, default the part's",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -40,42 +52,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "friction of a clutch: speed, load, friction and, if known, friction_error and "
         'oil_temperature. A unit may follow in brackets, as in "speed [rpm]"',
     )
-    parser.add_argument(
-        "--fit",
-        metavar="NAMES",
-        help="parameters to fit, separated by commas; without PART constants of the friction law, "
-        "default plough_weight,shear_floor,stick_speed,decay_speed",
-    )
-    parser.add_argument(
-        "--set",
-        metavar="NAME=VALUE",
-        action="append",
-        default=[],
-        help="what is held, and where the fit starts; an input that all points share; may be "
-        "repeated",
-    )
-    parser.add_argument(
-        "--error",
-        metavar="NAME=VALUE",
-        action="append",
-        default=[],
-        help="standard deviation of an output: friction_torque=2%%, of its value; may be repeated",
-    )
-    parser.add_argument(
-        "--bounds",
-        metavar="NAME=LOW:HIGH",
-        action="append",
-        default=[],
-        help="narrower range of a parameter; may be repeated",
-    )
-    parser.add_argument(
-        "--confidence",
-        metavar="P",
-        default="0.95",
-        help="probability of the intervals; above 0, below 1, default 0.95",
-    )
-    parser.add_argument("--preset", metavar="NAME", help="preset to start from, e.g. paper")
-    parser.add_argument("--fidelity", metavar="RUNG", help="rung of the model, default the part's")
+    _options.add(parser, OPTIONS)
+    parser.set_defaults(confidence="0.95")
     _options.add_oil(parser)
     _output.add_targets(
         parser,
@@ -120,8 +98,9 @@ def run(arguments: argparse.Namespace) -> int:
     found = calibrate(part, **options)
     wall_time = time.perf_counter() - began
     doubts = _doubts(found)
+    warnings = [*found.warnings, *doubts]
     _options.tell_oil(part)
-    _output.warn([*found.warnings, *doubts])
+    _output.warn(warnings)
     if targets.plot:
         from ..report.model_plots.fit_plot import calibration_figure
 
@@ -129,13 +108,24 @@ def run(arguments: argparse.Namespace) -> int:
     if target:
         _write(target, part, found, data)
     if arguments.json:
-        pack = {"parameters": _output.parameters_of(found.params)}
-        inputs = {"data": data, "fit": [e.name for e in found.estimates], **columns}
-        record = {**inputs, **found.as_dict(), **pack, **_options.oil_record(part)}
-        told = {"wall_time": wall_time, "warnings": [*found.warnings, *doubts]}
-        _output.print_json(record | told)
+        _output.print_json(
+            {
+                "data": data,
+                "fit": [e.name for e in found.estimates],
+                **columns,
+                **found.as_dict(),
+                "parameters": _output.parameters_of(found.params),
+                **_options.oil_record(part),
+                "wall_time": wall_time,
+                "warnings": warnings,
+            }
+        )
         return 0
-    _say(base, found, doubts, _command(arguments, base, given))
+    print(found)
+    if doubts or not all(e.identifiable for e in found.estimates):
+        print("These values are none to use; the lines above say why.")
+    else:
+        print(f"Use it: {_command(arguments, base, given)} {_settings(found, base)}")
     return 0
 
 
@@ -151,15 +141,6 @@ def _command(arguments: argparse.Namespace, base: PartFile, given: list[str]) ->
         if value:
             words += [f"--{option}", shlex.quote(value)]
     return " ".join(words)
-
-
-def _say(base: PartFile, found: Any, doubts: list[str], command: str) -> None:
-    """Print the fit, and the command that takes its values where they can be used."""
-    print(found)
-    if doubts or not all(e.identifiable for e in found.estimates):
-        print("These values are none to use; the lines above say why.")
-        return
-    print(f"Use it: {command} {_settings(found, base)}")
 
 
 def _doubts(found: Any) -> list[str]:
@@ -208,19 +189,18 @@ def _of_model(arguments: argparse.Namespace, part: PartFile, data: str) -> dict[
 
 def _write(target: Path, part: PartFile, found: Any, data: str) -> None:
     """Write the part with the fitted values and a note on them."""
-    told = (
+    words = (
         f"{e.name} {e.value:.6g} {e.unit}".removesuffix(" 1")
         + f" ({e.interval[0]:.4g} .. {e.interval[1]:.4g}"
-        f"{'' if e.identifiable else ', not told by the points'})"
+        f"{'' if e.identifiable else ', not determined by the points'})"
         for e in found.estimates
     )
-    note = f"calibrated on {Path(data).name}, {100 * found.confidence:g} %: {', '.join(told)}"
+    note = f"calibrated on {Path(data).name}, {100 * found.confidence:g} %: {', '.join(words)}"
     notes = "; ".join(filter(None, (part.notes, note)))
     name = part.name if part.name != part.spec.name else usual_name(part.spec)
     values = _output.parameters_of(found.params)
     fitted = replace(part, name=name, parameters=values, notes=notes)
-    with _output.whole_file(target) as draft:
-        draft.write_text(part_text(fitted), encoding="utf-8")
+    _output.write_text(target, part_text(fitted))
     _output.note(f"wrote {target}")
 
 

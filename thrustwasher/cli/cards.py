@@ -3,7 +3,6 @@
 import argparse
 from typing import Any
 
-from ..errors import ParameterError
 from ..model.part_file import is_part, load_part
 from ..model.registry import ladder_of, models_with_cards
 from ..units import format_quantity, parse_quantity
@@ -24,16 +23,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "minute or less",
     )
     group = parser.add_argument_group("of a part file")
-    group.add_argument(
-        "--tol",
-        metavar="X",
-        default=TOL,
-        help="relative error of the map's torque allowed, default 0.01",
-    )
-    group.add_argument(
-        "--points", default=POINTS, metavar="N", type=int, help="held-out points, default 60"
-    )
-    group.add_argument("--workers", type=int, metavar="N", help="processes; default: all cores")
+    tol = "relative error of the map's torque allowed, default 0.01"
+    _options.add(group, {"--tol X": tol})
+    parser.set_defaults(tol=TOL)
+    points = "held-out points, default 60"
+    group.add_argument("--points", default=POINTS, metavar="N", type=int, help=points)
+    _options.add_workers(group)
     parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")
 
 
@@ -68,8 +63,6 @@ def _measure(arguments: argparse.Namespace) -> int:
     """Measure the rungs of a part file and list what was found."""
     part = load_part(arguments.model)
     ladder_of(part.spec.key)  # ParameterError where no rung can be chosen
-    if arguments.workers is not None and arguments.workers < 1:
-        raise ParameterError(f"--workers = {arguments.workers}, allowed: 1 or more")
     tol = parse_quantity(arguments.tol, "1", "tol")
 
     from ..study.verify import measure_part
@@ -121,25 +114,25 @@ def _print_table(table: Any) -> None:
 
 
 def _records(table: Any) -> list[dict[str, Any]]:
-    """Return a record per rung and chart."""
-    return [_record(table, rung, chart) for rung in table.rungs for chart in rung.charts]
-
-
-def _record(table: Any, rung: Any, chart: Any) -> dict[str, Any]:
-    """Return what a program wants to know of a rung's errors on a chart."""
+    """Return what a program wants to know of the errors of each rung on each chart."""
     from ..ladder.error_table import QUANTITIES
 
-    name = [table.model, rung.fidelity, chart.name, table.name]
-    return {
-        "name": "-".join(part for part in name if part and part != "default"),
-        "model": table.model,
-        "fidelity": rung.fidelity,
-        "chart": chart.name,
-        "parameters": table.name,
-        "made": table.made,
-        "stale": table.stale(rung),
-        "points": chart.points,
-        "envelope": {n: [a.min, a.max, a.unit] for n, a in rung.box.items()},
-        "worst": {q: rung.worst_anywhere(q, chart) for q in QUANTITIES},
-        "call_median_s": rung.call,
-    }
+    found = []
+    for rung, chart in ((r, chart) for r in table.rungs for chart in r.charts):
+        name = [table.model, rung.fidelity, chart.name, table.name]
+        found.append(
+            {
+                "name": "-".join(part for part in name if part and part != "default"),
+                "model": table.model,
+                "fidelity": rung.fidelity,
+                "chart": chart.name,
+                "parameters": table.name,
+                "made": table.made,
+                "stale": table.stale(rung),
+                "points": chart.points,
+                "envelope": {n: [a.min, a.max, a.unit] for n, a in rung.box.items()},
+                "worst": {q: rung.worst_anywhere(q, chart) for q in QUANTITIES},
+                "call_median_s": rung.call,
+            }
+        )
+    return found

@@ -8,19 +8,18 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError
-from . import _output
+from . import _options, _output
 
 HELP = "measure error and cost of every way to solve the models here, and draw the charts"
+OPTIONS = {
+    "--out DIR": "folder for chart.json, chart.html, chart.md and the drawings; default charts",
+    "--quick": "few cases and repeats: minutes become half a minute, and the numbers a first look",
+    "--draw FILE.json": "measure nothing, draw what an earlier run measured",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument(
-        "--out",
-        metavar="DIR",
-        default="charts",
-        help="folder for chart.json, chart.html, chart.md and the drawings; default charts",
-    )
     parser.add_argument(
         "--only",
         choices=["stability"],
@@ -28,14 +27,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "coupling, as stability.md beside the chart's page; with --out FILE.md that page "
         "alone",
     )
-    parser.add_argument(
-        "--quick",
-        action="store_true",
-        help="few cases and repeats: minutes become half a minute, and the numbers a first look",
-    )
-    parser.add_argument(
-        "--draw", metavar="FILE.json", help="measure nothing, draw what an earlier run measured"
-    )
+    _options.add(parser, OPTIONS)
+    parser.set_defaults(out="charts")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -53,8 +46,7 @@ def run(arguments: argparse.Namespace) -> int:
         record = _read(arguments.draw) if arguments.draw else _measured(arguments.quick)
         page = ""
     if alone:
-        with _output.whole_file(target) as draft:
-            draft.write_text(page, "utf-8")
+        _output.write_text(target, page)
         _output.note(f"wrote {target}")
         return 0
     try:
@@ -135,11 +127,9 @@ def _write(record: dict[str, Any], folder: Path, extra: str = "") -> None:
     }
     page = page_of(record, fronts)
     with _output.whole_folder(folder) as draft:
-        (draft / "chart.json").write_text(
-            json.dumps(sealed(record), indent=1, allow_nan=False), "utf-8"
-        )
-        (draft / "chart.md").write_text(markdown(page), "utf-8")
-        (draft / "chart.html").write_text(render(page), "utf-8")
-        if extra:
-            (draft / "stability.md").write_text(extra, "utf-8")
+        texts = {"chart.md": markdown(page), "chart.html": render(page), "stability.md": extra}
+        texts["chart.json"] = json.dumps(sealed(record), indent=1, allow_nan=False)
+        for name, text in texts.items():
+            if text:
+                (draft / name).write_text(text, "utf-8")
         save_plots(page, draft)

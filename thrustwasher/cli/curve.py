@@ -6,7 +6,6 @@ from typing import Any
 
 from ..errors import ParameterError
 from ..model.part_file import PartFile
-from ..model.point import point_of
 from ..units import format_quantity, parse_quantity
 from ..washer.model import GRID
 from ..washer.parameters import SPEC
@@ -14,25 +13,18 @@ from . import _options, _output
 
 HELP = "trace the washer's load curve with the folds where the film is lost and regained"
 INPUTS = [signal for signal in SPEC.inputs if signal.name != "load"]
-COLUMNS = {
-    "load": "N",
-    "film_ratio": "1",
-    "film_thickness": "m",
-    "friction_torque": "N.m",
-    "friction_coefficient": "1",
-    "temperature": "K",
-    "temperature_max": "K",
-    "fluid_load": "N",
-    "contact_load": "N",
-    "friction_power": "W",
-    "oil_flow": "m3/s",
-    "throughflow_heat": "W",
-    "oil_heat": "W",
-    "oil_outlet_temperature": "K",
-    "film_temperature": "K",
-    "stick_margin": "1",
-    "branch": "",
-}
+COLUMNS = _output.columns(
+    SPEC,
+    (
+        *("load", "film_ratio", "film_thickness", "friction_torque", "friction_coefficient"),
+        *("temperature", "temperature_max", "fluid_load", "contact_load", "friction_power"),
+        *("oil_flow", "throughflow_heat", "oil_heat", "oil_outlet_temperature"),
+        *("film_temperature", "stick_margin", "branch"),
+    ),
+    fluid_load="N",
+    contact_load="N",
+    branch="",
+)
 TABLE = ("load", "film_ratio", "friction_torque", "friction_coefficient", "temperature", "branch")
 WIDTH = 22
 LOAD_MIN, LOAD_MAX = 20.0, 3000.0  # N
@@ -41,11 +33,8 @@ LOAD_MIN, LOAD_MAX = 20.0, 3000.0  # N
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_inputs(parser, INPUTS)
-    parser.add_argument(
-        "--load",
-        metavar="LOW:HIGH",
-        help="ends of the curve [N], 1 .. 10000; default 20:3000, wider if the part's [box] is",
-    )
+    ends = "ends of the curve [N], 1 .. 10000; default 20:3000, wider if the part's [box] is"
+    _options.add(parser, {"--load LOW:HIGH": ends})
     _options.add_parameters(parser, SPEC)
     _options.add_options(parser, [GRID])
     _output.add_targets(parser, out="write the points as CSV", plot="draw the curve with its folds")
@@ -53,22 +42,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Trace, then print, write or draw."""
-    part = _options.read_part(arguments, SPEC)
-    there = point_of(part, _options.read_inputs(arguments, INPUTS), INPUTS)
-    point, params = there.values, part.params
+    at = _options.read_point(arguments, SPEC, INPUTS)
+    point = at.there.values
     grid = _options.read_options(arguments, [GRID])
     targets = _output.targets(arguments)
 
     from ..washer.load_curve import load_curve
 
     began = time.perf_counter()
-    asked: dict[str, Any] = {**point, **_of_part(part), **_loads(arguments.load), **grid}
-    curve = load_curve(params, **asked)
+    asked: dict[str, Any] = {**point, **_of_part(at.part), **_loads(arguments.load), **grid}
+    curve = load_curve(at.part.params, **asked)
     wall_time = time.perf_counter() - began
-    doubts = _options.doubts(arguments, INPUTS)
-    warnings = [*doubts, *there.warnings, *curve.warnings]
-    _options.tell_oil(part)
-    _output.warn(warnings)
+    warnings = at.warn(curve.warnings)
     series = {name: [getattr(p, name) for p in curve.points] for name in COLUMNS}
     targets.write(COLUMNS, series)
     if targets.plot:
@@ -76,21 +61,11 @@ def run(arguments: argparse.Namespace) -> int:
 
         targets.draw(curve_figure(curve, point))
     if arguments.json:
-        _output.print_json(
-            {
-                "points": [_output.scalars(p) for p in curve.points],
-                "folds": [_output.scalars(f) for f in curve.folds],
-                "warnings": warnings,
-                "taken": {"box": there.box, "default": there.default},
-                **point,
-                "parameters": _output.parameters_of(params),
-                "wall_time": wall_time,
-                **_options.oil_record(part),
-            }
-        )
+        found = {n: list(map(_output.scalars, getattr(curve, n))) for n in ("points", "folds")}
+        _output.print_json({**found, **point, **at.record(warnings, wall_time)})
         return 0
-    if there.taken:
-        print(there.taken)
+    if at.there.taken:
+        print(at.there.taken)
     if not any(targets):
         _output.print_table({name: COLUMNS[name] for name in TABLE}, series, WIDTH)
     if not curve.folds:

@@ -5,61 +5,42 @@ import time
 from typing import Any
 
 from ..clutch.parameters import SPEC
-from ..errors import Status
 from ..model.parameters import check_number
-from ..model.point import point_of
 from ..units import format_quantity, parse_quantity
 from . import _options, _output
 
 HELP = "engage a wet pack: torque, film and interface temperature over time"
-COLUMNS = {
-    "time": "s",
-    "load": "N",
-    "speed": "rad/s",
-    "friction_torque": "N.m",
-    "contact_torque": "N.m",
-    "viscous_torque": "N.m",
-    "torque_capacity": "N.m",
-    "temperature": "K",
-    "film_thickness": "m",
-    "film_ratio": "1",
-    "friction_coefficient": "1",
-    "contact_share": "1",
-    "friction_power": "W",
-    "heat_flux": "W/m2",
-    "energy": "J",
-    "oil_heat": "W",
-    "stored_heat": "J",
-    "regime": "",
-}
+COLUMNS = _output.columns(
+    SPEC,
+    (
+        *("time", "load", "speed", "friction_torque", "contact_torque", "viscous_torque"),
+        *("torque_capacity", "temperature", "film_thickness", "film_ratio"),
+        *("friction_coefficient", "contact_share", "friction_power", "heat_flux", "energy"),
+        *("oil_heat", "stored_heat", "regime"),
+    ),
+    time="s",
+    regime="",
+)
 TABLE = (
-    "time",
-    "load",
-    "speed",
-    "friction_torque",
-    "viscous_torque",
-    "temperature",
-    "film_ratio",
+    *("time", "load", "speed", "friction_torque", "viscous_torque", "temperature", "film_ratio"),
     "regime",
 )
 WIDTH = 18
 TIMES = ("duration", "ramp", "step")
 LONGEST = 3600.0  # s
 MAX_POINTS = 200_000
+OPTIONS = {
+    "--duration TIME": "time from the start to zero slip [s], default 0.5 s",
+    "--ramp TIME": "time in which the load rises to its value [s], default 0.1 s",
+    "--step TIME": "distance of the points [s], default 1 ms",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_inputs(parser, SPEC.inputs)
-    parser.add_argument(
-        "--duration", default="0.5 s", help="time from the start to zero slip [s], default 0.5 s"
-    )
-    parser.add_argument(
-        "--ramp",
-        default="0.1 s",
-        help="time in which the load rises to its value [s], default 0.1 s",
-    )
-    parser.add_argument("--step", default="1 ms", help="distance of the points [s], default 1 ms")
+    _options.add(parser, OPTIONS)
+    parser.set_defaults(duration="0.5 s", ramp="0.1 s", step="1 ms")
     _options.add_parameters(parser, SPEC)
     _options.add_fidelity(parser, SPEC)
     _output.add_targets(parser, out="write all points as CSV", plot="draw the engagement")
@@ -67,20 +48,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Engage, then print, write or draw."""
-    part = _options.read_part(arguments, SPEC)
-    there = point_of(part, _options.read_inputs(arguments, SPEC.inputs), SPEC.inputs)
-    point, params = there.values, part.params
+    at = _options.read_point(arguments, SPEC, SPEC.inputs)
+    point = at.there.values
     times = {name: _seconds(name, getattr(arguments, name)) for name in TIMES}
     targets = _output.targets(arguments)
 
     began = time.perf_counter()
-    result = _engage(params, point, times, arguments.fidelity or part.fidelity)
+    result = _engage(at.part.params, point, times, arguments.fidelity or at.part.fidelity)
     wall_time = time.perf_counter() - began
-    doubts = _options.doubts(arguments, SPEC.inputs)
-    doubts += _short(times, point["load"])
-    warnings = [*doubts, *there.warnings, *result.warnings]
-    _options.tell_oil(part)
-    _output.warn(warnings)
+    warnings = at.warn([*_short(times, point["load"]), *result.warnings])
     series = {name: getattr(result, name) for name in COLUMNS}
     targets.write(COLUMNS, series)
     if targets.plot:
@@ -89,16 +65,10 @@ def run(arguments: argparse.Namespace) -> int:
         targets.draw(engagement_figure(result))
     if arguments.json:
         inputs = {**times, **{n: point[n] for n in ("oil_temperature", "drum_speed")}}
-        given = {
-            "parameters": _output.parameters_of(params),
-            "warnings": warnings,
-            "taken": {"box": there.box, "default": there.default},
-            **_options.oil_record(part),
-        }
-        _output.print_json({**result.as_dict(), **inputs, **given, "wall_time": wall_time})
+        _output.print_json({**result.as_dict(), **inputs, **at.record(warnings, wall_time)})
         return 0
-    if there.taken:
-        print(there.taken)
+    if at.there.taken:
+        print(at.there.taken)
     if not any(targets):
         _output.print_table({name: COLUMNS[name] for name in TABLE}, series, WIDTH)
     _print_summary(result)
@@ -168,6 +138,6 @@ def _print_summary(result: Any) -> None:
         f"{at('temperature', hot)} at {at('time', hot)}; heat {at('energy', -1)}; "
         f"boundary lubrication {begin}"
     )
-    said = result.status.advice if result.status is Status.OK else result.status.name
     step = format_quantity(float(np.diff(result.time).max()), "s")
-    print(f"  {said}; {result.fidelity}, points every {step}, {result.substeps} substeps")
+    words = f"{result.fidelity}, points every {step}, {result.substeps} substeps"
+    print(f"  {_output.status_words(result.status)}; {words}")

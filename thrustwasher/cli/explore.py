@@ -8,6 +8,10 @@ from . import _options, _output
 
 HELP = "write one page in which a part is tried in any browser, without Python"
 USUAL = "washer"
+OPTIONS = {
+    "--preset PRESET": "preset of the model, `thrustwasher part list` names them",
+    "--out PAGE.html": "file to write, default explore-NAME.html",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -20,11 +24,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="PART.toml|MODEL",
         help=f"part file, or model with its defaults: {models}; default {USUAL}",
     )
-    parser.add_argument("--preset", help="preset of the model, `thrustwasher part list` names them")
+    _options.add(parser, OPTIONS)
     _options.add_oil(parser)
-    parser.add_argument(
-        "--out", metavar="PAGE.html", help="file to write, default explore-NAME.html"
-    )
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -33,14 +34,12 @@ def run(arguments: argparse.Namespace) -> int:
     part = _options.with_oil(arguments, part, ())
     out = f"explore-{part.name}.html" if arguments.out is None else arguments.out
     target = _output.check_file(out, "--out", (".html", ".htm"))
-
     _output.warn(gone_rung(part.spec, part.fidelity))
 
     from ..explore.page import page
 
     text = page(part)
-    with _output.whole_file(target) as draft:
-        draft.write_text(text, "utf-8")
+    _output.write_text(target, text)
     _options.tell_oil(part)
     _output.warn(part.oil_warnings)
     print(f"{out}: {len(text.encode()) / 1e6:.2f} MB; open it in a browser")

@@ -19,24 +19,20 @@ BUILD = (  # options of a map to build alone
 )
 POINTS = 60  # by default
 HELP = "chart a washer's solutions for look-up (build), list maps, check one against the mesh"
+OPTIONS = {
+    "--fidelity RUNG": "mesh to chart: fine, field; default: as the tolerance needs",
+    "--out FILE": "default washer.twm, PART.twm of a part file",
+    "--json": "one JSON object instead of words",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     parser.add_argument("deed", choices=["build", "list", "check"], help="what to do")
     parser.add_argument("file", nargs="?", help="build: a part file (.toml); check: the map file")
-    parser.add_argument(
-        "--fidelity", help="mesh to chart: fine, field; default: as the tolerance needs"
-    )
-    parser.add_argument("--out", metavar="FILE", help="default washer.twm, PART.twm of a part file")
-    parser.add_argument(
-        "--points",
-        default=60,
-        metavar="N",
-        type=int,
-        help="held-out points of the check, default 60",
-    )
-    parser.add_argument("--json", action="store_true", help="one JSON object instead of words")
+    _options.add(parser, OPTIONS)
+    points = "held-out points of the check, default 60"
+    parser.add_argument("--points", default=POINTS, metavar="N", type=int, help=points)
     parser.add_argument(
         "--tol",
         "--tolerance",
@@ -44,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="X",
         help="relative error of the torque allowed, default 0.005",
     )
-    parser.add_argument("--workers", type=int, metavar="N", help="processes; default: all cores")
+    _options.add_workers(parser)
     group = parser.add_argument_group("box of a map to build: LOW:HIGH, or one value to fix")
     for signal in INPUTS:
         group.add_argument(
@@ -58,13 +54,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Do what is asked."""
-    if arguments.workers is not None and arguments.workers < 1:
-        raise ParameterError(f"--workers = {arguments.workers}, allowed: 1 or more")
     if not 2 <= arguments.points <= 100_000:
         raise ParameterError(f"--points = {arguments.points}, allowed: 2 .. 100000")
-    usual: dict[str, Any] = {}
-    if arguments.deed == "list":
-        usual = {"points": POINTS, "file": None, "workers": None}
+    usual: dict[str, Any] = {"points": POINTS, "file": None, "workers": None}
+    usual = usual if arguments.deed == "list" else {}
     if arguments.deed != "build":
         _options.refuse_unused(arguments, f"map {arguments.deed}", BUILD, **usual)
     return {"build": _build, "list": _list, "check": _check}[arguments.deed](arguments)
@@ -73,8 +66,8 @@ def run(arguments: argparse.Namespace) -> int:
 def _build(arguments: argparse.Namespace) -> int:
     if arguments.file:
         if not is_part(arguments.file):
-            raise ParameterError("build: a part file (.toml) is wanted; the map to write: --out")
-        if arguments.part or getattr(arguments, "preset", None):
+            raise ParameterError("build: a part file (.toml) is required; the map to write: --out")
+        if arguments.part or arguments.preset:
             raise ParameterError(f"build {arguments.file}: allowed: without --part and --preset")
         arguments.part = arguments.file
     usual = f"{Path(arguments.file).stem if arguments.file else 'washer'}.twm"
@@ -93,9 +86,7 @@ def _build(arguments: argparse.Namespace) -> int:
     from ..washer.map.map_plan import DEFAULT_BOX, TOLERANCE
     from ..washer.map.map_tables import TABLES, keep_own
 
-    tolerance = TOLERANCE
-    if arguments.tolerance is not None:
-        tolerance = parse_quantity(arguments.tolerance, "1", "tolerance")
+    tolerance = parse_quantity(arguments.tolerance or TOLERANCE, "1", "tolerance")
     card = make_map(
         params,
         Path(out),
@@ -146,7 +137,7 @@ def _list(arguments: argparse.Namespace) -> int:
 
 def _check(arguments: argparse.Namespace) -> int:
     if not arguments.file:
-        raise ParameterError("check: the map file is wanted, `thrustwasher map check FILE`")
+        raise ParameterError("check: the map file is required, `thrustwasher map check FILE`")
     from ..processes import runner
     from ..washer.map.map_check import check_map, mesh_of
     from ..washer.map.map_file import read_map

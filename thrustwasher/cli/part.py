@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..errors import ParameterError
-from ..model.idle import idle_warnings, kept_warnings
+from ..model.idle import kept_warnings
 from ..model.part_file import (
     PartFile,
     checked_name,
@@ -18,11 +18,16 @@ from ..model.part_file import (
 )
 from ..model.record import Model
 from ..model.registry import all_models, find_model
-from ..storage.whole_files import whole_file
 from . import _options, _output
 
 HELP = "write a part file of one's own (new), check one, list the presets"
 NEW = ("name", "preset", "settings", "out")  # of a new part alone
+OPTIONS = {
+    "--name NAME": "new: name of the part and of its FMU, default MyMODEL",
+    "--preset PRESET": "new: preset to start from, `part list` names them",
+    "--out FILE.toml": "new: file to write, default MODEL.toml; never over one",
+    "--json": "one JSON object instead of words",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -35,28 +40,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="MODEL|FILE",
         help=f"new: the model, {models}; check: the part file; list: the model, default all",
     )
-    parser.add_argument("--name", help="new: name of the part and of its FMU, default MyMODEL")
-    parser.add_argument("--preset", help="new: preset to start from, `part list` names them")
-    parser.add_argument(
-        "--set",
-        dest="settings",
-        metavar="NAME=VALUE",
-        action="append",
-        default=[],
-        help="new: change a parameter; may be repeated",
-    )
-    parser.add_argument(
-        "--out", metavar="FILE.toml", help="new: file to write, default MODEL.toml; never over one"
-    )
-    parser.add_argument("--json", action="store_true", help="one JSON object instead of words")
+    _options.add(parser, OPTIONS)
+    _options.add_settings(parser, "new: change a parameter; may be repeated")
     _options.add_oil(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Do what is asked."""
     if arguments.deed != "list" and not arguments.subject:
-        wanted = "a model, e.g. washer" if arguments.deed == "new" else "a part file"
-        raise ParameterError(f"part {arguments.deed}: {wanted} is wanted")
+        required = "a model, e.g. washer" if arguments.deed == "new" else "a part file"
+        raise ParameterError(f"part {arguments.deed}: {required} is required")
     unused = {"new": (), "check": NEW, "list": (*NEW, "oil")}[arguments.deed]
     _options.refuse_unused(arguments, f"part {arguments.deed}", unused)
     {"new": _new, "check": _check, "list": _list}[arguments.deed](arguments)
@@ -74,9 +67,8 @@ def _new(arguments: argparse.Namespace) -> None:
     box = start.box or _usual_box(model)
     out = _output.new_part(arguments.out or f"{spec.key}.toml")
     text = part_text(replace(start, name=name, parameters=start.parameters | changes, box=box))
-    with whole_file(out) as draft:
-        draft.write_text(text, encoding="utf-8")
-    _told(arguments, out, load_part(out), f"wrote {out}")
+    _output.write_text(out, text)
+    _show(arguments, out, load_part(out), f"wrote {out}")
 
 
 def _usual_box(model: Model) -> dict[str, tuple[float, float]]:
@@ -90,13 +82,12 @@ def _check(arguments: argparse.Namespace) -> None:
     part = load_part(path)
     oil = _options.read_oil(arguments, part.spec, ())
     part = part if oil is None else part.with_oil(oil)
-    _told(arguments, path, part, f"{path}: allowed")
+    _show(arguments, path, part, f"{path}: allowed")
 
 
-def _told(arguments: argparse.Namespace, path: Path, part: PartFile, words: str) -> None:
+def _show(arguments: argparse.Namespace, path: Path, part: PartFile, words: str) -> None:
     """Say what a part file holds; first what of it no longer fits the rest."""
-    idle = idle_warnings(part.spec.key, part.params, part.fidelity)
-    warnings = [*kept_warnings(part), *idle, *part.oil_warnings]
+    warnings = [*kept_warnings(part), *_options.part_warnings(part)]
     _output.warn(warnings)
     if arguments.json:
         _output.print_json(
@@ -116,11 +107,10 @@ def _told(arguments: argparse.Namespace, path: Path, part: PartFile, words: str)
         words = words.replace(": allowed", ": sound")
     plain, own = part.spec.params(), part.params
     changed = [n for n in part.parameters if getattr(plain, n) != getattr(own, n)]
-    given = f"{len(changed)} parameters not at their defaults" if changed else "all at the defaults"
-    print(
-        f"{words}: {part.name}, {part.spec.name}, {given}{': ' * bool(changed)}"
-        + ", ".join(changed)
+    given = (
+        f"{len(changed)} parameters not at their defaults: " if changed else "all at the defaults"
     )
+    print(f"{words}: {part.name}, {part.spec.name}, {given}{', '.join(changed)}")
     if part.oil:
         print(part.oil_words)
 
@@ -128,11 +118,10 @@ def _told(arguments: argparse.Namespace, path: Path, part: PartFile, words: str)
 def _list(arguments: argparse.Namespace) -> None:
     models = [find_model(arguments.subject)] if arguments.subject else all_models()
     found = {m.key: preset_parts(m.spec) for m in models}
+    words = {k: {n: p.description for n, p in own.items()} for k, own in found.items()}
     if arguments.json:
-        _output.print_json(
-            {k: {n: p.description for n, p in own.items()} for k, own in found.items()}
-        )
+        _output.print_json(words)
         return
-    for key, own in found.items():
-        for name, part in own.items():
-            print(f"{key:10} {name:10} {part.description}")
+    for key, own in words.items():
+        for name, text in own.items():
+            print(f"{key:10} {name:10} {text}")

@@ -16,86 +16,44 @@ from .build import chosen_platforms
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
 OF_A_RUN = (
-    "scene",
-    "compare",
-    "no_report",
-    "step",
-    "master",
-    "master_tolerance",
-    "fidelity",
-    "no_guard",
-    "ssp",
-    "platforms",
-    "oil",
+    *("scene", "compare", "no_report", "step", "master", "master_tolerance", "fidelity"),
+    *("no_guard", "ssp", "platforms", "oil"),
 )
 REPORT, TABLE, FOLDER = "report.html", "shift.csv", "shift-report"
+OPTIONS = {
+    "--scene NAME|FILE.toml": "a built-in scene (planetary, brake-test, msl, ...) or a TOML file; "
+    "default planetary",
+    "--list": "list the built-in scenes with their titles, and stop",
+    "--out DIR": "folder for report.html, overview.png and shift.csv; default shift-report",
+    "--no-report": "write no files, only say what came out",
+    "--step QUANTITY": "communication step [s], if not the scene's; up to a twentieth of the shift",
+    "--master NAME": "gauss-seidel, jacobi or linearly-implicit, if not the scene's",
+    "--fidelity [PART=]RUNG ...": "a rung for all parts that have it, or for one: field, "
+    "washer=map; auto:0.01 chooses the cheapest that holds 1 %% and checks it after the run; may "
+    "be repeated",
+    "--no-guard": "do not check the run afterwards: neither its step, nor whether steady washers "
+    "hold, nor rungs that auto chose",
+    "--ssp FILE.ssp": "write the shift as an SSP package for other tools, instead of running it",
+    "--platforms LIST": "of the package's FMUs: names with commas, all, or local; default: all "
+    "that can be linked here",
+    "--json": "one JSON object with every number",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument(
-        "--scene",
-        metavar="NAME|FILE.toml",
-        help="a built-in scene (planetary, brake-test, msl, ...) or a TOML file; default planetary",
-    )
-    parser.add_argument(
-        "--list", action="store_true", help="list the built-in scenes with their titles, and stop"
-    )
-    parser.add_argument(
-        "--out",
-        metavar="DIR",
-        default=FOLDER,
-        help="folder for report.html, overview.png and shift.csv; default shift-report",
-    )
+    _options.add(parser, OPTIONS)
+    parser.set_defaults(out=FOLDER)
     parser.add_argument(
         "--compare",
         metavar=("A", "B"),
         nargs=2,
         help="two shifts on one page, compare.html: each a report's folder, or a scene, which runs",
     )
-    parser.add_argument(
-        "--no-report", action="store_true", help="write no files, only say what came out"
-    )
-    parser.add_argument(
-        "--step",
-        metavar="QUANTITY",
-        help="communication step [s], if not the scene's; up to a twentieth of the shift",
-    )
-    parser.add_argument(
-        "--master",
-        metavar="NAME",
-        help="gauss-seidel, jacobi or linearly-implicit, if not the scene's",
-    )
     parser.add_argument("--master-tolerance", help=argparse.SUPPRESS)
-    parser.add_argument(
-        "--fidelity",
-        metavar="[PART=]RUNG",
-        action="append",
-        default=[],
-        help="a rung for all parts that have it, or for one: field, washer=map; auto:0.01 chooses "
-        "the cheapest that holds 1 %% and checks it after the run; may be repeated",
-    )
-    parser.add_argument(
-        "--no-guard",
-        action="store_true",
-        help="do not check the run afterwards: neither its step, nor whether steady washers hold, "
-        "nor rungs that auto chose",
-    )
     parser.add_argument(
         "--fmu", choices=["native", "python"], default="native", help="kind of FMU; default native"
     )
-    parser.add_argument(
-        "--ssp",
-        metavar="FILE.ssp",
-        help="write the shift as an SSP package for other tools, instead of running it",
-    )
-    parser.add_argument(
-        "--platforms",
-        metavar="LIST",
-        help="of the package's FMUs: names with commas, all, or local; default: all that can be "
-        "linked here",
-    )
-    parser.add_argument("--json", action="store_true", help="one JSON object with every number")
     _options.add_oil(parser)
 
 
@@ -105,12 +63,16 @@ def run(arguments: argparse.Namespace) -> int:
         _options.refuse_unused(arguments, "--list", OF_A_RUN, out=FOLDER, fmu="native")
         return _list(arguments.json)
     if arguments.compare:
-        return _compare.run(arguments, _scene, _one_shift)
+        return _compare.run(arguments, _scene, _simulate)
     if arguments.no_report and arguments.out != FOLDER:
         raise ParameterError(f"--out {arguments.out}: --no-report writes no files; leave one out")
     scene = _scene(arguments, arguments.scene or "planetary")
     if scene.sequence:
-        _check_sequence(arguments, scene)
+        if arguments.ssp:
+            raise ParameterError(
+                "--ssp: a package has one shift, allowed: a scene without [sequence]"
+            )
+        _check_rungs(scene, "with [sequence]")
     if arguments.ssp:
         return _export(arguments, scene)
     if arguments.platforms:
@@ -118,7 +80,7 @@ def run(arguments: argparse.Namespace) -> int:
     folder = None if arguments.no_report else _output.check_folder(arguments.out, "--out")
 
     began = time.perf_counter()
-    result = (_shifts if scene.sequence else _one_shift)(arguments, scene)
+    result = _simulate(arguments, scene)
     if folder:
         with _output.whole_folder(folder) as draft:
             _write(result, draft)
@@ -145,13 +107,8 @@ def _list(as_json: bool) -> int:
     return 0
 
 
-def _get_ready(arguments: argparse.Namespace) -> None:
-    """Load what draws and read the templates while the shift runs: its steps leave Python free."""
-    if not arguments.no_report:
-        Thread(target=_load_report).start()
-
-
 def _load_report() -> None:
+    """Load what draws and read the templates while the shift runs: its steps leave Python free."""
     from ..report.html import PAGE
     from ..report.shift import shift_report  # noqa: F401 (it draws)
     from ..templates import template
@@ -171,32 +128,19 @@ def _scene(arguments: argparse.Namespace, name: str) -> Any:
     return with_fidelities(scene, arguments.fidelity)
 
 
-def _one_shift(arguments: argparse.Namespace, scene: Any) -> Any:
-    """Return the result of a scene of one shift."""
-    from ..shift import run_auto
+def _simulate(arguments: argparse.Namespace, scene: Any) -> Any:
+    """Return the result of a scene of one shift or several."""
+    from ..shift import run_auto, run_sequence
 
+    progress = _output.time_left(scene.name) if sys.stderr.isatty() else None
+    guard = not arguments.no_guard
     with _fmu_instances(scene, arguments.fmu) as make:
-        _get_ready(arguments)
-        return run_auto(scene, make, guard=not arguments.no_guard, progress=_progress(scene))
-
-
-def _shifts(arguments: argparse.Namespace, scene: Any) -> Any:
-    """Return the result of a scene of several shifts."""
-    from ..shift import run_sequence
-
-    with _fmu_instances(scene, arguments.fmu) as make:
-        _get_ready(arguments)
+        if not arguments.no_report:
+            Thread(target=_load_report).start()
+        if not scene.sequence:
+            return run_auto(scene, make, guard=guard, progress=progress)
         instances = {name: make(name, part) for name, part in scene.parts.items()}
-        return run_sequence(
-            scene, instances, guard=not arguments.no_guard, progress=_progress(scene)
-        )
-
-
-def _check_sequence(arguments: argparse.Namespace, scene: Any) -> None:
-    """Refuse what a scene of several shifts has no use for."""
-    if arguments.ssp:
-        raise ParameterError("--ssp: a package has one shift, allowed: a scene without [sequence]")
-    _check_rungs(scene, "with [sequence]")
+        return run_sequence(scene, instances, guard=guard, progress=progress)
 
 
 def _check_rungs(scene: Any, where: str) -> None:
@@ -208,31 +152,22 @@ def _check_rungs(scene: Any, where: str) -> None:
         )
 
 
-def _progress(scene: Any) -> Callable[[int, int], None] | None:
-    return _output.time_left(scene.name) if sys.stderr.isatty() else None
-
-
 def _say(result: Any, folder: Path | None) -> None:
     """Print what happened in the shift, and where its report is."""
     from ..report.shift import summary
     from ..report.shift.shift_record import record_of
 
     record = record_of(result)
-    for text in [*(result.selection.words() if result.selection else []), *result.messages]:
-        print(text)
-    for text in summary.sentences(record):
+    chosen = result.selection.words() if result.selection else []
+    for text in [*chosen, *result.messages, *summary.sentences(record)]:
         print(text)
     missing = f"{record.energy['residual_share']:.1e} of {record.whole_name}"
-    print(f"Energy balance: {missing} is missing.{_step_words(record)}")
+    errs = f" Error of the step: {record.step_error.words()}." if record.step_error else ""
+    print(f"Energy balance: {missing} is missing.{errs}")
     if folder:
         print(f"Report: {folder / REPORT}")
     if result.guard:
         print(f"Check: {result.guard.closing()}.")
-
-
-def _step_words(record: Any) -> str:
-    """Return what the step errs by, if that was checked."""
-    return f" Error of the step: {record.step_error.words()}." if record.step_error else ""
 
 
 def _say_sequence(result: Any) -> None:
@@ -308,8 +243,8 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
         draft.write_bytes(zipped(parts))
     if arguments.json:
         total = time.perf_counter() - began
-        told = {"ssp": str(target), "files": sorted(parts), "total_time": total}
-        _output.print_json(told | {"warnings": scene.warnings})
+        written = {"ssp": str(target), "files": sorted(parts), "total_time": total}
+        _output.print_json(written | {"warnings": scene.warnings})
     else:
         print(target)
     return 0

@@ -16,51 +16,28 @@ from ._table import read_columns
 
 VALUES = "NAME=VALUES, e.g. load=50:1850:50 or speed=136,545"
 HELP = "solve a model over ranges of inputs and parameters, on all cores or on a cluster"
+OPTIONS = {
+    "--over NAME=VALUES ...": "vary an input or parameter: load=50:1850:50 (start:stop:step), "
+    "load=20:1850:x40 (40 values, equal ratios; n40: even), speed=136,545, "
+    '"oil_temperature [degC]=24,80"; may be repeated, the first input runs fastest',
+    "--points FILE.csv": "instead of --over, a file with a point in every line",
+    "--preset NAME": "named set of parameters to start from, e.g. paper",
+    "--fidelity RUNG": "rung of the model, its command's --help lists them; auto:0.01: the "
+    "cheapest whose torque is verified to 1 %% over all points",
+    "--out FILE": "table to write, .csv or .parquet; stopped, the same command goes on. Without: "
+    "CSV to standard output",
+    "--cluster ADDRESS": "Dask scheduler, e.g. tcp://10.0.0.1:8786, instead of processes",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     models = ", ".join(models_with_points())
     parser.add_argument("model", metavar="MODEL|FILE", help=f"{models}, or a part file (.toml)")
-    parser.add_argument(
-        "--over",
-        metavar="NAME=VALUES",
-        action="append",
-        default=[],
-        help="vary an input or parameter: load=50:1850:50 (start:stop:step), load=20:1850:x40 (40 "
-        'values, equal ratios; n40: even), speed=136,545, "oil_temperature [degC]=24,80"; '
-        "may be repeated, the first input runs fastest",
-    )
-    parser.add_argument(
-        "--points", metavar="FILE.csv", help="instead of --over, a file with a point in every line"
-    )
-    parser.add_argument(
-        "--set",
-        dest="settings",
-        metavar="NAME=VALUE",
-        action="append",
-        default=[],
-        help="hold an input or parameter at a value, e.g. --set roughness=4e-7; may be repeated",
-    )
-    parser.add_argument(
-        "--preset", metavar="NAME", help="named set of parameters to start from, e.g. paper"
-    )
-    parser.add_argument(
-        "--fidelity",
-        metavar="RUNG",
-        help="rung of the model, its command's --help lists them; auto:0.01: the cheapest whose "
-        "torque is verified to 1 %% over all points",
-    )
-    parser.add_argument(
-        "--out",
-        metavar="FILE",
-        help="table to write, .csv or .parquet; stopped, the same command goes on. Without: CSV "
-        "to standard output",
-    )
-    parser.add_argument("--workers", metavar="N", help="processes; default: one per core, 1: none")
-    parser.add_argument(
-        "--cluster", metavar="ADDRESS", help="Dask scheduler, e.g. tcp://10.0.0.1:8786, instead"
-    )
+    held = "hold an input or parameter at a value, e.g. --set roughness=4e-7; may be repeated"
+    _options.add_settings(parser, held)
+    _options.add(parser, OPTIONS)
+    _options.add_workers(parser, "processes; default: one per core, 1: none")
     _options.add_oil(parser)
     inputs = parser.add_argument_group("inputs that are held (as with --set)")
     for name, units in _inputs().items():
@@ -92,13 +69,13 @@ def run(arguments: argparse.Namespace) -> int:
         points=points,
         fidelity=arguments.fidelity,
         out=out,
-        workers=_workers(arguments.workers),
+        workers=arguments.workers,
         cluster=arguments.cluster,
         progress=_progress(spec),
         keep=False,
     )
-    for said in filter(None, [table.choice, table.taken]):
-        _output.note(said)
+    for message in filter(None, [table.choice, table.taken]):
+        _output.note(message)
     _options.tell_oil(part)
     _output.warn(table.warnings)
     if not out:
@@ -135,17 +112,8 @@ def _points(path: str, spec: ModelSpec) -> dict[str, Any]:
     columns: dict[str, Any] = dict(read_columns(path, {**units, "line": "1"}, (*units, "line")))
     if not set(columns) - {"line"}:
         inputs = ", ".join(p.name for p in known.values() if p.is_input)
-        raise ParameterError(f"{path}: no column is an input or parameter, wanted: {inputs}")
+        raise ParameterError(f"{path}: no column is an input or parameter, required: {inputs}")
     return columns
-
-
-def _workers(text: str | None) -> int | None:
-    """Return the number of processes asked for."""
-    if text is None:
-        return None
-    if not text.strip().isdecimal() or len(text) > 6:
-        raise ParameterError(f"--workers {text}: allowed: a whole number from 1 on")
-    return int(text)
 
 
 def _inputs() -> dict[str, str]:
@@ -161,16 +129,16 @@ def _inputs() -> dict[str, str]:
 def _progress(spec: ModelSpec) -> Callable[[int, int], None]:
     """Return what shows the progress; on a new machine it explains the wait first."""
     show = _output.time_left(f"sweep {spec.key}:")
-    told = False
+    begun = False
 
     def progress(done: int, total: int) -> None:
-        nonlocal told
-        if not told and done < total:
+        nonlocal begun
+        if not begun and done < total:
             from ..fmu.model_kernels import is_compiled
 
             if not is_compiled(spec):
                 _output.note(f"compiling the kernels of the {spec.key}, once on this machine")
-        told = True
+        begun = True
         show(done, total)
 
     return progress

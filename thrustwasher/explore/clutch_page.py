@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..clutch.engagement import Engagement, engage_clutch
+from ..clutch.engagement import engage_clutch
 from ..clutch.kernels import layout
 from ..clutch.parameters import DRUM, LOAD, OIL, SPEC, SPEED
 from ..errors import Status
@@ -29,65 +29,48 @@ DURATION = Signal(
 USUAL = {SPEED.name: 100.0, OIL.name: 353.15}
 
 
-def _course(params: Any, point: Mapping[str, float], rung: str) -> Engagement:
-    end, rest = point["duration"], {n: point[n] for n in (OIL.name, DRUM.name)}
+def _result(params: Any, point: Mapping[str, float], rung: str) -> Any:
+    end = point["duration"]
     time = np.linspace(0.0, end, POINTS + 1)
-    return engage_clutch(
+    found = engage_clutch(
         params,
         time=time,
         load=np.interp(time, np.linspace(0.0, end, HANDLES), RAMP),
         speed=point["speed"] * (1.0 - time / end),
+        oil_temperature=point[OIL.name],
+        drum_speed=point[DRUM.name],
         fidelity=rung,
-        **rest,
     )
-
-
-def _result(params: Any, point: Mapping[str, float], rung: str) -> Any:
-    c = _course(params, point, rung)
-    thin = np.flatnonzero(c.film_ratio < 1.0)
+    thin = np.flatnonzero(found.film_ratio < 1.0)
     return SimpleNamespace(
-        course=c,
-        friction_torque_max=float(np.abs(c.friction_torque).max()),
-        power_max=float(np.abs(c.friction_power).max()),
-        temperature_max=float(c.temperature.max()),
-        film_ratio_min=float(c.film_ratio.min()),
-        heat_flux_max=float(c.heat_flux.max()),
-        energy=float(c.energy[-1]),
-        stored_heat=float(c.stored_heat[-1]),
-        boundary_from=float(c.time[thin[0]]) if thin.size else float("nan"),
+        profile=found,
+        friction_torque_max=float(np.abs(found.friction_torque).max()),
+        power_max=float(np.abs(found.friction_power).max()),
+        temperature_max=float(found.temperature.max()),
+        film_ratio_min=float(found.film_ratio.min()),
+        heat_flux_max=float(found.heat_flux.max()),
+        energy=float(found.energy[-1]),
+        stored_heat=float(found.stored_heat[-1]),
+        boundary_from=float(found.time[thin[0]]) if thin.size else float("nan"),
     )
 
 
 def _pictures(_params: Any, result: Any, _point: Mapping[str, float]) -> list[Picture]:
-    return [("The engagement of the start.", engagement_figure(result.course))]
+    return [("The engagement of the start.", engagement_figure(result.profile))]
 
 
 VIEW = View(
     worker=WebWorker(
         script="clutch_worker",
-        calls=(
-            "broken_rule",
-            "derive",
-            "load_memory",
-            "settle_film",
-            "advance",
-            "fill_outputs",
-            "mean_surface",
-            "stored_heat",
-        ),
+        calls="broken_rule derive load_memory settle_film advance fill_outputs mean_surface "
+        "stored_heat".split(),
         layout=numbers_of(layout, HOT=Status.HOT),
         rungs={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.rungs},
     ),
     page="clutch_view",
     main=("faces", "roughness", "initial_film", "permeability", "steel_thickness"),
-    figures=(
-        "friction_torque_max",
-        "temperature_max",
-        "energy",
-        "power_max",
-        "film_ratio_min",
-        "boundary_from",
-    ),
+    figures="friction_torque_max temperature_max energy power_max film_ratio_min "
+    "boundary_from".split(),
     solve="engage_clutch",
     params="ClutchParams",
     pictures=_pictures,

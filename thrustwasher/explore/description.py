@@ -34,13 +34,8 @@ def outputs_of(model: Model, view: View) -> dict[str, dict[str, Any]]:
     assert model.command is not None
     result = get_type_hints(model.solve)["return"]
     for s in (s for s in model.spec.outputs if hasattr(result, s.name)):
-        found[s.name] = {
-            "unit": s.unit,
-            "help": s.help,
-            "kind": s.kind,
-            "relative": s.relative,
-            "scale": s.nominal,
-        }
+        keys = ("unit", "help", "kind", "relative")
+        found[s.name] = {**{key: getattr(s, key) for key in keys}, "scale": s.nominal}
         if s.type == "Regime":
             found[s.name]["options"] = list(REGIMES)
     for name, (unit, words) in model.command.extra.items():
@@ -62,7 +57,7 @@ def describe(
         "name": part.name if part.name != spec.name else f"My{spec.name}",
         "main": view.main,
         "inputs": [_input(s, view, point[s.name]) for s in inputs_of(model, view)],
-        "parameters": [_parameter(f, view) for f in fields(spec.params)],
+        "parameters": [_field(f.name, f.metadata, view) for f in fields(spec.params)],
         "defaults": {f.name: f.default for f in fields(spec.params)},
         "given": {f.name: getattr(params, f.name) for f in fields(spec.params)},
         "oils": {name: oil(name).parameters_for(spec) for name in named_oils()},
@@ -87,33 +82,17 @@ def describe(
 
 
 def _input(s: Signal, view: View, value: float) -> dict[str, Any]:
-    low, high = view.least.get(s.name, s.low), s.high
-    first, last = view.spans.get(s.name, (low, high))
-    return {
-        "name": s.name,
-        "unit": s.unit,
-        "help": s.help,
-        "kind": "real",
-        "min": low,
-        "max": high,
-        "from": first,
-        "to": last,
-        "relative": s.relative,
-        "value": value,
-    }
+    low, unit, relative = view.least.get(s.name, s.low), s.unit, s.relative
+    m = {"kind": "real", "unit": unit, "help": s.help, "min": low, "max": s.high}
+    return _field(s.name, {**m, "relative": relative}, view) | {"value": value}
 
 
-def _parameter(f: Any, view: View) -> dict[str, Any]:
-    m = f.metadata
-    first, last = view.spans.get(f.name, (m["min"], m["max"]))
+def _field(name: str, m: Mapping[str, Any], view: View) -> dict[str, Any]:
+    """Return an input or parameter with its limits and the ends of its slider."""
+    first, last = view.spans.get(name, (m["min"], m["max"]))
     keys = ("unit", "help", "kind", "min", "max", "options")
-    return {
-        "name": f.name,
-        "relative": m.get("relative", False),
-        "from": first,
-        "to": last,
-        **{key: m[key] for key in keys if key in m},
-    }
+    ends = {"from": first, "to": last, "relative": m.get("relative", False)}
+    return {"name": name, **ends, **{key: m[key] for key in keys if key in m}}
 
 
 def _card(rung: RungErrors, chart: Chart) -> dict[str, Any]:

@@ -23,23 +23,9 @@ VIEW = View(
         rungs={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.rungs},
     ),
     page="gearmesh_view",
-    main=(
-        "pinion_teeth",
-        "gear_ratio",
-        "normal_module",
-        "face_width",
-        "helix_angle",
-        "friction_law",
-    ),
-    figures=(
-        "friction_torque",
-        "friction_power",
-        "film_ratio",
-        "bulk_temperature",
-        "flash_max",
-        "scuffing_safety",
-        "pitting_safety",
-    ),
+    main="pinion_teeth gear_ratio normal_module face_width helix_angle friction_law".split(),
+    figures="friction_torque friction_power film_ratio bulk_temperature flash_max "
+    "scuffing_safety pitting_safety".split(),
     solve="solve_gearmesh",
     params="GearMeshParams",
     terms="film_ratio_gf is the least film along the path of contact over the mean roughness Ra. A "

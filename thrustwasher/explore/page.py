@@ -3,7 +3,7 @@
 import base64
 import io
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from .. import __version__
@@ -14,7 +14,7 @@ from ..ladder.error_table import error_estimate
 from ..model.part_file import PartFile
 from ..model.registry import find_model
 from ..native.library import web_module
-from ..report.web_worker import WEB
+from ..report.web_worker import WEB, joined
 from ..templates import policy_source, template
 from ..units import format_quantity
 from .clutch_page import VIEW as CLUTCH
@@ -39,7 +39,7 @@ def page(part: PartFile) -> str:
         raise ParameterError(f"model = {model.key!r} has no page to explore")
     view = VIEWS[model.key]
     inputs = inputs_of(model, view)
-    point = {s.name: _start(view.usual.get(s.name, s.usual), part.box.get(s.name)) for s in inputs}
+    point = {s.name: part.inside(s.name, view.usual.get(s.name, s.usual)) for s in inputs}
     about = describe(model, view, part, point)
     if view.result is not None:
         result = view.result(part.params, point, about["rung"])
@@ -47,8 +47,8 @@ def page(part: PartFile) -> str:
         result = model.solve(part.params, **point, fidelity=about["rung"])
     folder = model_folder(model.spec, source_folder())
     pictures = view.pictures(part.params, result, point)
-    script = "\n".join(_text(f"{stem}.js") for stem in (*PAGE, view.page, "page"))
-    style = _text("../draw.css") + _text("explore.css")
+    script = joined(*(f"{stem}.js" for stem in (*PAGE, view.page, "page")))
+    style = joined("../draw.css", "explore.css")
     filled: str = template(WEB / TEMPLATE).render(
         title=f"{part.name}: try it",
         name=part.name,
@@ -86,14 +86,6 @@ def _error(view: View, part: PartFile, point: Mapping[str, float], rung: str, re
     return "not verified" if known is None else f"at most {max(100.0 * known, 1e-3):.2g} %"
 
 
-def _start(value: float, box: tuple[float, float] | None) -> float:
-    return value if box is None else min(max(value, box[0]), box[1])
-
-
-def _text(name: str) -> str:
-    return (WEB / name).read_text("utf-8")
-
-
 def _policy(script: str, style: str) -> str:
     """Return the content policy: nothing from outside, this script, this style, the kernels."""
     return (
@@ -104,7 +96,7 @@ def _policy(script: str, style: str) -> str:
 
 
 def _figures(
-    known: dict[str, dict[str, Any]], large: tuple[str, ...], result: Any
+    known: dict[str, dict[str, Any]], large: Sequence[str], result: Any
 ) -> list[dict[str, Any]]:
     """Return the results of the start, ``large`` ones first: name, value in full, text, meaning."""
     found = []

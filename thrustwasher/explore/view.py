@@ -1,6 +1,6 @@
 """What a model's page shows beside its interface: data."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -8,6 +8,7 @@ from ..model.spec import Signal
 from ..report.web_worker import WebWorker
 
 Picture = tuple[str, Any]  # caption, matplotlib's figure
+Point = Mapping[str, float]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -16,21 +17,19 @@ class View:
 
     worker: WebWorker
     page: str  # its own script: stem of a file in ``report/web/explore``
-    main: tuple[str, ...]  # parameters with sliders
-    figures: tuple[str, ...]  # results shown large
+    main: Sequence[str]  # parameters with sliders
+    figures: Sequence[str]  # results shown large
     solve: str  # public name of what solves, and of its parameters
     params: str
-    pictures: Callable[
-        [Any, Any, Mapping[str, float]], list[Picture]
-    ]  # (parameters, result, point)
+    pictures: Callable[[Any, Any, Point], list[Picture]]  # (parameters, result, point)
     spans: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     """Range of a slider where it is not the whole one of the input or parameter."""
     more: Mapping[str, Any] = field(default_factory=dict)  # that the page's own script reads
-    result: Callable[[Any, Mapping[str, float], str], Any] | None = None
+    result: Callable[[Any, Point, str], Any] | None = None
     """What (parameters, point, rung) come to, where it is not what the model's command solves."""
-    inputs: tuple[Signal, ...] = ()  # in place of the command's
-    usual: Mapping[str, float] = field(default_factory=dict)  # their values at the start
-    card_point: Callable[[Mapping[str, float]], Mapping[str, float]] = dict
+    inputs: Sequence[Signal] = ()  # in place of the command's
+    usual: Point = field(default_factory=dict)  # their values at the start
+    card_point: Callable[[Point], Point] = dict
     """From the inputs to those that the cards know."""
     outputs: Mapping[str, tuple[str, str]] = field(default_factory=dict)  # in place: unit, meaning
     terms: str = ""  # what words of the results mean

@@ -24,16 +24,8 @@ VIEW = View(
     worker=WORKER,
     page="washer_view",
     main=("roughness", "washer_thickness", "asperity_radius", "viscosity_exponent", "heat_split"),
-    figures=(
-        "friction_torque",
-        "temperature",
-        "film_thickness",
-        "film_ratio",
-        "branch",
-        "distress",
-        "temperature_max",
-        "friction_coefficient",
-    ),
+    figures="friction_torque temperature film_thickness film_ratio branch distress "
+    "temperature_max friction_coefficient".split(),
     solve="solve_washer",
     params="WasherParams",
     terms="Film 1 lies between carrier and washer, gap 2 between washer and gear.",

@@ -4,11 +4,11 @@ import base64
 import io
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 from ..templates import policy_source, template
 
@@ -51,12 +51,10 @@ class Plot:
         """The figure as it stands in the page."""
         from markupsafe import Markup
 
-        if self.bitmap:
-            data = base64.b64encode(self.content).decode("ascii")
-            return Markup('<img alt="{}" src="data:image/png;base64,{}">').format(
-                self.caption, data
-            )
-        return Markup(self.content.decode())
+        if not self.bitmap:
+            return Markup(self.content.decode())
+        data = base64.b64encode(self.content).decode("ascii")
+        return Markup('<img alt="{}" src="data:image/png;base64,{}">').format(self.caption, data)
 
 
 @dataclass(frozen=True)
@@ -68,6 +66,14 @@ class Table:
     numbers: Sequence[int] = ()
     title: str = ""
     folded: bool = False
+
+    @classmethod
+    def of(
+        cls, items: Iterable[Any], columns: Mapping[str, Callable[[Any], str]], words: int = 1
+    ) -> Self:
+        """Return a row per item; ``columns``: heads and cells, numbers from ``words`` on."""
+        rows = [tuple(cell(item) for cell in columns.values()) for item in items]
+        return cls(list(columns), rows, range(words, len(columns)))
 
 
 @dataclass(frozen=True)
@@ -103,9 +109,9 @@ class Page:
 
     title: str
     subtitle: str
-    summary: Sequence[str]
-    warnings: Sequence[str]
-    cards: Sequence[Card]
+    summary: Sequence[str] = ()
+    warnings: Sequence[str] = ()
+    cards: Sequence[Card] = ()
     sections: Sequence[Section]
     footer: str
     scripts: Sequence[str] = ()

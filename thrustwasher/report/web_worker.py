@@ -1,6 +1,6 @@
 """A model's kernels in a web worker: what its scripts are and read."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,7 +17,7 @@ class WebWorker:
     """What solves a model in a browser."""
 
     script: str  # stem of a file in ``report/web/explore``
-    calls: tuple[str, ...]  # kernels that it calls
+    calls: Sequence[str]  # kernels that it calls
     layout: Mapping[str, float]  # numbers of the kernels' layout
     rungs: Mapping[str, Mapping[str, Any]]  # that can be chosen, with what it needs of each
 
@@ -34,8 +34,12 @@ class WebWorker:
 
     def source(self) -> str:
         """Return all scripts: the kernels' functions, the model, what answers the page."""
-        stems = ("kernel", self.script, "worker")
-        return "\n".join((WEB / f"{stem}.js").read_text("utf-8") for stem in stems)
+        return joined("kernel.js", f"{self.script}.js", "worker.js")
+
+
+def joined(*names: str) -> str:
+    """Return the text of files in ``report/web/explore``."""
+    return "\n".join((WEB / name).read_text("utf-8") for name in names)
 
 
 def numbers_of(*modules: Any, **more: float) -> dict[str, float]:

@@ -62,15 +62,8 @@ def clutch_figure(
         shares, which leaves out the shear ratio too
     """
     names = ["shear", "friction", "torque"] if ploughing is not None else ["friction", "torque"]
-    figure, axes = new_figure(
-        10.4 if ploughing is not None else 9.6,
-        4.4,
-        1,
-        len(names),
-        head=1,
-        foot=int(ploughing is not None),
-        top=TOP + SECOND,
-    )
+    wide, foot = (9.6, 0) if ploughing is None else (10.4, 1)
+    figure, axes = new_figure(wide, 4.4, 1, len(names), head=1, foot=foot, top=TOP + SECOND)
     panels = dict(zip(names, axes, strict=True))
     here, friction = abs(point["speed"]), [r.friction_coefficient for r in sweep]
     capacity = [r.torque_capacity for r in sweep]
@@ -87,46 +80,28 @@ def clutch_figure(
             speeds, contact, capacity, color=ORANGE, alpha=0.45, lw=0.0, label="shear of the oil"
         )
     rest = f"at rest {friction[0]:.4g}", f"static {format_quantity(capacity[0], 'N.m')}"
-    for name, values, value, colour, words, title, up in (
-        (
-            "friction",
-            friction,
-            result.friction_coefficient,
-            BLUE,
-            rest[0],
-            "Friction coefficient",
-            "friction coefficient [1]",
-        ),
-        (
-            "torque",
-            capacity,
-            result.torque_capacity,
-            RED,
-            rest[1],
-            "Torque of the pack",
-            "friction torque, magnitude [N·m]",
-        ),
+    for name, values, value, colour, words in (
+        ("friction", friction, result.friction_coefficient, BLUE, rest[0]),
+        ("torque", capacity, result.torque_capacity, RED, rest[1]),
     ):
         panels[name].plot(speeds, values, color=colour)
         panels[name].axhline(values[0], color=BLACK, lw=0.9, ls=":")
         panels[name].plot([here], [value], "o", color=BLACK, zorder=5)
-        label(panels[name], title, "", up, above=SECOND)
         note_at_right(panels[name], words, values[0], shift=(-3, 3), fontsize=8.5, color="#444444")
+    torque = "friction torque, magnitude [N·m]"
+    label(panels["friction"], "Friction coefficient", "", "friction coefficient [1]", above=SECOND)
+    label(panels["torque"], "Torque of the pack", "", torque, above=SECOND)
     for axis in panels.values():
         _scale(axis, speeds[-1])
     if ploughing is not None:
         legend_below(figure, *panels["torque"].get_legend_handles_labels(), columns=3)
-    heading(figure, _heading(result, point))
-    return figure
-
-
-def _heading(result: Any, point: Mapping[str, float]) -> str:
-    """Return load, oil and the operating point in words."""
-    return (
+    heading(
+        figure,
         f"Wet friction pack pressed with {format_quantity(point['load'], 'N')}, "
-        f"oil {format_quantity(point['oil_temperature'], 'K')}; dot: {abs(point['speed']):.4g} "
-        f"rad/s, {format_quantity(abs(result.friction_torque), 'N.m')}"
+        f"oil {format_quantity(point['oil_temperature'], 'K')}; dot: {here:.4g} "
+        f"rad/s, {format_quantity(abs(result.friction_torque), 'N.m')}",
     )
+    return figure
 
 
 def _draw_shares(
@@ -156,7 +131,7 @@ def engagement_figure(result: Any) -> Figure:
     result : an engagement of the clutch, arrays over ``time`` [s]
     """
     figure, axes = new_figure(10.4, 7.2, 2, 2)
-    torque, film, heat, course = axes
+    torque, film, heat, inputs = axes
     t = 1e3 * result.time
     torque.plot(t, result.friction_torque, color=BLACK, label="friction torque")
     torque.plot(t, result.contact_torque, color=RED, ls="--", label="asperities")
@@ -175,9 +150,9 @@ def engagement_figure(result: Any) -> Figure:
     heat.plot(t, result.temperature - CELSIUS, color=RED)
     label(heat, "Interface temperature", "time [ms]", "temperature [°C]")
 
-    course.plot(t, result.load / 1e3, color=GREY, label="load [kN]")
-    course.plot(t, result.heat_flux / 1e6, color=RED, label="heat flux [MW/m²]")
-    course.plot(t, 1e-2 * result.speed, color=SKY, label="slip [100 rad/s]")
-    label(course, "What drives it", "time [ms]", "load, heat flux, slip")
-    course.legend()
+    inputs.plot(t, result.load / 1e3, color=GREY, label="load [kN]")
+    inputs.plot(t, result.heat_flux / 1e6, color=RED, label="heat flux [MW/m²]")
+    inputs.plot(t, 1e-2 * result.speed, color=SKY, label="slip [100 rad/s]")
+    label(inputs, "What drives it", "time [ms]", "load, heat flux, slip")
+    inputs.legend()
     return figure

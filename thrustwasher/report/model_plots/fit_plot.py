@@ -49,37 +49,17 @@ def _readable(series: Any) -> Any:
 def _draw_fit(
     axis: Axes, found: Any, series: Any, over: str, values: tuple[str, NDArray[np.float64]]
 ) -> None:
-    """Draw measured points and the fit with its band; in red what the points do not tell."""
+    """Draw measured points and the fit with its band; in red what the points do not determine."""
     unit, at = values
-    axis.errorbar(
-        at,
-        series.measured,
-        series.error,
-        color=BLUE,
-        marker="o",
-        ls="",
-        ms=4.5,
-        elinewidth=0.8,
-        label="measured",
-        zorder=3,
-    )
+    bars: Any = {"ls": "", "elinewidth": 0.8, "color": BLUE, "marker": "o", "ms": 4.5, "zorder": 3}
+    axis.errorbar(at, series.measured, series.error, label="measured", **bars)
     known = np.isfinite(series.half) & (series.half < 10.0 * np.abs(series.computed).max())
+    band: Any = {"color": ORANGE, "marker": "_", "ms": 8.0, "ecolor": SKY, "elinewidth": 4.0}
+    computed, half = series.computed[known], series.half[known]
     name = f"fit, {100 * found.confidence:g} % band"
-    axis.errorbar(
-        at[known],
-        series.computed[known],
-        series.half[known],
-        color=ORANGE,
-        marker="_",
-        ls="",
-        ms=8.0,
-        ecolor=SKY,
-        elinewidth=4.0,
-        alpha=0.9,
-        label=name,
-    )
+    axis.errorbar(at[known], computed, half, label=name, ls="", alpha=0.9, **band)
     if not known.all():
-        axis.plot(at[~known], series.computed[~known], "x", color=RED, label="fit, not told")
+        axis.plot(at[~known], series.computed[~known], "x", color=RED, label="fit, not determined")
     label(axis, series.name.replace("_", " "), _words(over, unit), _words("", series.unit))
     axis.legend(edgecolor=GREY)
 
@@ -89,16 +69,15 @@ def _words(name: str, unit: str) -> str:
 
 
 def _heading(found: Any) -> str:
-    """Return the constants that are told, and the number of those that are not."""
-    told = [e for e in found.estimates if e.identifiable]
-    words = [
-        f"{e.name} {e.value:.3g} ± {e.standard_error:.1g} {e.unit}".removesuffix(" 1") for e in told
-    ]
+    """Return the constants that the points determine, and the number of those that are not."""
+    known = [e for e in found.estimates if e.identifiable]
+    values = (f"{e.name} {e.value:.3g} ± {e.standard_error:.1g} {e.unit}" for e in known)
+    words = [text.removesuffix(" 1") for text in values]
     lost = [e.name for e in found.estimates if not e.identifiable]
-    first = ", ".join(words) or "no constant is told by these points"
+    first = ", ".join(words) or "no constant is determined by these points"
     second = f"{len(found.residuals)} measured values"
-    if lost and told:
-        second += f"; not told: {', '.join(lost)}"
+    if lost and known:
+        second += f"; not determined: {', '.join(lost)}"
     if found.warnings:
         second += "; WARNING: the law cannot follow these points"
     return f"{first}\n{second}"

@@ -20,14 +20,23 @@ SURFACES: dict[str, tuple[str, str, Any, str]] = {
     "fine": ("fine ground", GREEN, (0, (4, 2)), "s"),
     "given": ("these flanks", PURPLE, "-.", "^"),
 }
+# A line: name of the result, words, colour (None: that of the surface), look.
+Line = tuple[str, str, str | None, dict[str, Any]]
+PLAIN = {"marker": "", "ls": "-"}
+TEMPERATURES: tuple[Line, ...] = (
+    ("film_temperature", "film", GREY, {**PLAIN, "ls": ":"}),
+    ("asperity_temperature", "asperities", None, {"lw": 2.4}),
+    ("surface_temperature", "surface $T_s$", BLUE, {**PLAIN, "lw": 1.1, "zorder": 4}),
+)
+SAFETIES: tuple[Line, ...] = (
+    ("pitting_safety", "pitting", BLUE, {}),
+    ("scuffing_safety", "scuffing", RED, {}),
+    ("micropitting_safety", "micropitting", GREEN, {}),
+)
+LOSS: tuple[Line, ...] = (("friction_power", "", None, {}),)
+SMOOTH = ("film_temperature", "surface_temperature", "pitting_safety")  # know no roughness
 # Steel -> words, colour, width: a thin line stays visible on a wide one.
 STEELS = {"aisi1020": ("AISI 1020", BLUE, 3.0), "aisi4340": ("AISI 4340", RED, 1.4)}
-# Safety -> words, colour.
-SAFETIES = {
-    "pitting_safety": ("pitting", BLUE),
-    "scuffing_safety": ("scuffing", RED),
-    "micropitting_safety": ("micropitting", GREEN),
-}
 FEWEST_TEETH, MOST_TEETH = 5, 60
 LEAST_FACTOR = 1e-3  # K below leaves more than 99.95 % of the endurance: nothing to see
 Sweeps = Mapping[str, Sequence[Any]]  # surface -> results, None where the model refuses
@@ -76,18 +85,31 @@ def gearmesh_figure(result: Any, point: Mapping[str, float], params: GearMeshPar
     teeth, sweeps = over_teeth(params, point, result.fidelity)
     here = params.pinion_teeth
     figure, axes = new_figure(13.2, 4.3, 1, 3, head=1)
-    draw_temperatures(axes[0], teeth, sweeps)
     dot: dict[str, Any] = {"marker": "o", "color": BLACK, "ls": "", "ms": 5.5, "zorder": 6}
+    for axis in axes:
+        axis.set_xlabel("teeth of the pinion [1]")
+        axis.set_xlim(min(teeth) - 1, max(teeth) + 1)
+    _draw(axes[0], teeth, sweeps, TEMPERATURES, zero=CELSIUS)
+    label(axes[0], "Temperatures", "", "temperature [°C]")
     axes[0].plot([here], [result.asperity_temperature - CELSIUS], **dot)
     if result.allowable_ratio is None:
-        draw_safeties(axes[1], teeth, sweeps)
-        draw_loss(axes[2], teeth, sweeps)
-        safeties = (getattr(result, name) for name in SAFETIES)
+        _draw(axes[1], teeth, sweeps, SAFETIES, level=BLACK, loc="best")
+        label(axes[1], "Safety of the teeth", "", "safety factor [1]")
+        safeties = (getattr(result, name) for name, *_ in SAFETIES)
         axes[1].plot(*zip(*((here, s) for s in safeties if s is not None), strict=True), **dot)
+        _draw(axes[2], teeth, sweeps, LOSS)
+        axes[2].set_ylim(bottom=0.0)
+        label(axes[2], "Loss", "", "friction power [W]")
         axes[2].plot([here], [result.friction_power], **dot)
     else:
-        draw_ratios(axes[1], teeth, sweeps)
-        draw_factors(axes[2], teeth, sweeps)
+        _draw(axes[1], teeth, sweeps, _of_steels("allowable_ratio"), loc="lower right")
+        axes[1].set_ylim(0.0, 1.04)
+        label(axes[1], "Contact stress still allowed", "", r"allowable ratio $1/\sqrt{1+K}$ [1]")
+        rest = f"not drawn: K below {LEAST_FACTOR:g}"
+        factors = _of_steels("modification_factor")
+        _draw(axes[2], teeth, sweeps, factors, level=ORANGE, least=LEAST_FACTOR, title=rest)
+        axes[2].set_ylim(bottom=LEAST_FACTOR)
+        label(axes[2], "Stress modification factor", "", "K [1]")
         for steel in STEELS:
             axes[1].plot([here], [getattr(result, f"allowable_ratio_{steel}")], **dot)
             factor = getattr(result, f"modification_factor_{steel}")
@@ -103,135 +125,46 @@ def gearmesh_figure(result: Any, point: Mapping[str, float], params: GearMeshPar
     return figure
 
 
-def draw_temperatures(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
-    """Draw surface, film and asperity temperatures; surface and film do not know the roughness."""
-    first = next(iter(sweeps.values()))
-    _line(axes, teeth, first, "film_temperature", GREY, "film", zero=CELSIUS, ls=":")
-    for surface, results in sweeps.items():
-        words, colour, dashes, marker = SURFACES[surface]
-        _line(
-            axes,
-            teeth,
-            results,
-            "asperity_temperature",
-            colour,
-            f"asperities, {words}",
-            zero=CELSIUS,
-            ls=dashes,
-            marker=marker,
-            lw=2.4,
-        )
-    _line(
-        axes,
-        teeth,
-        first,
-        "surface_temperature",
-        BLUE,
-        "surface $T_s$",
-        zero=CELSIUS,
-        lw=1.1,
-        zorder=4,
-    )
-    label(axes, "Temperatures", "teeth of the pinion [1]", "temperature [°C]")
-    axes.legend(loc="upper right")
+def _of_steels(name: str) -> list[Line]:
+    return [(f"{name}_{s}", words, own, {"lw": wide}) for s, (words, own, wide) in STEELS.items()]
 
 
-def draw_safeties(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
-    """Draw the safeties on a logarithmic scale; pitting does not know the roughness."""
-    for surface, results in sweeps.items():
-        words, _, dashes, marker = SURFACES[surface]
-        for name, (said, colour) in SAFETIES.items():
-            text = f"{said}, {words}"
-            if name == "pitting_safety":
-                if results is not next(iter(sweeps.values())):
-                    continue
-                text = said
-            _line(axes, teeth, results, name, colour, text, ls=dashes, marker=marker)
-    axes.axhline(1.0, color=BLACK, lw=0.9, ls=":")
-    axes.set_yscale("log")
-    axes.yaxis.set_major_formatter("{x:g}")
-    label(axes, "Safety of the teeth", "teeth of the pinion [1]", "safety factor [1]")
-    shown = [line for line in axes.lines if np.any(np.isfinite(np.asarray(line.get_ydata())))]
-    axes.legend(
-        handles=[line for line in shown if not str(line.get_label()).startswith("_")], loc="best"
-    )
-
-
-def draw_loss(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
-    """Draw the heat that the mesh makes."""
-    for surface, results in sweeps.items():
-        words, colour, dashes, marker = SURFACES[surface]
-        _line(axes, teeth, results, "friction_power", colour, words, ls=dashes, marker=marker)
-    axes.set_ylim(bottom=0.0)
-    label(axes, "Loss", "teeth of the pinion [1]", "friction power [W]")
-    axes.legend(loc="upper right")
-
-
-def draw_ratios(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
-    """Draw 1/sqrt(1 + K): the share of the endurance limit left for the contact stress."""
-    _draw_steels(axes, teeth, sweeps, "allowable_ratio")
-    axes.set_ylim(0.0, 1.04)
-    label(
-        axes,
-        "Contact stress still allowed",
-        "teeth of the pinion [1]",
-        r"allowable ratio $1/\sqrt{1+K}$ [1]",
-    )
-    axes.legend(loc="lower right")
-
-
-def draw_factors(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
-    """Draw the modification factor K on a logarithmic scale, where it matters."""
-    _draw_steels(axes, teeth, sweeps, "modification_factor", LEAST_FACTOR)
-    axes.axhline(1.0, color=ORANGE, lw=0.9, ls=":")
-    axes.set_yscale("log")
-    axes.set_ylim(bottom=LEAST_FACTOR)
-    axes.yaxis.set_major_formatter("{x:g}")
-    label(axes, "Stress modification factor", "teeth of the pinion [1]", "K [1]")
-    shown = [line for line in axes.lines if np.any(np.isfinite(np.asarray(line.get_ydata())))]
-    axes.legend(
-        handles=[line for line in shown if not str(line.get_label()).startswith("_")],
-        loc="upper right",
-        title=f"not drawn: K below {LEAST_FACTOR:g}",
-    )
-
-
-def _draw_steels(
-    axes: Axes, teeth: Sequence[int], sweeps: Sweeps, name: str, least: float = 0.0
-) -> None:
-    """Draw one line for each steel and surface; values up to ``least`` are left out."""
-    for surface, results in sweeps.items():
-        words, _, dashes, marker = SURFACES[surface]
-        for steel, (name_of_steel, colour, width) in STEELS.items():
-            _line(
-                axes,
-                teeth,
-                results,
-                f"{name}_{steel}",
-                colour,
-                f"{name_of_steel}, {words}",
-                least=least,
-                ls=dashes,
-                marker=marker,
-                lw=width,
-            )
-
-
-def _line(
+def _draw(
     axes: Axes,
     teeth: Sequence[int],
-    results: Sequence[Any],
-    name: str,
-    colour: str,
-    words: str,
+    sweeps: Sweeps,
+    lines: Sequence[Line],
+    *,
     zero: float = 0.0,
     least: float = 0.0,
-    **look: Any,
+    level: str = "",
+    loc: str = "upper right",
+    title: str = "",
 ) -> None:
-    """Draw a result over the teeth, with gaps where there is none above ``least``."""
-    values = np.array([getattr(r, name, np.nan) for r in results], float)
-    shown = np.where(values > least, values - zero, np.nan)
-    axes.plot(
-        teeth, shown, color=colour, label=words, ms=3.2, markevery=max(1, len(teeth) // 12), **look
-    )
-    axes.set_xlim(min(teeth) - 1, max(teeth) + 1)
+    """Draw results over the teeth, a line for each surface, with gaps where there is none.
+
+    Parameters
+    ----------
+    zero : taken off every value; ``least``: values up to it are left out
+    level : colour of a line at 1; the scale is logarithmic then
+    """
+    every, first = max(1, len(teeth) // 12), next(iter(sweeps))
+    for name, own, colour, look in lines:
+        for surface, results in sweeps.items():
+            words, shade, dashes, marker = SURFACES[surface]
+            if name in SMOOTH:
+                words = ""
+                if surface != first:
+                    continue
+            values = np.array([getattr(r, name, np.nan) for r in results], float)
+            shown = np.where(values > least, values - zero, np.nan)
+            text = ", ".join(filter(None, [own, words]))
+            more: Any = {"color": colour or shade, "ls": dashes, "marker": marker, **look}
+            axes.plot(teeth, shown, label=text, ms=3.2, markevery=every, **more)
+    drawn = [line for line in axes.lines if np.any(np.isfinite(np.asarray(line.get_ydata())))]
+    place: Any = {"loc": loc, "title": title or None}
+    axes.legend(handles=drawn, **place)
+    if level:
+        axes.axhline(1.0, color=level, lw=0.9, ls=":")
+        axes.set_yscale("log")
+        axes.yaxis.set_major_formatter("{x:g}")

@@ -63,16 +63,9 @@ def _draw_map(axis: Axes, fields: Any, values: Array, title: str, unit: str, cma
     """Draw one field over x, y in millimetres."""
     x, y = _plane(fields)
     low, high = float(np.min(values)), float(np.max(values))
-    shades = axis.pcolormesh(
-        x,
-        y,
-        _around(fields, values),
-        shading="gouraud",
-        cmap=cmap,
-        rasterized=True,
-        vmin=low,
-        vmax=high if high > low else low + 1.0,
-    )
+    look: Any = {"shading": "gouraud", "cmap": cmap, "rasterized": True}
+    most = high if high > low else low + 1.0
+    shades = axis.pcolormesh(x, y, _around(fields, values), vmin=low, vmax=most, **look)
     bar = axis.figure.colorbar(shades, ax=axis, shrink=0.82, pad=0.02)
     bar.set_label(f"{title.lower()} [{unit}]")
     bar.outline.set_visible(False)
@@ -111,17 +104,9 @@ def _draw_flow(axis: Axes, fields: Any) -> None:
     longest = float(np.max(np.hypot(outward, around)))
     if not longest > 0.0:
         return
-    axis.quiver(
-        radius * cos,
-        radius * sin,
-        outward * cos - around * sin,
-        outward * sin + around * cos,
-        color=RED,
-        angles="xy",
-        scale_units="xy",
-        scale=longest / (0.2 * radius.max()),
-        width=0.004,
-    )
+    u, v = outward * cos - around * sin, outward * sin + around * cos
+    look: Any = {"color": RED, "angles": "xy", "scale_units": "xy", "width": 0.004}
+    axis.quiver(radius * cos, radius * sin, u, v, scale=longest / (0.2 * radius.max()), **look)
     axis.set_xlabel(f"x [mm]    (longest arrow: {1e6 * longest:.4g} mm²/s)")
 
 
@@ -193,32 +178,21 @@ def _say_what_is_cut(axis: Axes, points: Sequence[Any]) -> None:
     """Say how far the film ratio goes on below the axis, if it does."""
     lowest = min(p.film_ratio for p in points)
     if lowest < LOWEST_RATIO:
-        axis.annotate(
-            f"not drawn: ratios below {LOWEST_RATIO:g},\nhere down to {lowest:.2g}",
-            (0.0, 0.0),
-            (4, 4),
-            xycoords="axes fraction",
-            textcoords="offset points",
-            fontsize=8,
-            color=RED,
-        )
+        words = f"not drawn: ratios below {LOWEST_RATIO:g},\nhere down to {lowest:.2g}"
+        place: Any = {"xycoords": "axes fraction", "textcoords": "offset points"}
+        axis.annotate(words, (0.0, 0.0), (4, 4), fontsize=8, color=RED, **place)
 
 
 def _draw_branches(axis: Axes, points: Sequence[Any], name: str, zero: float) -> None:
     """Draw each branch in its own line style, joined to the next one."""
     for branch, part in _runs(points):
         colour, dashes, words = BRANCHES[branch]
-        axis.plot(
-            [p.load for p in part],
-            [getattr(p, name) - zero for p in part],
-            color=colour,
-            ls=dashes,
-            label=words,
-        )
+        loads, values = [p.load for p in part], [getattr(p, name) - zero for p in part]
+        axis.plot(loads, values, color=colour, ls=dashes, label=words)
 
 
 def _runs(points: Sequence[Any]) -> Iterator[tuple[str, Sequence[Any]]]:
-    """Yield stretches of one branch; each begins with the last point of the one before."""
+    """Yield the points of each branch; each part begins with the last point of the one before."""
     cuts = [i for i, (a, b) in enumerate(pairwise(points), 1) if a.branch != b.branch]
     for first, last in pairwise([0, *cuts, len(points)]):
         yield points[first].branch, points[max(first - 1, 0) : last]

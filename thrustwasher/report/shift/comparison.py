@@ -23,26 +23,18 @@ def comparison_page(runs: Sequence[Run], pictures: Sequence[Any]) -> Page:
         Plot(f"overview_{name}", picture, f"{name}: {run['title']}", bitmap=True, still=True)
         for (name, run), picture in zip(named, pictures, strict=True)
     ]
+    friction = [Section("friction", "Friction over slip", widgets=["slip"])]
+    happened = [f"{name}: {' '.join(run['summary'])}" for name, run in named]
     return Page(
         title=" / ".join(f"{name}: {run['title']}" for name, run in named),
         subtitle=f"Scenes {runs[0]['name']} and {runs[1]['name']}, A drawn solid, B dashed; made "
         "by thrustwasher",
-        summary=[],
         warnings=[f"{name}: {text}" for name, run in named for text in run["warnings"]],
-        cards=[],
         sections=[
             Section("compared", "What is compared", tables=settings_tables(runs)),
-            Section(
-                "said",
-                "What happened",
-                texts=[f"{name}: {' '.join(run['summary'])}" for name, run in named],
-            ),
+            Section("said", "What happened", texts=happened),
             Section("course", "Both shifts over time", widgets=["plots"], plots=stills),
-            *(
-                [Section("friction", "Friction over slip", widgets=["slip"])]
-                if any(run["slip"] for run in runs)
-                else []
-            ),
+            *(friction if any(run["slip"] for run in runs) else []),
             Section("energy", "Energy", widgets=["flow"]),
             Section("key-figures", "Key figures", tables=[difference_table(runs)]),
         ],
@@ -73,8 +65,8 @@ def difference_table(runs: Sequence[Run]) -> Table:
         a, b = (found.get(name, {}).get("value") for found in (ours, theirs))
         if a or b:
             more = None if a is None or b is None else b - a if abs(b - a) > SAME * abs(b) else 0.0
-            told = _words(figure, more, digits=3, difference=True)
-            rows.append((figure["text"], _words(figure, a), _words(figure, b), told))
+            less = _words(figure, more, digits=3, difference=True)
+            rows.append((figure["text"], _words(figure, a), _words(figure, b), less))
     return Table(("", *NAMES, "B less A"), rows, numbers=(1, 2, 3))
 
 

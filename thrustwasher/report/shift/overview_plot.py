@@ -1,5 +1,6 @@
 """What a page shows over time as one still picture: some of its plots below each other."""
 
+import re
 from collections.abc import Mapping, Sequence
 from textwrap import fill
 from typing import Any
@@ -46,12 +47,8 @@ def _draw_signals(axis: Axes, record: Record, panel: Mapping[str, Any]) -> None:
             continue
         found, words = signal_of(record, name), name.removeprefix("transmission.")
         shown, unit = (values - found["zero"]) / found["scale"], found["unit"]
-        axis.plot(
-            record.time,
-            np.maximum(shown, floor),
-            color=getattr(palette, colour.upper()),
-            label=words.replace(".", " ").replace("_", " "),
-        )
+        look = {"color": getattr(palette, colour.upper()), "label": re.sub("[._]", " ", words)}
+        axis.plot(record.time, np.maximum(shown, floor), **look)
     if panel.get("logarithmic"):
         axis.set_yscale("log")
         low, high = axis.get_ylim()
@@ -72,15 +69,9 @@ def _draw_phases(axis: Axes, record: Record) -> None:
         shade = SHADES[index % len(SHADES)]
         axis.axvspan(phase.start, phase.end, color=shade, lw=0, zorder=0)
         if phase.end - phase.start > LETTER * len(phase.name) * (last - first):
-            axis.annotate(
-                phase.name,
-                (0.5 * (phase.start + phase.end), 0.985),
-                ha="center",
-                va="top",
-                xycoords=axis.get_xaxis_transform(),
-                fontsize=8.5,
-                color="#666666",
-            )
+            place = (0.5 * (phase.start + phase.end), 0.985)
+            look: Any = {"ha": "center", "va": "top", "fontsize": 8.5, "color": "#666666"}
+            axis.annotate(phase.name, place, xycoords=axis.get_xaxis_transform(), **look)
 
 
 def _draw_events(axis: Axes, record: Record) -> None:
@@ -93,15 +84,9 @@ def _draw_events(axis: Axes, record: Record) -> None:
         before = event.time
         words = fill(f"{number}: {event.time:.4g} s {event.text}", 36, subsequent_indent="    ")
         axis.axvline(event.time, color="#444444", lw=0.8, ls=":", label=words)
-        axis.annotate(
-            str(number),
-            (event.time, 0.0),
-            (2, 3 + 9 * height),
-            textcoords="offset points",
-            xycoords=axis.get_xaxis_transform(),
-            fontsize=8,
-            color="#444444",
-        )
+        look: Any = {"fontsize": 8, "color": "#444444", "textcoords": "offset points"}
+        place, across = (event.time, 0.0), axis.get_xaxis_transform()
+        axis.annotate(str(number), place, (2, 3 + 9 * height), xycoords=across, **look)
     if len(shown) < len(record.events):
         more = len(record.events) - len(shown)
         axis.plot([], [], lw=0.0, label=f"and {more} more events")

@@ -1,7 +1,6 @@
 """What stands above the tables of the report's sections."""
 
 from functools import partial
-from typing import Any
 
 from ...units import format_quantity
 from .shift_record import Record
@@ -34,14 +33,12 @@ def temperature_texts(r: Record) -> list[str]:
 def rung_texts(r: Record) -> list[str]:
     """Return how rungs were chosen, how far off they were and what was run again."""
     first = "A first run with the cheapest rungs recorded the inputs to choose for."
-    if r.guard is None:
+    guard = r.guard
+    if guard is None:
         return [first, "The choice was not checked after the run."]
-    return [first, *_guard_texts(r.guard)]
-
-
-def _guard_texts(guard: Any) -> list[str]:
     again = [*guard.again, *([guard.stopped] if guard.stopped else [])]
     texts = [
+        first,
         "After the run the guard solved the rung above at recorded points: those with the "
         "extremes, those after changes of regime, and others spread over the run.",
         *([f"{t[0].upper()}{t[1:]}." for t in again] or ["Nothing had to run again."]),

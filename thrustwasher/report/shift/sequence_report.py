@@ -1,7 +1,8 @@
 """The report of several shifts in one run: a row per shift, all signals over the whole time."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from ...units import format_quantity as say
@@ -9,9 +10,9 @@ from ..html import Page, Plot, Section, Table
 from . import summary
 from .live_washer import live_washer
 from .overview_plot import overview_figure
-from .shift_data import page_data, run_data
+from .shift_data import run_data
 from .shift_record import Event, KeyFigure, Phase, Record, record_of
-from .shift_report import ENERGY_TEXT, SCRIPTS
+from .shift_report import ENERGY_TEXT, page_of
 
 ROOM = 1_300_000  # characters of packed signals: this page has less beside them
 CAPTION = "Temperatures, speeds and torques over all shifts."
@@ -22,45 +23,24 @@ def sequence_page(result: Any) -> Page:
     """Return the page of a ``SequenceResult``."""
     records = [record_of(shift) for shift in result.shifts]
     whole, oil = _whole(result, records), result.oil_temperature
-    said = (
+    sentence = (
         f"{len(records)} shifts, oil from {say(oil[0], 'K', digits=3)} to "
         f"{say(oil[-1], 'K', digits=3)}."
     )
     warnings = list(result.warnings)
-    run = run_data(whole, {}, room=ROOM, said=([said], warnings))
+    run = run_data(whole, {}, room=ROOM, texts=([sentence], warnings))
     run |= {"slip": None, "shifts": len(records)}
-    sections = [
-        Section(
-            "course",
-            "The shifts over time",
-            widgets=["plots"],
-            tables=[_table(records)],
-            plots=[
-                Plot("sequence", overview_figure(whole, STILL), CAPTION, bitmap=True, still=True)
-            ],
-        ),
-        Section("energy", "Energy", texts=[ENERGY_TEXT], widgets=["flow"]),
-    ]
+    still = Plot("sequence", overview_figure(whole, STILL), CAPTION, bitmap=True, still=True)
     washer = live_washer(whole)
-    if washer:
-        sections.insert(1, Section("washer", "The thrust washer", widgets=["discs"]))
     texts = [f"{words}." for words in summary.step_words(result)]
     texts += [f"The run says: {message}." for message in result.messages]
-    if texts:
-        sections.append(Section("trust", "How far to trust it", texts=texts))
-    return Page(
-        title=whole.title,
-        subtitle=f"Scene {whole.name}, {result.time[-1] - result.time[0]:.4g} s simulated in "
-        f"{say(result.wall_time, 's', digits=3)}, {len(whole.parts)} FMUs, made by thrustwasher",
-        summary=[said],
-        warnings=warnings,
-        cards=[],
-        sections=sections,
-        footer="One file, readable offline. The same numbers: shift.csv beside this page, and "
-        "thrustwasher shift --json.",
-        scripts=SCRIPTS,
-        data={**page_data([run]), "washer": washer},
-    )
+    sections = [
+        Section("course", "The shifts over time", ["plots"], [], [still], [_table(records)]),
+        *([Section("washer", "The thrust washer", ["discs"])] if washer else []),
+        Section("energy", "Energy", ["flow"], [ENERGY_TEXT]),
+        *([Section("trust", "How far to trust it", texts=texts)] if texts else []),
+    ]
+    return page_of(whole, run, sections, washer)
 
 
 def _whole(result: Any, records: Sequence[Record]) -> Record:
@@ -96,30 +76,21 @@ def _head(records: Sequence[Record], row: Sequence[KeyFigure | None]) -> str:
 def _table(records: Sequence[Record]) -> Table:
     """Return key figures, a row for each shift."""
     names = (
-        "lock_after_ramp_start",
-        "slip_energy",
-        "peak_clutch_temperature",
-        "peak_brake_temperature",
-        "peak_jerk",
-        "least_washer_film_ratio",
+        *("lock_after_ramp_start", "slip_energy", "peak_clutch_temperature"),
+        *("peak_brake_temperature", "peak_jerk", "least_washer_film_ratio"),
     )
-    found = [[record.figure(name) for name in names] for record in records]
-    shown = [k for k in range(len(names)) if any(row[k] for row in found)]
-    heads = [_head(records, [row[k] for row in found]) for k in shown]
-    return Table(
-        heads=("shift", "begins", *heads),
-        rows=[
-            (
-                f"{i} {'up' if record.engaging == 'clutch' else 'down'}",
-                f"{record.ramp_start:.5g} s",
-                *(
-                    ""
-                    if (f := row[k]) is None or f.value is None
-                    else say(f.value, f.unit, digits=4, difference=f.difference)
-                    for k in shown
-                ),
-            )
-            for i, (record, row) in enumerate(zip(records, found, strict=True), 1)
-        ],
-        numbers=range(1, len(shown) + 2),
-    )
+    columns: dict[str, Callable[[Any], str]] = {
+        "shift": lambda k: f"{k + 1} {'up' if records[k].engaging == 'clutch' else 'down'}",
+        "begins": lambda k: f"{records[k].ramp_start:.5g} s",
+    }
+    for name in names:
+        row = [record.figure(name) for record in records]
+        if any(row):
+            columns[_head(records, row)] = partial(_cell, row)
+    return Table.of(range(len(records)), columns)
+
+
+def _cell(row: Sequence[KeyFigure | None], k: int) -> str:
+    if (f := row[k]) is None or f.value is None:
+        return ""
+    return say(f.value, f.unit, digits=4, difference=f.difference)

@@ -59,11 +59,11 @@ def run_data(
     moments: Mapping[str, Moment | None],
     *,
     room: int = ROOM,
-    said: tuple[Sequence[str], Sequence[str]] | None = None,
+    texts: tuple[Sequence[str], Sequence[str]] | None = None,
 ) -> dict[str, Any]:
     """Return a run as JSON types; ``moments``: the washer solved again, by the moment's words.
 
-    ``said`` are its summary and its warnings, if they are not those of one shift.
+    ``texts`` are its summary and its warnings, if they are not those of one shift.
     Signals that change are packed in ``room`` characters, all others are a number each.
     """
     absent = {f"{p.name}.{n}" for p in record.parts for n in p.spec.absent(p.params())}
@@ -74,29 +74,23 @@ def run_data(
     places: dict[bytes, int] = {}  # what one part gives another takes: such signals share a row
     row_of = [places.setdefault(row.tobytes(), len(places)) for row in rows]
     kept, packed = _packed_to_fit(rows[np.unique(row_of, return_index=True)[1]], record, room)
-    swing = record.judder
-    judged = (
-        []
-        if swing is None
-        else [
-            (swing.start, "the swing's growth is judged from here"),
-            (swing.end, "to here"),
-        ]
-    )
+    events = [(e.time, e.text) for e in record.events]
+    if swing := record.judder:
+        events.append((swing.start, "the swing's growth is judged from here"))
+        events.append((swing.end, "to here"))
     return {
         "name": record.name,
         "title": record.title,
-        "summary": said[0] if said else summary.sentences(record),
-        "warnings": said[1] if said else summary.warnings(record),
+        "summary": texts[0] if texts else summary.sentences(record),
+        "warnings": texts[1] if texts else summary.warnings(record),
         "figures": [figure._asdict() for figure in record.key_figures],
         "phases": record.phases,
-        "events": sorted([*((e.time, e.text) for e in record.events), *judged]),
+        "events": sorted(events),
         "recorded": len(record.time),
         "points": kept,
         "packed": packed,
         "moving": [
-            {**signal_of(record, name), "row": k}
-            for name, k in zip(moving, row_of[1:], strict=True)
+            signal_of(record, name) | {"row": k} for name, k in zip(moving, row_of[1:], strict=True)
         ],
         "steady": [
             {**signal_of(record, name), "value": float(values[0])}
@@ -134,11 +128,8 @@ def slip_of(record: Record) -> dict[str, Any] | None:
     where = (record.time >= start) & (record.time < end) & (slip != 0.0)
     if np.sum(where) < 2 or np.ptp(friction[where]) < 1e-9:
         return None
-    found = [
-        (p.published, f"published mean {p.published:.4g}")
-        for p in record.published
-        if p.name == "friction_mean"
-    ]
+    given = [p["published"] for p in record.published if p["name"] == "friction_mean"]
+    found = [(value, f"published mean {value:.4g}") for value in given]
     mean = record.figures.get("friction_mean")
     found += [] if mean is None else [(mean, f"mean of this run {mean:.4g}")]
     return {"pack": pack, "from": start, "to": end, "levels": found}
@@ -227,7 +218,7 @@ def _to_stay(rows: Array, record: Record) -> Array:
 def pack(rows: Array) -> str:
     """Return single precision rows as text: second differences of their bits, by bytes, deflated.
 
-    Courses are smooth: what is left of them is mostly zeros.
+    Profiles are smooth: what is left of them is mostly zeros.
     """
     bits = np.ascontiguousarray(rows, dtype="<f4").view("<i4")
     for _ in range(2):

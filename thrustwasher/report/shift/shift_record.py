@@ -1,19 +1,20 @@
 """What the report needs from a finished shift, as plain data."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
-from typing import Any, NamedTuple, Self
+from dataclasses import dataclass, field, fields
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...model.spec import ModelSpec
+from ...units import format_quantity
 
 Array = np.ndarray[Any, Any]
 PACKS = ("clutch", "brake")
 
 
 class Phase(NamedTuple):
-    """A stretch of the shift [s]."""
+    """An interval of the shift [s]."""
 
     name: str
     start: float
@@ -40,17 +41,6 @@ class Part(NamedTuple):
         return self.spec.params(**{k: v for k, v in self.parameters.items() if k in known})
 
 
-class Cost(NamedTuple):
-    """What one FMU took: calls, and seconds of wall-clock time."""
-
-    name: str
-    fidelity: str
-    instantiate: float
-    initialize: float
-    calls: int
-    steps: float
-
-
 class KeyFigure(NamedTuple):
     """A key figure: value in SI units, None where there is none, and the time [s] it belongs to."""
 
@@ -61,16 +51,19 @@ class KeyFigure(NamedTuple):
     time: float | None = None
     difference: bool = False  # of temperatures
 
+    def words(self, value: float, digits: int) -> str:
+        """Return a value of this figure with its unit; times stay in seconds."""
+        if self.unit == "s":
+            return f"{value:.{digits}g} s"
+        return format_quantity(value, self.unit, digits=digits, difference=self.difference)
 
-class Published(NamedTuple):
-    """A key figure as a source gives it, beside this run's."""
 
-    name: str
-    text: str
-    unit: str
-    difference: bool
-    published: float
-    run: float | None
+# Fields of a record that are those of the shift's result.
+OF_THE_RESULT = (
+    *("step", "master", "time", "signals", "phases", "events", "energy", "cost"),
+    *("wall_time", "messages", "found", "step_error", "in_time", "judder", "chatter"),
+    *("selection", "guard"),
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,10 +89,12 @@ class Record:
     events: Sequence[Event]
     energy: Mapping[str, float]
     key_figures: Sequence[KeyFigure]
-    published: Sequence[Published] = ()
+    published: Sequence[Mapping[str, Any]] = ()
+    """Key figures as a source gives them, beside this run's: ``ShiftResult.comparison``."""
     source: str = ""
     parts: Sequence[Part]
-    costs: Sequence[Cost]
+    cost: Sequence[Any]
+    """What each FMU took (``shift.shift_result.Cost``)."""
     wall_time: float
     messages: Sequence[str] = ()
     found: Sequence[str] = ()
@@ -116,7 +111,6 @@ class Record:
     """Why the rungs are what they are (``shift.tolerance``); None: they were named."""
     guard: Any = None
     """How they were checked after the run, and what was run again; None: they were not."""
-    """None: all as long as ``step``."""
     reach: float | None = None
     """Way of the vehicle per angle of the output [m/rad]; None: there is no vehicle."""
 
@@ -168,18 +162,6 @@ class Record:
         index = int(np.searchsorted(self.time, time, side="right")) - 1
         return float(values[max(index, 0)])
 
-    def window(self, start: float, end: float) -> Self:
-        """Return the record between two times [s]; key figures and energy stay those of all."""
-        inside = (self.time >= start) & (self.time <= end)
-        clipped = (Phase(p.name, max(p.start, start), min(p.end, end)) for p in self.phases)
-        return replace(
-            self,
-            time=self.time[inside],
-            signals={name: values[inside] for name, values in self.signals.items()},
-            phases=[p for p in clipped if p.end > p.start],
-            events=[e for e in self.events if start <= e.time <= end],
-        )
-
     def part(self, name: str) -> Part | None:
         """Return the FMU of that name, or None."""
         return next((part for part in self.parts if part.name == name), None)
@@ -196,29 +178,10 @@ def record_of(result: Any) -> Record:
         alone=scene.alone,
         ramp_start=scene.shift_start,
         oil_temperature=scene.oil_temperature,
-        step=result.step,
-        master=result.master,
-        time=result.time,
-        signals=result.signals,
-        phases=[Phase(*phase) for phase in result.phases],
-        events=[Event(event.time, event.text) for event in result.events],
-        energy=result.energy,
         key_figures=[KeyFigure(*figure) for figure in result.key_figures],
-        published=[Published(**entry) for entry in result.comparison()],
+        published=result.comparison(),
         source=scene.published.source if scene.published else "",
         parts=[Part(n, part.spec, part.parameters()) for n, part in scene.parts.items()],
-        costs=[
-            Cost(c.part, c.fidelity, c.instantiate, c.initialize, c.steps, c.wall_time)
-            for c in result.cost
-        ],
-        wall_time=result.wall_time,
-        messages=result.messages,
-        found=result.found,
-        step_error=result.step_error,
-        in_time=result.in_time,
-        judder=result.judder,
-        chatter=result.chatter,
-        selection=result.selection,
-        guard=result.guard,
         reach=scene.vehicle.reach if scene.vehicle else None,
+        **{name: getattr(result, name) for name in OF_THE_RESULT},
     )

@@ -1,17 +1,14 @@
 """The report of a shift: what was simulated, what came out, how far to trust it."""
 
+from collections.abc import Sequence
+from typing import Any
+
 from ...units import format_quantity as say
 from ..html import Card, Page, Plot, Section
-from . import shift_tables, summary
+from . import shift_tables
 from .live_washer import live_washer
 from .overview_plot import overview_figure
-from .section_texts import (
-    USUAL_TEXT,
-    cost_texts,
-    rung_texts,
-    simulated_texts,
-    temperature_texts,
-)
+from .section_texts import USUAL_TEXT, cost_texts, rung_texts, simulated_texts, temperature_texts
 from .shift_data import page_data, run_data, slip_of
 from .shift_record import Record
 from .swing_texts import judder_text
@@ -25,20 +22,8 @@ SCRIPTS = (
     "draw.css",
     "draw.js",
     "shift/shift.css",
-    *(
-        f"shift/{name}.js"
-        for name in (
-            "decode",
-            "page_parts",
-            "controls",
-            "plots",
-            "flow",
-            "live",
-            "discs",
-            "slip",
-            "start",
-        )
-    ),
+    *(f"shift/{name}.js" for name in ("decode", "page_parts", "controls", "plots", "flow")),
+    *(f"shift/{name}.js" for name in ("live", "discs", "slip", "start")),
 )
 OVERVIEW_CAPTION = (
     "Shaded: the phases of the shift; dotted and numbered: what happened when. Above a film ratio "
@@ -58,53 +43,50 @@ HEAT_TEXT = (
 
 def shift_page(record: Record) -> Page:
     """Return the whole report of a finished shift."""
+    still = Plot("overview", overview_figure(record), OVERVIEW_CAPTION, bitmap=True, still=True)
+    phases, cost = shift_tables.phase_table(record), shift_tables.cost_table(record)
+    heat = [shift_tables.energy_table(record), shift_tables.heat_table(record)]
+    parameters = [shift_tables.parameter_table(part) for part in record.parts]
+    texts, simulated = temperature_texts(record), simulated_texts(record)
+    usual, washer = usual_table(record), shift_tables.washer_table(record)
+    ranges = Section("usual", "Beside what is usual", texts=[USUAL_TEXT], tables=[usual])
     sections = [
-        *_usual_sections(record),
-        Section(
-            "course",
-            "The shift over time",
-            texts=temperature_texts(record),
-            widgets=["plots"],
-            tables=[shift_tables.phase_table(record)],
-            plots=[
-                Plot("overview", overview_figure(record), OVERVIEW_CAPTION, bitmap=True, still=True)
-            ],
-        ),
+        *([ranges] if usual.rows else []),
+        Section("course", "The shift over time", ["plots"], texts, [still], [phases]),
         *_friction_sections(record),
         *_judder_sections(record),
-        *_washer_sections(record),
-        Section(
-            "energy",
-            "Energy",
-            texts=[ENERGY_TEXT, HEAT_TEXT],
-            widgets=["flow"],
-            tables=[shift_tables.energy_table(record), shift_tables.heat_table(record)],
-        ),
+        *([Section("washer", "The thrust washer", ["discs"], tables=[washer])] if washer else []),
+        Section("energy", "Energy", ["flow"], [ENERGY_TEXT, HEAT_TEXT], tables=heat),
         Section("key-figures", "Key figures", tables=[shift_tables.key_table(record)]),
         *rung_sections(record),
-        Section(
-            "cost", "Time spent", texts=cost_texts(record), tables=[shift_tables.cost_table(record)]
-        ),
-        Section(
-            "parameters",
-            "What was simulated",
-            texts=simulated_texts(record),
-            tables=shift_tables.parameter_tables(record),
-        ),
+        Section("cost", "Time spent", texts=cost_texts(record), tables=[cost]),
+        Section("parameters", "What was simulated", texts=simulated, tables=parameters),
         Section("trust", "How far to trust it", texts=trust_texts(record)),
     ]
+    run = run_data(record, _moments(record))
+    return page_of(record, run, sections, live_washer(record), _cards(record))
+
+
+def page_of(
+    record: Record,
+    run: dict[str, Any],
+    sections: Sequence[Section],
+    washer: Any,
+    cards: Sequence[Card] = (),
+) -> Page:
+    """Return the page of a run; ``washer``: what solves it at the cursor's time, or None."""
     return Page(
         title=record.title,
         subtitle=f"Scene {record.name}, {record.time[-1] - record.time[0]:.4g} s simulated in "
         f"{say(record.wall_time, 's', digits=3)}, {len(record.parts)} FMUs, made by thrustwasher",
-        summary=summary.sentences(record),
-        warnings=summary.warnings(record),
-        cards=_cards(record),
+        summary=run["summary"],
+        warnings=run["warnings"],
+        cards=cards,
         sections=sections,
         footer="One file, readable offline. The same numbers: shift.csv beside this page, and "
         "thrustwasher shift --json.",
         scripts=SCRIPTS,
-        data={**page_data([run_data(record, _moments(record))]), "washer": live_washer(record)},
+        data={**page_data([run]), "washer": washer},
     )
 
 
@@ -116,30 +98,11 @@ TITLES = {
 }
 
 
-def _usual_sections(record: Record) -> list[Section]:
-    """Return the figures with a range beside them."""
-    table = usual_table(record)
-    if not table.rows:
-        return []
-    title = "Beside what is usual"
-    return [Section("usual", title, texts=[USUAL_TEXT], tables=[table])]
-
-
 CARDS = (
-    "lock_after_ramp_start",
-    "lock_after_half_ramp",
-    "lock_speed",
-    "stopped_inertia",
-    "slip_energy",
-    "slip_energy_per_area",
-    "{pack}_heat_flux",
-    "peak_jerk",
-    "friction_mean",
-    "friction_lock",
-    "{pack}_temperature",
-    "peak_washer_temperature_max",
-    "least_washer_film_ratio",
-    "peak_flash_temperature",
+    *("lock_after_ramp_start", "lock_after_half_ramp", "lock_speed", "stopped_inertia"),
+    *("slip_energy", "slip_energy_per_area", "{pack}_heat_flux", "peak_jerk", "friction_mean"),
+    *("friction_lock", "{pack}_temperature", "peak_washer_temperature_max"),
+    *("least_washer_film_ratio", "peak_flash_temperature"),
 )
 OF_A_LONE_PACK = ("lock_after_half_ramp", "stopped_inertia", "friction_mean", "friction_lock")
 
@@ -148,19 +111,13 @@ def _cards(record: Record) -> list[Card]:
     """Return the figures at the top; braking time and friction where a pack acts alone."""
     hidden = ("lock_after_ramp_start",) if record.alone else OF_A_LONE_PACK
     names = [n.format(pack=f"peak_{record.engaging}") for n in CARDS if n not in hidden]
-    known = {figure.name: figure for figure in record.key_figures}
     usual = beside(record)
     cards = [
         Card(f.text, usual[name][0].value_words(f.value), usual[name][0].note(f.value))
         if name in usual
-        else Card(
-            f.text,
-            f"{f.value:.4g} s"
-            if f.unit == "s"
-            else say(f.value, f.unit, digits=4, difference=f.difference),
-        )
+        else Card(f.text, f.words(f.value, 4))
         for name in names
-        if (f := known.get(name)) is not None and f.value is not None
+        if (f := record.figure(name)) is not None and f.value is not None
     ]
     share = f"{record.energy['residual_share']:.1e}"
     cards.append(Card(f"energy missing, of {record.whole_name}", share))
@@ -175,15 +132,10 @@ def _friction_sections(record: Record) -> list[Section]:
     title, widgets = f"Friction of the {record.engaging}", ["slip"] if slip_of(record) else []
     if not record.published:
         return [Section("friction", title, widgets, [FRICTION_TEXT])] if widgets else []
-    return [
-        Section(
-            "friction",
-            f"{title}, published and computed",
-            widgets,
-            texts=[f"Published: {record.source}.", FRICTION_TEXT],
-            tables=[shift_tables.published_table(record)],
-        )
-    ]
+    texts = [f"Published: {record.source}.", FRICTION_TEXT]
+    table = shift_tables.published_table(record)
+    title += ", published and computed"
+    return [Section("friction", title, widgets, texts, tables=[table])]
 
 
 def _judder_sections(record: Record) -> list[Section]:
@@ -212,11 +164,3 @@ def _moments(record: Record) -> dict[str, Moment | None]:
         "hottest moment": highest(record, "washer.temperature_max"),
     }
     return {words: solve_moment(record, one.time) for words, one in found.items() if one}
-
-
-def _washer_sections(record: Record) -> list[Section]:
-    """Return the washer's fields, and the range of its heat, oil and hold."""
-    table = shift_tables.washer_table(record)
-    return (
-        [Section("washer", "The thrust washer", widgets=["discs"], tables=[table])] if table else []
-    )

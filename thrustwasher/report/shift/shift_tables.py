@@ -1,8 +1,8 @@
 """The report's tables as rows of text."""
 
 import math
-from collections.abc import Sequence
-from dataclasses import fields
+from collections.abc import Mapping
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
@@ -54,96 +54,72 @@ def energy_table(record: Record) -> Table:
 
 def phase_table(record: Record) -> Table:
     """Return when each phase began, how long it took and what the engaging pack took up in it."""
-    heat = record.signals[f"transmission.{record.engaging}_heat"]
-    rows = []
-    for phase in record.phases:
-        begin, end = np.interp((phase.start, phase.end), record.time, heat)
-        engine, output = (
-            np.interp(phase.end, record.time, record.signals[f"transmission.{name}_speed"])
-            for name in ("engine", "output")
-        )
-        rows.append(
-            (
-                phase.name,
-                f"{phase.start:.4g}",
-                f"{phase.end - phase.start:.4g}",
-                _joule(end - begin),
-                f"{RPM * engine:.0f}",
-                f"{RPM * output:.0f}",
-            )
-        )
-    heads = (
-        "phase",
-        "from [s]",
-        "lasts [s]",
-        f"heat in the {record.engaging} [J]",
-        "engine at its end [rpm]",
-        "output [rpm]",
+    pack = record.engaging
+
+    def at(name: str, time: float) -> float:
+        return float(np.interp(time, record.time, record.signals[f"transmission.{name}"]))
+
+    return Table.of(
+        record.phases,
+        {
+            "phase": lambda p: str(p.name),
+            "from [s]": lambda p: f"{p.start:.4g}",
+            "lasts [s]": lambda p: f"{p.end - p.start:.4g}",
+            f"heat in the {pack} [J]": lambda p: _joule(
+                at(f"{pack}_heat", p.end) - at(f"{pack}_heat", p.start)
+            ),
+            "engine at its end [rpm]": lambda p: f"{RPM * at('engine_speed', p.end):.0f}",
+            "output [rpm]": lambda p: f"{RPM * at('output_speed', p.end):.0f}",
+        },
     )
-    return Table(heads, rows, numbers=(1, 2, 3, 4, 5))
 
 
 def heat_table(record: Record) -> Table:
     """Return the heat of every part: made, stored, given to the oil, and what is left over."""
-    rows = [
-        (
-            s.words,
-            _joule(s.made[-1]),
-            "" if s.stored is None else _joule(s.stored[-1]),
-            _joule(s.to_oil[-1]),
-            _joule(s.rest[-1]),
-            _percent(s.to_oil[-1], s.made[-1]),
-        )
-        for s in heat_splits(record)
-    ]
-    heads = ("", "made [J]", "stored [J]", "to the oil [J]", "rest [J]", "to the oil [%]")
-    return Table(heads, rows, numbers=(1, 2, 3, 4, 5))
+    return Table.of(
+        heat_splits(record),
+        {
+            "": lambda s: str(s.words),
+            "made [J]": lambda s: _joule(s.made[-1]),
+            "stored [J]": lambda s: "" if s.stored is None else _joule(s.stored[-1]),
+            "to the oil [J]": lambda s: _joule(s.to_oil[-1]),
+            "rest [J]": lambda s: _joule(s.rest[-1]),
+            "to the oil [%]": lambda s: _percent(s.to_oil[-1], s.made[-1]),
+        },
+    )
 
 
 def key_table(record: Record) -> Table:
     """Return the key figures with the time they belong to; those that say something new."""
-    rows = [
-        (
-            f.text,
-            f"{f.value:.6g} s"
-            if f.unit == "s"
-            else say(f.value, f.unit, digits=5, difference=f.difference),
-            "" if f.time is None else f"{f.time:.4g}",
-        )
-        for f in record.key_figures
-        if f.value and f.name not in SAID_TWICE
-    ]
-    return Table(("", "value", "at time [s]"), rows, numbers=(1, 2))
+    return Table.of(
+        (f for f in record.key_figures if f.value and f.name not in SAID_TWICE),
+        {
+            "": lambda f: str(f.text),
+            "value": lambda f: f.words(f.value, 6 if f.unit == "s" else 5),
+            "at time [s]": lambda f: "" if f.time is None else f"{f.time:.4g}",
+        },
+    )
 
 
 OF_A_WASHER = (
-    "friction_power",
-    "oil_heat",
-    "throughflow_heat",
-    "oil_flow",
-    "oil_outlet_temperature",
-    "film_temperature",
-    "temperature_max",
-    "stick_margin",
+    *("friction_power", "oil_heat", "throughflow_heat", "oil_flow", "oil_outlet_temperature"),
+    *("film_temperature", "temperature_max", "stick_margin"),
 )
 
 
 def washer_table(record: Record) -> Table | None:
     """Return the range of a washer's heat, oil and hold over the run; None without a washer."""
-    part = record.part("washer")
-    if part is None:
-        return None
-    rows = []
-    for s in part.spec.outputs:
+    part, rows = record.part("washer"), []
+    for s in part.spec.outputs if part else ():
         values = record.series(f"washer.{s.name}") if s.name in OF_A_WASHER else None
         if values is not None:
             row: list[str] = [s.help]
             unit, size = display_unit(float(np.nanmax(np.abs(values))), s.unit)
             for index in (int(np.nanargmin(values)), int(np.nanargmax(values))):
                 value = float(values[index])
-                told = say(value, "K") if s.unit == "K" else f"{value / size:.4g} {unit}"
-                row += [told.removesuffix(" 1"), f"{record.time[index]:.4g}"]
-            rows.append(tuple(row))
+                words = say(value, "K") if s.unit == "K" else f"{value / size:.4g} {unit}"
+                row += [words.removesuffix(" 1"), f"{record.time[index]:.4g}"]
+            rows.append(row)
     heads = ("of one washer", "least", "at [s]", "greatest", "at [s]")
     return Table(heads, rows, numbers=(1, 2, 3, 4)) if rows else None
 
@@ -165,114 +141,90 @@ def judder_table(record: Record) -> Table:
 
 def published_table(record: Record) -> Table:
     """Return what the scene's source says beside this run."""
-    rows = []
-    for p in record.published:
-        run = "" if p.run is None else say(p.run, p.unit, digits=5, difference=p.difference)
-        said = say(p.published, p.unit, digits=5, difference=p.difference)
-        off = "" if p.run is None or not p.published else f"{p.run / p.published - 1.0:+.2%}"
-        off = off.replace("-0.00%", "0.00%").replace("+0.00%", "0.00%")
-        rows.append((p.text, said, run, off))
-    return Table(("", "published", "this run", "off by"), rows, numbers=(1, 2, 3))
+
+    def words(p: Mapping[str, Any], name: str) -> str:
+        if p[name] is None:
+            return ""
+        return say(p[name], p["unit"], digits=5, difference=p["difference"])
+
+    def off(p: Mapping[str, Any]) -> str:
+        if p["run"] is None or not p["published"]:
+            return ""
+        share = f"{p['run'] / p['published'] - 1.0:+.2%}"
+        return "0.00%" if share[1:] == "0.00%" else share
+
+    return Table.of(
+        record.published,
+        {
+            "": lambda p: str(p["text"]),
+            "published": lambda p: words(p, "published"),
+            "this run": lambda p: words(p, "run"),
+            "off by": off,
+        },
+    )
 
 
 def cost_table(record: Record) -> Table:
     """Return what each FMU took, and the rest."""
-    used = sum(cost.steps for cost in record.costs)
-    rest = max(record.wall_time - used, 0.0)
-    rows = [
-        (
-            c.name,
-            c.fidelity,
-            _ms(c.instantiate),
-            _ms(c.initialize),
-            str(c.calls),
-            _ms(c.steps),
-            f"{1e6 * c.steps / c.calls:.1f}" if c.calls else "",
-            _percent(c.steps, record.wall_time),
-        )
-        for c in record.costs
-    ]
-    parts = [("master, the rest", rest), ("together", record.wall_time)]
-    rows += [
-        (words, "", "", "", "", _ms(taken), "", _percent(taken, record.wall_time))
-        for words, taken in parts
-    ]
-    return Table(
-        heads=(
-            "",
-            "fidelity",
-            "instantiate [ms]",
-            "initialise [ms]",
-            "calls",
-            "time [ms]",
-            "per call [µs]",
-            "share [%]",
-        ),
-        rows=rows,
-        numbers=(2, 3, 4, 5, 6, 7),
+    found = Table.of(
+        record.cost,
+        {
+            "": lambda c: str(c.part),
+            "fidelity": lambda c: str(c.fidelity),
+            "instantiate [ms]": lambda c: _ms(c.instantiate),
+            "initialise [ms]": lambda c: _ms(c.initialize),
+            "calls": lambda c: str(c.steps),
+            "time [ms]": lambda c: _ms(c.wall_time),
+            "per call [µs]": lambda c: f"{1e6 * c.wall_time / c.steps:.1f}" if c.steps else "",
+            "share [%]": lambda c: _percent(c.wall_time, record.wall_time),
+        },
+        words=2,
     )
+    rest = max(record.wall_time - sum(cost.wall_time for cost in record.cost), 0.0)
+    more = [
+        (words, "", "", "", "", _ms(taken), "", _percent(taken, record.wall_time))
+        for words, taken in (("master, the rest", rest), ("together", record.wall_time))
+    ]
+    return replace(found, rows=[*found.rows, *more])
 
 
 def check_table(record: Record) -> Table:
     """Return a row per check of a rung, in the order they were made."""
-    rows = [
-        (
-            c.part,
-            c.rung,
-            c.above,
-            str(c.points),
-            str(len(c.failed)),
-            f"{100.0 * c.worst.share:.3g}",
-            f"{100.0 * c.tolerance:.3g}",
-            "yes" if c.holds else "no",
-            f"{1e3 * c.seconds:.2f}",
-        )
-        for c in record.guard.checks
-    ]
-    return Table(
-        heads=(
-            "",
-            "rung",
-            "compared with",
-            "points",
-            "without solution",
-            "worst difference [%]",
-            "allowed [%]",
-            "holds",
-            "time [ms]",
-        ),
-        rows=rows,
-        numbers=(3, 4, 5, 6, 8),
+    return Table.of(
+        record.guard.checks,
+        {
+            "": lambda c: str(c.part),
+            "rung": lambda c: str(c.rung),
+            "compared with": lambda c: str(c.above),
+            "points": lambda c: str(c.points),
+            "without solution": lambda c: str(len(c.failed)),
+            "worst difference [%]": lambda c: f"{100.0 * c.worst.share:.3g}",
+            "allowed [%]": lambda c: f"{100.0 * c.tolerance:.3g}",
+            "holds": lambda c: "yes" if c.holds else "no",
+            "time [ms]": lambda c: f"{1e3 * c.seconds:.2f}",
+        },
+        words=3,
     )
 
 
-def parameter_tables(record: Record) -> list[Table]:
-    """Return one folded table per FMU: every parameter with unit, meaning and origin."""
-    return [_parameters(part) for part in record.parts]
-
-
-def _parameters(part: Part) -> Table:
-    """Return the parameters of one FMU; what the scene sets is told from the defaults."""
+def parameter_table(part: Part) -> Table:
+    """Return the parameters of one FMU, folded; with what the scene sets and what is default."""
     spec = part.spec
-    rows: list[Sequence[str]] = []
-    for f in fields(spec.params):
-        value = part.parameters.get(f.name, f.default)
-        unit = "" if f.metadata["unit"] == "1" else f.metadata["unit"]
-        origin = "default" if value == f.default else "scene"
-        rows.append((f.name, _plain(value), unit, f.metadata["help"], origin))
-    known = {row[0] for row in rows}
-    for name, value in part.parameters.items():
-        if name not in known:  # the rung
-            origin = "default" if value == spec.default_fidelity else "scene"
-            rows.append((name, _plain(value), "", "", origin))
+    metadata = {f.name: f.metadata for f in fields(spec.params)}
+    defaults = {f.name: f.default for f in fields(spec.params)}
+    rows = []
+    for name, value in {**defaults, **part.parameters}.items():
+        m = metadata.get(name, {"unit": "", "help": ""})  # the rung has none
+        origin = "default" if value == defaults.get(name, spec.default_fidelity) else "scene"
+        unit = "" if m["unit"] == "1" else m["unit"]
+        rows.append((name, _plain(value), unit, m["help"], origin))
     heads = ("parameter", "value", "unit", "meaning", "from")
-    title = f"{part.name} ({spec.name})"
-    return Table(heads, rows, numbers=(1,), title=title, folded=True)
+    return Table(heads, rows, numbers=(1,), title=f"{part.name} ({spec.name})", folded=True)
 
 
 def settings(record: Record) -> dict[str, str]:
     """Return what was simulated, by name: the scene, the steps, the rungs, every parameter."""
-    tables = [(part.name, _parameters(part).rows) for part in record.parts]
+    tables = [(part.name, parameter_table(part).rows) for part in record.parts]
     rungs = [f"{name} {row[1]}" for name, rows in tables for row in rows if row[0] == "fidelity"]
     given = {
         "scene": f"{record.name}: {record.title}",
@@ -288,12 +240,6 @@ def settings(record: Record) -> dict[str, str]:
         if row[3]
     }
     return given | own
-
-
-def source_texts(record: Record) -> list[str]:
-    """Return where the defaults of the models in this run come from."""
-    docs = {p.spec.name: (p.spec.params.__doc__ or "").replace("``", "") for p in record.parts}
-    return [f"{model}. {' '.join(words.split())}" for model, words in docs.items()]
 
 
 def _plain(value: Any) -> str:

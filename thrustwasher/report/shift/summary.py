@@ -1,7 +1,7 @@
 """What the report says of a shift at its top: what happened, and what a reader must not miss."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import Any
 
@@ -41,7 +41,7 @@ def warnings_of(result: Any) -> list[str]:
 
 
 def warnings_of_all(records: Sequence[Record]) -> list[str]:
-    """Return what must not be missed, of the first shift that it is said of.
+    """Return what must not be missed, with the first shift it holds for.
 
     Two texts say the same if they differ in numbers and units alone.
     """
@@ -49,36 +49,32 @@ def warnings_of_all(records: Sequence[Record]) -> list[str]:
     for i, record in enumerate(records, 1):
         for text in warnings(record):
             found.setdefault(QUANTITY.sub("#", text), (text, []))[1].append(str(i))
-    return [_said_of(text, list(dict.fromkeys(shifts))) for text, shifts in found.values()]
-
-
-def _said_of(text: str, shifts: list[str]) -> str:
-    """Return a warning with the shifts that it holds for."""
-    likewise = f"{'' if text.endswith('.') else '.'} Likewise shifts {', '.join(shifts[1:])}."
-    return f"Shift {shifts[0]}: {text}" + (likewise if len(shifts) > 1 else "")
+    lines = []
+    for text, shifts in found.values():
+        first, *others = dict.fromkeys(shifts)
+        end = "" if text.endswith(".") else "."
+        likewise = f"{end} Likewise shifts {', '.join(others)}." if others else ""
+        lines.append(f"Shift {first}: {text}{likewise}")
+    return lines
 
 
 def step_words(result: Any) -> list[str]:
     """Return what the step errs by in the shifts of a sequence that were checked."""
-    return [
-        f"Error of the step in shift {i + 1}: {error.words()}"
-        for i, error in result.step_errors.items()
-    ]
+    errors = result.step_errors.items()
+    return [f"Error of the step in shift {i + 1}: {error.words()}" for i, error in errors]
 
 
-def _not_locked(r: Record) -> list[str]:
-    """Return that the pack slips at the end, unless the words on judder say it."""
+def _not_locked(r: Record) -> Iterator[str]:
+    """Yield that the pack slips at the end, unless the words on judder say it."""
     if r.sticks_and_slips:
-        if r.judder and r.judder.stick_slip:
-            return []
-        start = r.phases[-1].start
-        return [
-            f"The {r.engaging} never held: from {start:.4g} s to the end it stuck and slipped in "
-            "turn."
-        ]
-    if r.figures["lock_time"] is not None:
-        return []
-    return [f"The {r.engaging} did not lock: the shift is not finished at the end of the run."]
+        if not (r.judder and r.judder.stick_slip):
+            start = r.phases[-1].start
+            yield (
+                f"The {r.engaging} never held: from {start:.4g} s to the end it stuck and slipped "
+                "in turn."
+            )
+    elif r.figures["lock_time"] is None:
+        yield f"The {r.engaging} did not lock: the shift is not finished at the end of the run."
 
 
 def _tie_up(r: Record) -> list[str]:
@@ -104,38 +100,35 @@ def _tie_up(r: Record) -> list[str]:
     return [text]
 
 
-def _washers_in_distress(r: Record) -> list[str]:
-    """Return that the film was lost, and that a washer would turn in its seat."""
-    found, distress, margin = [], r.figures.get("washer_distress_time") or 0.0, least_margin(r)
+def _washers_in_distress(r: Record) -> Iterator[str]:
+    """Yield that the film was lost, and that a washer would turn in its seat."""
+    distress, margin = r.figures.get("washer_distress_time") or 0.0, least_margin(r)
     if distress > 0.0:
-        found.append(
+        yield (
             f"Thermo-viscous distress: the washers' oil film was lost for {say(distress, 's')}. "
             "Torque and temperatures of that time are those of the equations; no real film "
             "survives there."
         )
     if margin and margin.value < 1.0:
         load = say(r.at("washer.load", margin.time) or 0.0, "N")
-        found.append(
+        yield (
             f"Gap 2 cannot hold the washers: at {margin.time:.4g} s, under a load of {load}, dry "
             f"friction between washer and gear can take {margin.value:.2g} times the friction "
             "torque of film 1. The washer would turn with less than the gear's speed; the model "
             "assumes that the two turn together."
         )
-    return found
 
 
-def _teeth_overloaded(r: Record) -> list[str]:
-    """Return that stress is beyond endurance, or a safety below 1."""
-    found = []
+def _teeth_overloaded(r: Record) -> Iterator[str]:
+    """Yield that stress is beyond endurance, or a safety below 1."""
     if stress := stress_words(r, over=1.0):
-        found.append(
+        yield (
             f"Tooth stress beyond endurance: {stress}. It is the stress of one straight pair of "
             "teeth that carries the whole load; hardened flanks endure more than these steels."
         )
     for words, safety in (("pitting", pitting_safety(r)), ("scuffing", scuffing_safety(r))):
         if safety is not None and safety < 1.0:
-            found.append(
+            yield (
                 f"The teeth may not last: their least safety against {words} is {safety:.2f}, by "
                 "formulas as standards are publicly quoted."
             )
-    return found

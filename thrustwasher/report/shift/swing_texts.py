@@ -39,12 +39,8 @@ def judder_text(r: Record) -> str:
 def _numerical(r: Record, j: Any) -> str:
     """Return a swing that the step makes; it may hide judder as well."""
     grows = j.mode_growth > 0.0
-    if j.growth <= 0.0:
-        head = "Judder hidden by the step"
-    elif grows:
-        head = "Judder that the communication step falsifies"
-    else:
-        head = "Numerical, no judder"
+    head = "Judder that the communication step falsifies" if grows else "Numerical, no judder"
+    head = head if j.growth > 0.0 else "Judder hidden by the step"
     return (
         f"{head}: {_swing(j, 'from')}, {_reaches(j)}, but the driveline's eigenvalue says that it "
         f"should {'grow' if grows else 'decay'} by {abs(j.mode_growth):.3g}. Handing torques over "
@@ -86,17 +82,16 @@ def _cause(j: Any) -> str:
 
 def chatter_texts(r: Record) -> list[str]:
     """Return a warning for each pack whose slip flips: that it is numerical, and what to change."""
-    return [_chatter(r, c) for c in r.chatter]
-
-
-def _chatter(r: Record, c: Any) -> str:
-    limit = "" if c.limit is None else f"; the master {r.master} is stable below {c.limit:g}"
-    smoothing = say(c.smoothing * c.step / c.good_step, "rad/s", digits=2)
-    return (
-        f"Numerical: from {c.start:.4g} s on the slip of the {c.pack} changes its sign {c.turns} "
-        f"times from one step to the next, where a real {c.pack} sticks. Its friction passes "
-        f"through zero with {c.slope:.3g} N·m per rad/s, against an inertia of "
-        f"{say(c.inertia, 'kg.m2')}: at a step of {say(c.step, 's', digits=4)} that is kappa = "
-        f'{c.kappa:.3g}{limit}. Use coupling = "capacity", the master linearly-implicit, steps of '
-        f"{say(c.good_step, 's', digits=2)} or a speed_smoothing of {smoothing}."
-    )
+    found = []
+    for c in r.chatter:
+        limit = "" if c.limit is None else f"; the master {r.master} is stable below {c.limit:g}"
+        smoothing = say(c.smoothing * c.step / c.good_step, "rad/s", digits=2)
+        found.append(
+            f"Numerical: from {c.start:.4g} s on the slip of the {c.pack} changes its sign "
+            f"{c.turns} times from one step to the next, where a real {c.pack} sticks. Its "
+            f"friction passes through zero with {c.slope:.3g} N·m per rad/s, against an inertia of "
+            f"{say(c.inertia, 'kg.m2')}: at a step of {say(c.step, 's', digits=4)} that is kappa = "
+            f'{c.kappa:.3g}{limit}. Use coupling = "capacity", the master linearly-implicit, steps '
+            f"of {say(c.good_step, 's', digits=2)} or a speed_smoothing of {smoothing}."
+        )
+    return found

@@ -6,14 +6,14 @@ from functools import partial
 
 from ...units import format_quantity
 from .shift_record import PACKS, Record
-from .shift_tables import source_texts
 
 say = partial(format_quantity, digits=3)
 CLOSE = 1e-5  # a difference that is as good as none
 
 
 def trust_texts(r: Record) -> list[str]:
-    """Return what the numbers are worth."""
+    """Return what the numbers are worth, last where the defaults of the models come from."""
+    docs = {p.spec.name: (p.spec.params.__doc__ or "").replace("``", "") for p in r.parts}
     return [
         f"Energy: the book closes to {r.energy['residual_share']:.1e} of {r.whole_name}. This is "
         "the error of the integration inside the driveline.",
@@ -24,7 +24,7 @@ def trust_texts(r: Record) -> list[str]:
         *_meshes(r),
         *_thrust(r),
         *_jerk(r),
-        *source_texts(r),
+        *(f"{model}. {' '.join(words.split())}" for model, words in docs.items()),
         *(f"The run says: {message}." for message in r.messages),
     ]
 
@@ -133,12 +133,10 @@ def _thrust(r: Record) -> Iterator[str]:
     p, rests = asdict(part.params()) if part else {}, []
     for gear in ("sun", "ring"):
         if friction := p.get(f"{gear}_bearing_coefficient"):
-            one, two, radius = (
-                p[f"{gear}_bearing_{name}"] for name in ("shaft_1", "shaft_2", "mean_radius")
-            )
-            rests.append(
-                f"{gear}'s between {one} and {two} (friction {friction} at {say(radius, 'm')})"
-            )
+            names = (f"{gear}_bearing_{n}" for n in ("shaft_1", "shaft_2", "mean_radius"))
+            one, two, radius = map(p.__getitem__, names)
+            place = f"(friction {friction} at {say(radius, 'm')})"
+            rests.append(f"{gear}'s between {one} and {two} {place}")
     if rests and most:
         yield (
             "Axial thrust: the teeth press sun and ring against each other's side with up to "

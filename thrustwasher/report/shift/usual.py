@@ -1,14 +1,13 @@
 """What is usual beside what came out: the ranges stand in ``usual.toml``."""
 
 import math
-import tomllib
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
+from ...model.toml_tables import table_beside
 from ..html import Table
 from ..palette import CELSIUS
 from .shift_record import Record
@@ -18,15 +17,14 @@ MARKS = {"usual": "", "below": "▼\N{NO-BREAK SPACE}below", "above": "▲\N{NO-
 Find = Callable[[Record], float | None]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Usual:
+class Usual(NamedTuple):
     """A figure with its usual range in the unit shown, one of which is ``scale`` SI units."""
 
     text: str
-    unit: str = ""
-    scale: float = 1.0
     range: tuple[float, float]
     basis: str
+    unit: str = ""
+    scale: float = 1.0
 
     def range_words(self) -> str:
         """Return the range with its unit."""
@@ -56,8 +54,7 @@ class Usual:
 @cache
 def ranges() -> dict[str, Usual]:
     """Return what is usual, by the name of the figure."""
-    text = Path(__file__).with_name("usual.toml").read_text("utf-8")
-    return {name: Usual(**entry) for name, entry in tomllib.loads(text).items()}
+    return {name: Usual(*row) for name, row in table_beside(__file__, "usual.toml").items()}
 
 
 def _rise(r: Record) -> float | None:

@@ -55,10 +55,8 @@ def _shift(r: Record) -> str:
 def _stop(r: Record) -> str:
     """Return how long a pack that acts alone took."""
     f, taken = r.figures, r.figures["lock_after_half_ramp"]
-    text, speed = (
-        f"From {r.ramp_start:.4g} s on the {r.engaging} was pressed;",
-        rpm(f["greatest_slip"] or 0.0),
-    )
+    text = f"From {r.ramp_start:.4g} s on the {r.engaging} was pressed;"
+    speed = rpm(f["greatest_slip"] or 0.0)
     if taken is None:
         return f"{text} from {speed} it was still slipping at the end."
     inertia = say(f.get("stopped_inertia") or 0.0, "kg.m2")
@@ -87,10 +85,8 @@ def _heat(r: Record) -> str:
     )
     both = f.get("shift_heat")
     if both and r.presses(r.releasing):
-        text += (
-            f" Both packs together took {say(both, 'J')} from the shift's start to the end of the "
-            "later slip."
-        )
+        text += f" Both packs together took {say(both, 'J')} from the shift's start to the end "
+        text += "of the later slip."
     return text
 
 

@@ -1,5 +1,6 @@
 """The worst values of a shift, when they were reached, and the washer solved again there."""
 
+from contextlib import suppress
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -31,23 +32,21 @@ def highest(record: Record, name: str) -> Extreme | None:
 
 def worst_film(record: Record) -> Extreme | None:
     """Return the washer's least film ratio recorded above FILM_SPEED; None without such a time."""
-    values, speed = record.series("washer.film_ratio"), record.series("washer.speed")
-    if values is None or speed is None:
-        return None
-    turning = np.abs(speed) >= FILM_SPEED
-    if not np.any(turning):
-        return None
-    index = np.argmin(np.where(turning, values, np.inf))
-    return Extreme(float(values[index]), float(record.time[index]))
+    return _least(record, "film_ratio", FILM_SPEED, -np.inf)
 
 
 def least_margin(record: Record) -> Extreme | None:
     """Return the least `stick_margin` of a washer that turns under load; None without any."""
-    values, load = record.series("washer.stick_margin"), record.series("washer.load")
-    speed = record.series("washer.speed")
-    if values is None or load is None or speed is None:
+    return _least(record, "stick_margin", TURNING, LEAST_LOAD)
+
+
+def _least(record: Record, name: str, speed: float, load: float) -> Extreme | None:
+    """Return an output's least value where the washer is faster and carries more than this."""
+    found = [record.series(f"washer.{n}") for n in (name, "speed", "load")]
+    if any(values is None for values in found):
         return None
-    where = np.flatnonzero((np.abs(speed) > TURNING) & (load > LEAST_LOAD))
+    values, turns, pressed = map(np.asarray, found)
+    where = np.flatnonzero((np.abs(turns) > speed) & (pressed > load))
     if not where.size:
         return None
     index = where[np.argmin(values[where])]
@@ -84,10 +83,8 @@ def solve_moment(record: Record, time: float) -> Moment | None:
     point["load"] = max(point["load"], LEAST_LOAD)
     found = []
     for branch in (None, "film", "contact"):
-        try:
+        with suppress(ParameterError, SolveError):
             found.append(model.solve(params, **point, fidelity=fidelity, branch=branch))
-        except (ParameterError, SolveError):
-            continue
     if not found:
         return None
     nearest = min(found, key=lambda r: abs(r.film_ratio - recorded))

@@ -26,7 +26,7 @@ WORDS = {
     "says": "fails and says so",
     "LIES": "wrong without a word",
 }
-SCRIPTS = ("chart/chart.css", "chart/chart.js")
+SCRIPTS = ("chart/chart.css", "draw.js", "chart/chart.js")
 OF_PACKS = "--fidelity clutch={rung} --fidelity brake={rung}"
 OPTIONS = {  # of commands, by what changes along a series
     "rung": "--fidelity {value}",

@@ -3,19 +3,11 @@
 (() => {
   const data = JSON.parse(document.getElementById("data").textContent);
   const NEAR = 14; // pixels from a mark
-  const tip = make("div", "tip");
-  tip.hidden = true;
-  tip.setAttribute("role", "tooltip");
+  const tip = el("div", { class: "tip", role: "tooltip", hidden: true });
   document.body.append(tip);
 
-  function make(tag, kind, ...children) {
-    const node = Object.assign(document.createElement(tag), { className: kind });
-    node.append(...children);
-    return node;
-  }
-
   function tell(lines, box) {
-    tip.replaceChildren(...lines.map((line) => make("div", "", line)));
+    tip.replaceChildren(...lines.map((line) => el("div", {}, line)));
     tip.hidden = false;
     const wide = document.documentElement.clientWidth;
     tip.style.left = `${window.scrollX + Math.max(8, Math.min(box.right + 10, wide - tip.offsetWidth - 8))}px`;
@@ -65,29 +57,19 @@
 
   /* The map of where methods fail: a button for each cell, with its words. */
   function mapOf(group) {
-    const heads = group.hazards.map((hazard) => headOf(hazard, "col"));
-    const rows = group.methods.map((method, i) => make("tr", "", headOf(method, "row"),
-      ...group.cells[i].map((cell, j) => make("td", "", cellOf(cell, method, group.hazards[j])))));
-    const table = make("table", "", make("caption", "", `${group.name} (wrong: ${group.judged})`),
-      make("thead", "", make("tr", "", make("td", ""), ...heads)), make("tbody", "", ...rows));
-    return make("div", "map", table);
-  }
-
-  function headOf(words, scope) {
-    return Object.assign(make("th", "", words), { scope });
+    const head = (scope) => (words) => el("th", { scope }, words);
+    const rows = group.methods.map((method, i) => el("tr", {}, head("row")(method),
+      ...group.cells[i].map((cell, j) => el("td", {}, cellOf(cell, method, group.hazards[j])))));
+    return el("div", { class: "map" }, el("table", {}, el("caption", {}, `${group.name} (wrong: ${group.judged})`),
+      el("thead", {}, el("tr", {}, el("td"), ...group.hazards.map(head("col")))), el("tbody", {}, ...rows)));
   }
 
   function cellOf(cell, method, hazard) {
-    const button = make("button", cell.verdict === "-" ? "none" : cell.verdict, `${cell.verdict} ${cell.figure}`.trim());
     const words = [`${method}, ${hazard}`, data.verdicts[cell.verdict] ?? "does not apply", cell.figure, cell.words]
       .filter((line) => line);
-    button.type = "button";
-    button.setAttribute("aria-description", words.join("; "));
-    for (const what of ["focus", "click", "pointerenter"]) {
-      button.addEventListener(what, () => tell(words, button.getBoundingClientRect()));
-    }
-    for (const what of ["blur", "pointerleave"]) button.addEventListener(what, quiet);
-    return button;
+    const show = (event) => tell(words, event.currentTarget.getBoundingClientRect());
+    return el("button", { type: "button", class: cell.verdict === "-" ? "none" : cell.verdict, "aria-description": words.join("; "),
+      onfocus: show, onclick: show, onpointerenter: show, onblur: quiet, onpointerleave: quiet }, `${cell.verdict} ${cell.figure}`.trim());
   }
 
   for (const [file, points] of Object.entries(data.points)) {
@@ -97,8 +79,8 @@
   const map = document.getElementById("map");
   if (map) {
     const key = Object.entries(data.verdicts).map(([verdict, words]) =>
-      make("li", "", make("span", verdict, verdict), ` ${words}`));
-    map.append(make("ul", "key", ...key), ...data.stability.map(mapOf));
+      el("li", {}, el("span", { class: verdict }, verdict), ` ${words}`));
+    map.append(el("ul", { class: "key" }, ...key), ...data.stability.map(mapOf));
   }
   addEventListener("keydown", (e) => { if (e.key === "Escape") quiet(); });
   document.documentElement.classList.add("js");

@@ -53,7 +53,7 @@ const VIEW = {
 
   // what the cards of this chart verify: see study/reference_clutch.py
   chart: "engagement",
-  where: "in the cards' engagement to this load at this slip (load up in 0.1 s, slip down from 0.2 to 0.6 s, drum at rest; another course may err more)",
+  where: "in the cards' engagement to this load at this slip (load up in 0.1 s, slip down from 0.2 to 0.6 s, drum at rest; another profile may err more)",
 
   values({ speed, oil_temperature }) {
     return { load: Math.max(...state.extra.ramp), speed, oil_temperature };

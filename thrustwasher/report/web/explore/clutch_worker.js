@@ -1,5 +1,5 @@
 "use strict";
-/* The wet clutch: an engagement over time under a course of load that was drawn, as engage_clutch. */
+/* The wet clutch: an engagement over time under a profile of load that was drawn, as engage_clutch. */
 
 const POINTS = 248; // a whole number for each straight piece of the ramp
 

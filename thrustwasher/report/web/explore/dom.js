@@ -32,8 +32,8 @@ function readQuantity(given, { unit, relative }) {
   const [, number, rest] = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*$/is.exec(given) ?? [], scales = { [unit]: [1, 0], ...ABOUT.scales[unit] };
   const name = rest?.replace("°", "deg").replace(/[·*]/g, ".").replace("^", "").replace("²", "2").replace("³", "3").replace(/[µμ]/, "u").replace(/\s+/g, ".") || unit;
   if (!String(given).trim()) return { wrong: ": a number is missing", as: [unit, 1, 0] };
-  if (/\d,\d/.test(given)) return { wrong: ` = ${given}: a decimal point is wanted, no comma`, as: [unit, 1, 0] };
-  if (!number || !Object.hasOwn(scales, name)) return { wrong: ` = ${given}: a number is wanted, in ${Object.keys(scales).filter((n) => n !== "1").map(pretty).join(" or ")}`, as: [unit, 1, 0] };
+  if (/\d,\d/.test(given)) return { wrong: ` = ${given}: a decimal point is required, no comma`, as: [unit, 1, 0] };
+  if (!number || !Object.hasOwn(scales, name)) return { wrong: ` = ${given}: a number is required, in ${Object.keys(scales).filter((n) => n !== "1").map(pretty).join(" or ")}`, as: [unit, 1, 0] };
   const [factor, zero] = scales[name], offset = relative ? 0 : zero, plain = factor === 1 && !offset;
   return { value: plain ? Number(number) : Number((factor * number + offset).toPrecision(15)), as: [name, factor, offset], wrong: ` = ${number}${name === "1" ? "" : ` ${pretty(name)}`}` };
 }

@@ -2,7 +2,7 @@
 /* The page: controls, figures, address; what is solved comes from the worker. */
 
 const SETTLE = 180; // ms without a change until the numbers are those of a fresh solve
-const SLOW = 100; // ms from which on it is told that a solution is not there yet
+const SLOW = 100; // ms from which on the page says that a solution is not there yet
 const NOISE = 1e-12, USUAL = 100; // of an output's usual size, and that of one of no known size: what is less is rounding
 const byId = (id) => document.getElementById(id);
 const state = { inputs: {}, parameters: {}, rung: ABOUT.rung, branch: "", asked: "", held: "", extra: {}, strange: "" };
@@ -11,7 +11,7 @@ const fields = {}, heard = {};
 const view = VIEW;
 let worker, quiet = false, busy = false, setting = false, anew = false, waiting = null, timer = 0, broken = "", point = null, last = null, count = 0;
 
-/** A number field with its unit, its range, what is wrong with it, and a slider if wanted. */
+/** A number field with its unit, its range, what is wrong with it, and a slider if asked for. */
 class Field {
   constructor(about, kept, changed, withSlider) {
     Object.assign(this, { about, kept, changed });
@@ -201,7 +201,7 @@ function errorOf(card, values) {
   return Math.min(...known.map(({ axes, rows }) => Math.max(...rows.filter((row) => here(axes, row)).map((row) => row.at(-1)))));
 }
 
-/** Return the verified error of the last torque, null where no card knows it, and what is said of it. */
+/** Return the verified error of the last torque, null where no card knows it, and the message on it. */
 function verified() {
   const at = Object.fromEntries(ABOUT.inputs.map((s, i) => [s.name, last.point[i]])), { branch, film_ratio } = last.outputs;
   const values = { film_ratio, ...(view.values?.(at) ?? at) }, chart = view.chart ?? branch;
@@ -252,7 +252,7 @@ function reproduced() {
   };
 }
 
-/** Take what the address names and solve; what cannot be taken is told, all else stays as it is. */
+/** Take what the address names and solve; what cannot be taken is in a message, all else stays as it is. */
 function readAddress() {
   const decoded = (text) => { try { return decodeURIComponent(text); } catch { return text; } };
   const words = new Map(location.hash.slice(1).split("&").filter(Boolean).map((w) => [w.split("=")[0], decoded(w.split("=").slice(1).join("="))]));

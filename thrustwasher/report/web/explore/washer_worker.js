@@ -31,8 +31,8 @@ class Model {
   }
 
   /** Solve at (load, speed, tilt, oil, far face); `state` remembers. */
-  step(point, wanted, state) {
-    this.inp.view.set([...point, wanted]);
+  step(point, branchCode, state) {
+    this.inp.view.set([...point, branchCode]);
     const { par, work } = this.mesh;
     return this.kernel.call("step", par, this.inp, state, work, this.out, this.iout, 0, 1);
   }
@@ -43,12 +43,12 @@ class Model {
    */
   solve(point, fresh, branch) {
     const { L } = this, { state, work } = this.mesh;
-    const wanted = L[{ film: "FILM_BRANCH", contact: "CONTACT_BRANCH" }[branch]] ?? L.ANY;
+    const branchCode = L[{ film: "FILM_BRANCH", contact: "CONTACT_BRANCH" }[branch]] ?? L.ANY;
     const afresh = (on) => (state.view.fill(0), this.step(point, on, state));
     const found = () => work.view[L.AT_FOUND + L.BRANCH];
     let code = fresh ? afresh(L.ANY) : this.step(point, L.ANY, state), asked = false, missing = false;
-    if (fresh && wanted !== L.ANY && code < this.about.first_failure && found() !== wanted) {
-      asked = afresh(wanted) === 0 && found() === wanted;
+    if (fresh && branchCode !== L.ANY && code < this.about.first_failure && found() !== branchCode) {
+      asked = afresh(branchCode) === 0 && found() === branchCode;
       missing = !asked;
       code = asked ? 0 : afresh(L.ANY);
     }

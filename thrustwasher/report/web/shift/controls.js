@@ -1,15 +1,13 @@
 /* The bar above the plots: time, zoom, events and phases; all of it works from the keyboard. */
 "use strict";
 const Controls = (() => {
-  const { number } = Parts;
-
   function build(state, place) {
     const points = state.time.length;
     const slider = el("input", { type: "range", min: 0, max: points - 1, step: 1, value: 0, id: "time",
       "aria-label": "time of the cursor", oninput: () => Plots.moveTo(Number(slider.value)), onkeydown: keys });
-    const said = el("output", { id: "now", for: "time" });
+    const output = el("output", { id: "now", for: "time" });
     const all = () => Plots.zoom(state.time[0], state.time[points - 1]);
-    const bar = el("div", { class: "bar", role: "group", "aria-label": "cursor and zoom of all plots" }, slider, said,
+    const bar = el("div", { class: "bar", role: "group", "aria-label": "cursor and zoom of all plots" }, slider, output,
       button("zoom in", "+", () => Plots.zoomBy(0.5)), button("zoom out", "−", () => Plots.zoomBy(2)),
       button("earlier", "◀", () => Plots.pan(-0.25)), button("later", "▶", () => Plots.pan(0.25)),
       button("the whole run", "show all", all));
@@ -35,7 +33,7 @@ const Controls = (() => {
       const words = `${number(t)} s${Plots.phaseAt(t) ? `, ${Plots.phaseAt(t)}` : ""}`;
       slider.value = state.index;
       slider.setAttribute("aria-valuetext", words);
-      said.textContent = words;
+      output.textContent = words;
       marks.forEach((one, i) => {
         const here = Plots.nearest(state.events[i].time) === state.index;
         if (here) one.setAttribute("aria-current", "true"); else one.removeAttribute("aria-current");

@@ -3,7 +3,6 @@
    it promises an object with film_ratio, radius, angle and the fields, angle by angle. */
 "use strict";
 const Discs = (() => {
-  const { number } = Parts;
   const PAUSE = 60; // ms after the cursor's last move
 
   function show(place, data, moment, speed) {
@@ -23,7 +22,7 @@ const Discs = (() => {
   function start(data, state, place) {
     const run = state.runs[0];
     const found = Object.entries(run.moments);
-    const said = el("p", { class: "small", "aria-live": "polite" });
+    const message = el("p", { class: "small", "aria-live": "polite" });
     const discs = el("div", { class: "discs" });
     const buttons = el("p", { class: "choose" });
     let live = false;
@@ -34,7 +33,7 @@ const Discs = (() => {
         live = false;
         press(one);
         Plots.moveTo(Plots.nearest(moment.time));
-        said.textContent = `${words}: solved again at the inputs recorded at ${number(moment.time)} s: film ratio `
+        message.textContent = `${words}: solved again at the inputs recorded at ${number(moment.time)} s: film ratio `
           + `${number(moment.film_ratio)}, in the run it was ${number(moment.recorded_film_ratio)}.`;
         show(discs, data, moment, moment.inputs.speed);
       } }, words);
@@ -42,7 +41,7 @@ const Discs = (() => {
     }
     if (window.solveAt) buttons.append(cursorButton());
     else place.append(el("p", { class: "small" }, Live.missing(data.washer)));
-    place.append(buttons, said, discs);
+    place.append(buttons, message, discs);
     const seen = new IntersectionObserver((entries) => {
       if (entries.some((entry) => entry.isIntersecting)) firstLook();
     });
@@ -54,7 +53,7 @@ const Discs = (() => {
       if (!found.length || discs.childNodes.length) return;
       const [words, moment] = found[0];
       press(buttons.firstChild);
-      said.textContent = `${words}, ${number(moment.time)} s.`;
+      message.textContent = `${words}, ${number(moment.time)} s.`;
       show(discs, data, moment, moment.inputs.speed);
     }
 
@@ -78,11 +77,11 @@ const Discs = (() => {
         const recorded = run.signals.get("washer.film_ratio")?.values[state.index];
         const moment = await window.solveAt(inputs, recorded);
         if (!live || time !== number(state.time[state.index])) return;
-        said.textContent = `Solved here at ${time} s: film ratio ${number(moment.film_ratio)}, in the run it was `
+        message.textContent = `Solved here at ${time} s: film ratio ${number(moment.film_ratio)}, in the run it was `
           + `${number(recorded)}.`;
         show(discs, data, moment, inputs.speed);
       } catch (problem) {
-        said.textContent = `No solution at ${time} s: ${problem.message}. The last one stays.`;
+        message.textContent = `No solution at ${time} s: ${problem.message}. The last one stays.`;
       }
     }
   }

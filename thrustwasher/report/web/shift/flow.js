@@ -56,8 +56,8 @@ const Flow = (() => {
     const hub = { y: 40, height: whole * scale };
     svg.append(bar(COLUMNS[1], hub.y, hub.height, "soft"),
       el("text", { x: COLUMNS[1] - 10, y: hub.y - 12 }, "driveline"));
-    const said = sides.map((side, k) => column(svg, side, k === 0, hub, scale, whole));
-    svg.setAttribute("aria-label", `Energy: ${said[0]} became ${said[1]}`);
+    const ends = sides.map((side, k) => column(svg, side, k === 0, hub, scale, whole));
+    svg.setAttribute("aria-label", `Energy: ${ends[0]} became ${ends[1]}`);
     return svg;
   }
 
@@ -123,7 +123,7 @@ const Flow = (() => {
       now.textContent = `From the start to ${state.time[index].toPrecision(4)} s${index === last ? ", the end" : ", the cursor"}.`;
       pictures.replaceChildren(...state.runs.flatMap((run, k) => [
         ...(state.runs.length > 1 ? [el("h3", {}, `${Plots.NAMES[k]}: ${run.title}`
-          + (index > run.end ? `, which ended at ${Parts.number(state.time[run.end])} s` : ""))] : []),
+          + (index > run.end ? `, which ended at ${number(state.time[run.end])} s` : ""))] : []),
         picture(run, data.flow, Math.min(index, run.end))]));
     });
   }

@@ -1,21 +1,13 @@
 /* What the scripts of a shift's page share: colours and numbers. */
 "use strict";
-const Parts = (() => {
-  function colour(name) {
-    return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
-  }
+function colour(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}
 
-  /* A value as a person reads it, in the unit that the page shows. */
-  function number(value, signal = { zero: 0, scale: 1 }) {
-    if (value === null || value === undefined || !Number.isFinite(value)) return "–";
-    const shown = Number(((value - signal.zero) / signal.scale).toPrecision(5));
-    return (Math.abs(shown) >= 1e6 || (shown !== 0 && Math.abs(shown) < 1e-4)
-      ? shown.toExponential(3) : String(shown)).replace("-", "−");
-  }
-
-  function unitOf(signal) {
-    return signal.unit === "1" ? "" : signal.unit;
-  }
-
-  return { colour, number, unitOf };
-})();
+/* A value as a person reads it, in the unit that the page shows. */
+function number(value, signal = { zero: 0, scale: 1 }) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  const shown = Number(((value - signal.zero) / signal.scale).toPrecision(5));
+  return (Math.abs(shown) >= 1e6 || (shown !== 0 && Math.abs(shown) < 1e-4)
+    ? shown.toExponential(3) : String(shown)).replace("-", "−");
+}

@@ -1,7 +1,6 @@
 /* Plots over one time: a common cursor, a common zoom, signals that are switched on and off. */
 "use strict";
 const Plots = (() => {
-  const { colour, number, unitOf } = Parts;
   const COLOURS = ["blue", "red", "green", "orange", "purple", "sky", "black", "grey"];
   const DASHES = [undefined, [6, 4]];
   const NAMES = ["A", "B"];
@@ -10,15 +9,10 @@ const Plots = (() => {
   const PAPER = 640; // pixels that a plot is wide in print
 
   const state = { time: [], runs: [], index: 0, view: { min: 0, max: 1 }, panels: [], others: [], listeners: [] };
-  let theme = {};
   let awaited = false;
 
   const first = () => state.time[0];
   const last = () => state.time[state.time.length - 1];
-
-  function readTheme() {
-    theme = Object.fromEntries([...COLOURS, "soft", "line", "shade", "mark", "paper"].map((n) => [n, colour(n)]));
-  }
 
   /* The index of the point nearest to a time. */
   function nearest(t) {
@@ -133,65 +127,63 @@ const Plots = (() => {
     });
   }
 
-  function shade(u) {
-    const { ctx, bbox } = u;
+  /* What draws on a plot with the colours of now; `dots`: pixels of the screen. */
+  function drawing(name, work) {
+    return (u) => {
+      const { ctx, bbox } = u, dots = devicePixelRatio;
+      ctx.save();
+      ctx.strokeStyle = ctx.fillStyle = colour(name);
+      ctx.font = `${11 * dots}px system-ui, sans-serif`;
+      work(u, ctx, bbox, dots);
+      ctx.restore();
+    };
+  }
+
+  function strokeLine(ctx, from, to) {
+    ctx.beginPath();
+    ctx.moveTo(...from);
+    ctx.lineTo(...to);
+    ctx.stroke();
+  }
+
+  function shade(u, ctx, bbox) {
     const at = (t) => Math.max(bbox.left, Math.min(bbox.left + bbox.width, u.valToPos(t, "x", true)));
-    ctx.save();
-    ctx.fillStyle = theme.shade;
     state.runs[0].phases.forEach(([, start, end], i) => {
       if (i % 2) ctx.fillRect(at(start), bbox.top, at(end) - at(start), bbox.height);
     });
-    ctx.restore();
   }
 
-  function drawLevels(u, panel) {
-    const { ctx, bbox } = u;
-    const levels = [...(panel.given.levels ?? []), ...panel.limits];
-    ctx.save();
-    ctx.strokeStyle = ctx.fillStyle = theme.soft;
-    ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
+  function drawLevels(panel, u, ctx, bbox, dots) {
+    const end = bbox.left + bbox.width, high = 12 * dots;
     ctx.textAlign = "right";
-    ctx.setLineDash([2 * devicePixelRatio, 3 * devicePixelRatio]);
-    for (const [value, words] of levels) {
-      const y = u.valToPos(value, "y", true);
+    ctx.setLineDash([2 * dots, 3 * dots]);
+    for (const [value, words] of [...(panel.given.levels ?? []), ...panel.limits]) {
+      const y = u.valToPos(value, "y", true), wide = ctx.measureText(words).width;
       if (!(y > bbox.top && y < bbox.top + bbox.height)) continue;
-      ctx.beginPath();
-      ctx.moveTo(bbox.left, y);
-      ctx.lineTo(bbox.left + bbox.width, y);
-      ctx.stroke();
-      const high = 12 * devicePixelRatio, wide = ctx.measureText(words).width;
-      ctx.fillStyle = theme.paper;
-      ctx.fillRect(bbox.left + bbox.width - 6 - wide, y - 3 * devicePixelRatio - high, wide + 6, high);
-      ctx.fillStyle = theme.soft;
-      ctx.fillText(words, bbox.left + bbox.width - 4, y - 5 * devicePixelRatio);
+      strokeLine(ctx, [bbox.left, y], [end, y]);
+      ctx.fillStyle = colour("paper");
+      ctx.fillRect(end - 6 - wide, y - 3 * dots - high, wide + 6, high);
+      ctx.fillStyle = colour("soft");
+      ctx.fillText(words, end - 4, y - 5 * dots);
     }
-    ctx.restore();
   }
 
-  function mark(u) {
-    const { ctx, bbox } = u;
-    ctx.save();
-    ctx.strokeStyle = ctx.fillStyle = theme.mark;
-    ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
-    ctx.setLineDash([devicePixelRatio, 3 * devicePixelRatio]);
+  function mark(u, ctx, bbox, dots) {
     let before = -Infinity, up = 0;
+    ctx.setLineDash([dots, 3 * dots]);
     for (const event of state.events) {
       const x = u.valToPos(event.time, "x", true);
       if (x < bbox.left || x > bbox.left + bbox.width) continue;
-      up = x - before < 14 * devicePixelRatio ? up + 1 : 0;
+      up = x - before < 14 * dots ? up + 1 : 0;
       before = x;
-      ctx.beginPath();
-      ctx.moveTo(x, bbox.top);
-      ctx.lineTo(x, bbox.top + bbox.height);
-      ctx.stroke();
-      ctx.fillText(event.number, x + 2, bbox.top + (11 + 11 * (up % 4)) * devicePixelRatio);
+      strokeLine(ctx, [x, bbox.top], [x, bbox.top + bbox.height]);
+      ctx.fillText(event.number, x + 2, bbox.top + (11 + 11 * (up % 4)) * dots);
     }
-    ctx.restore();
   }
 
   function axis(given = {}) {
-    const grid = { stroke: () => theme.line, width: 1 };
-    return { stroke: () => theme.soft, grid, ticks: { ...grid, size: 5 }, font: "12px system-ui, sans-serif", ...given };
+    const grid = { stroke: () => colour("line"), width: 1 };
+    return { stroke: () => colour("soft"), grid, ticks: { ...grid, size: 5 }, font: "12px system-ui, sans-serif", ...given };
   }
 
   function options(panel) {
@@ -205,13 +197,13 @@ const Plots = (() => {
       scales: { x: { time: false }, y: panel.given.logarithmic ? { distr: 3 } : {} },
       axes: [axis({ size: 34, values: (u, ticks) => ticks.map((t) => number(t)) }), axis({ size: 66 })],
       series: [{}, ...lines.map(({ signal, k }) => ({
-        label: signal.name, stroke: () => theme[panel.colours[signal.name]], width: 1.6,
+        label: signal.name, stroke: () => colour(panel.colours[signal.name]), width: 1.6,
         dash: DASHES[k], points: { show: false }, show: !panel.off?.has(signal.name),
       }))],
       hooks: {
-        drawClear: [shade],
-        draw: [(u) => drawLevels(u, panel), mark],
-        setSelect: [(u) => take(u)],
+        drawClear: [drawing("shade", shade)],
+        draw: [drawing("soft", (...given) => drawLevels(panel, ...given)), drawing("mark", mark)],
+        setSelect: [take],
       },
     };
   }
@@ -279,8 +271,8 @@ const Plots = (() => {
   }
 
   function tableOf(panel) {
-    const unit = unitOf({ unit: panel.unit });
-    const heads = state.runs.map((run, k) => el("th", { scope: "col" }, state.runs.length > 1 ? NAMES[k] : unit || "value"));
+    const unit = panel.unit === "1" ? "value" : panel.unit;
+    const heads = state.runs.map((run, k) => el("th", { scope: "col" }, state.runs.length > 1 ? NAMES[k] : unit));
     return el("table", {}, el("thead", {}, el("tr", {}, el("th", { scope: "col" }, "at the cursor"), ...heads)), el("tbody"));
   }
 
@@ -315,7 +307,6 @@ const Plots = (() => {
   }
 
   function repaint() {
-    readTheme();
     for (const plot of allPlots()) plot.redraw(false);
   }
 
@@ -371,7 +362,6 @@ const Plots = (() => {
   function show(data, found, place) {
     Object.assign(state, found, { view: { min: found.time[0], max: found.time[found.time.length - 1] } });
     state.events = happened();
-    readTheme();
     Controls.build(state, place);
     state.panels = sorted(data.panel);
     for (const panel of state.panels) build(panel, place);
@@ -380,5 +370,5 @@ const Plots = (() => {
     setTimeout(drawRest, 200);
   }
 
-  return { show, state, moveTo, zoom, zoomBy, pan, nearest, phaseAt, NAMES };
+  return { show, state, moveTo, zoom, zoomBy, pan, nearest, phaseAt, axis, NAMES };
 })();

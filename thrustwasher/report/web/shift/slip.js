@@ -1,7 +1,6 @@
 /* Friction of the pack that engages over its slip, which falls; the cursor is that of all plots. */
 "use strict";
 const Slip = (() => {
-  const { colour } = Parts;
   const COLOURS = ["blue", "orange"];
 
   /* A run's friction over its slip: names, colours, dashes and values; `order`: points by rising slip, back from
@@ -31,8 +30,7 @@ const Slip = (() => {
     const key = el("ul", { class: "happened small" }, ...named.map(([words, shade, dash]) =>
       el("li", {}, el("span", { style: `color: var(--${shade})` }, dash ? "▪▪ " : "▬ "), words)));
     place.append(chart, key);
-    const axis = (label) => ({ stroke: () => colour("soft"), label, labelSize: 20, size: 50, font: "12px system-ui, sans-serif",
-      labelFont: "13px system-ui, sans-serif", grid: { stroke: () => colour("line"), width: 1 } });
+    const axis = (label) => Plots.axis({ label, labelSize: 20, size: 50, labelFont: "13px system-ui, sans-serif" });
     const plot = new uPlot({
       width: Math.max(200, place.clientWidth), height: 260, legend: { show: false },
       scales: { x: { time: false, dir: -1 }, y: { range: (u, low, high) => [Math.min(0, low), 1.05 * high] } },

@@ -38,6 +38,15 @@ def pytest_configure(config):
     config.addinivalue_line("filterwarnings", rf"error:::({'|'.join(sorted(names))})(\.|$)")
 
 
+@pytest.fixture(scope="module")
+def browser():
+    """Give a headless browser."""
+    from browser_pages import chromium
+
+    with chromium() as found:
+        yield found
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_call(item):
     """Skip a test that came upon something that the machine lacks; in CI it fails."""

@@ -71,15 +71,8 @@ def test_a_model_without_cards_says_so(run):
 
 
 def test_the_sweep_writes_a_table(run, solved, folder):
-    run(
-        "sweep",
-        "journal",
-        "--over=load=500:1500:500",
-        "--over=viscosity=0.02,0.04",
-        *WORDS[1:],
-        "--workers=2",
-        "--out=table.csv",
-    )
+    over = "sweep journal --over=load=500:1500:500 --over=viscosity=0.02,0.04"
+    run(*over.split(), *WORDS[1:], "--workers=2", "--out=table.csv")
     with (folder / "table.csv").open(newline="") as stream:
         rows = list(csv.DictReader(stream))
     assert [row["status"] for row in rows][:2] == ["OK", "OK"]
@@ -98,9 +91,8 @@ def fmu(run, folder):
 
 def test_the_fmu_gives_the_same_numbers(fmu, solved):
     names = ("friction_torque", "temperature", "film_thickness")
-    series = fmpy.simulate_fmu(
-        fmu, stop_time=2e-3, output_interval=1e-3, start_values=POINT, output=names
-    )
+    options = {"stop_time": 2e-3, "output_interval": 1e-3, "start_values": POINT, "output": names}
+    series = fmpy.simulate_fmu(fmu, **options)
     assert [series[name][-1] for name in names] == [solved[name] for name in names]
 
 

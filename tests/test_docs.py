@@ -79,14 +79,6 @@ def test_modules_and_files_that_are_named_exist(page):
     assert [f for f in inside if not any((p / f).exists() for p in places)] == []
 
 
-@each_page
-def test_what_is_gone_is_not_promised(page):
-    if page.name == "CHANGELOG.md":
-        return
-    gone = r"(?i)cross-check|hand-over|C guard|integrator_check|rung guard|TODO|PICTURE:|\{[\w/]+\}"
-    assert re.findall(gone, prose(page)) == []
-
-
 def test_the_layers_on_the_page_are_those_that_are_checked():
     page = (DOCS / "architecture.md").read_text("utf-8")
     tool = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]
@@ -115,20 +107,14 @@ def test_the_readme_is_short_and_begins_with_its_two_commands():
     ]
 
 
-def test_the_readme_names_the_extras_that_there_are():
-    text = README.read_text("utf-8")
-    told = re.search(r"(?s)## Install\n(.*?)\n## ", text)[1]
-    extras = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
-    named = re.findall(r"`(\w+)`", told.partition("Extras add:")[2])
-    assert named == list(extras["optional-dependencies"])
-    assert set(re.findall(r'"\.\[(\w+)\]"', text)) <= set(named)
-
-
-def test_each_extra_that_the_docs_install_is_there():
-    extras = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+def test_extras_that_the_docs_name_are_those_there_are():
+    tool = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    extras = list(tool["optional-dependencies"])
+    told = re.search(r"(?s)## Install\n(.*?)\n## ", README.read_text("utf-8"))[1]
+    assert re.findall(r"`(\w+)`", told.partition("Extras add:")[2]) == extras
     for page in (README, *DOCS.rglob("*.md"), ROOT / ".ci" / "run"):
         for names in re.findall(r"(?:thrustwasher|\.)\[(\w+(?:,\w+)*)\]", page.read_text("utf-8")):
-            assert set(names.split(",")) <= set(extras["optional-dependencies"]), page
+            assert set(names.split(",")) <= set(extras), page
 
 
 def test_the_readmes_first_result_is_what_comes_out():

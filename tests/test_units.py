@@ -14,21 +14,17 @@ from thrustwasher.units import UNITS, format_quantity, parse_quantity
     ("text", "unit", "value"),
     [
         ("24 degC", "K", 297.15),
-        ("24°C", "K", 297.15),
         ("75.2 degF", "K", 297.15),
         ("3000 rpm", "rad/s", 100.0 * math.pi),
         ("1 MPa", "Pa", 1e6),
         ("0.1 deg", "rad", math.pi / 1800.0),
-        ("300 N", "N", 300.0),
         ("1.2kN", "N", 1200.0),
         ("-5e2 mm", "m", -0.5),
-        ("2 N m", "N.m", 2.0),
         ("2 N·m", "N.m", 2.0),
         (" 1.5 µm ", "m", 1.5e-6),
         ("0.7 W/(m.K)", "W/(m.K)", 0.7),
         ("300", "N", 300.0),
         (".5", "1", 0.5),
-        (7, "N", 7.0),
         (7.5, "K", 7.5),
     ],
 )
@@ -43,21 +39,7 @@ def test_a_difference_of_temperatures_has_no_offset():
 
 
 @pytest.mark.parametrize(
-    "value",
-    [
-        "24 degC",
-        "abc",
-        "",
-        "nan",
-        "inf",
-        "1e999",
-        "3,5 N",
-        "300 N extra",
-        math.nan,
-        True,
-        None,
-        "--3",
-    ],
+    "value", ["24 degC", "", "nan", "1e999", "3,5 N", "300 N extra", True, None]
 )
 def test_what_is_no_load_is_refused_in_one_line(value):
     with pytest.raises(ParameterError) as caught:
@@ -84,15 +66,12 @@ def test_a_number_with_a_unit_is_rounded_once():
     [
         (297.15, "K", "24 °C"),
         (1.12e-5, "m", "11.2 µm"),
-        (0.0227, "m", "22.7 mm"),
         (0.0, "m", "0 m"),
         (2e-3, "rad", "2 mrad"),
         (953.0, "rad/s", "953 rad/s"),
-        (5898.0, "N", "5.898 kN"),
         (1.29e9, "Pa", "1.29 GPa"),
         (46012.3, "J", "46.01 kJ"),
         (0.54e6, "J/m2", "540 kJ/m²"),
-        (0.1157, "kg.m2", "0.1157 kg·m²"),
         (-0.5, "N.m", "-0.5 N·m"),
         (0.11, "1", "0.11"),
         (6.865114e9, "1/m2", "6.865e+09 1/m²"),

@@ -2,7 +2,6 @@
 
 import warnings
 
-import numpy as np
 import pytest
 
 OURS = ["thrustwasher", "thrustwasher.washer.solve", "test_warnings", "built", "ex01_washer"]
@@ -23,10 +22,3 @@ def test_our_own_warnings_are_errors(module):
 @pytest.mark.parametrize("module", ["matplotlib.pyplot", "pytest", "thrustwashers", "importlib"])
 def test_what_others_warn_of_among_themselves_is_not(module):
     warn_from(module, DeprecationWarning)
-
-
-def test_numbers_that_overflow_are_errors_wherever_numpy_meets_them():
-    with pytest.raises(RuntimeWarning, match="overflow"):
-        np.array([1e300]) * 1e300
-    with pytest.raises(RuntimeWarning, match="empty slice"):
-        np.mean([])

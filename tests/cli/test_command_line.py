@@ -10,85 +10,19 @@ import pytest
 from thrustwasher import cli
 from thrustwasher.cli import main
 from thrustwasher.clutch.parameters import SPEC as CLUTCH
-from thrustwasher.errors import BranchError, EnvironmentProblem, ParameterError, SolveError
+from thrustwasher.errors import BranchError, EnvironmentProblem, SolveError
 from thrustwasher.gearmesh.parameters import SPEC as GEARMESH
 from thrustwasher.washer.parameters import SPEC as WASHER
 
 DOCS = Path(__file__).parents[2] / "docs"
 
 
-def one_line(capsys):
-    """Return the only line on standard error; standard output must be empty."""
-    out, err = capsys.readouterr()
-    assert out == ""
-    assert err.count("\n") == 1 and err.endswith("\n")
-    assert "Traceback" not in err
-    return err
-
-
-# Each kind of wrong input once; what only one command knows stands in that command's tests.
-@pytest.mark.parametrize(
-    ("words", "named"),
-    [
-        (["gearbox", "--power", "7500"], ["gearbox", "gearmesh", "doctor"]),
-        (["--frobnicate"], ["--frobnicate"]),
-        (["washer", "--frobnicate"], ["--frobnicate"]),
-        (["washer", "--load"], ["--load"]),
-        (["washer", "--load", "abc"], ["load", "'abc'", "N"]),
-        (["clutch", "--load", "nan"], ["load", "'nan'", "N"]),
-        (["clutch", "--load", "-1"], ["load", "-1", "N"]),
-        (["curve", "--tilt", "30 deg"], ["tilt", "0.52", "rad"]),
-        (["washer", "--oil-temperature", "3 bar"], ["oil_temperature", "'3 bar'", "K", "degC"]),
-        (["washer", "--grid", "1x1"], ["grid", "1"]),
-        (["curve", "--grid", "nine"], ["grid", "'nine'", "9x32"]),
-        (["washer", "--branch", "no"], ["branch", "no", "film", "contact"]),
-        (["washer", "--load", "300", "--speed", "953", "--branch", "contact"], ["contact"]),
-        (["washer", "--fidelity", "best"], ["fidelity", "best", "field"]),
-        (["engage", "--fidelity", "map"], ["fidelity", "map", "field"]),
-        (["gearmesh", "--preset", "rosy"], ["preset", "rosy", "literal"]),
-        (["washer", "--preset", "rosy"], ["preset", "rosy", "paper"]),
-        (["sweep", "washer", "--preset", "rosy"], ["preset", "rosy", "paper"]),
-        (["sweep", "clutch", "--preset", "rosy"], ["preset", "rosy", "paper"]),
-        (["gearmesh", "--speed", "0"], ["speed", "0", "rad/s"]),
-        (["gearmesh", "--power", "1e12"], ["power", "W"]),
-        (["washer", "--set", "roughnes=1e-7"], ["roughnes", "roughness?"]),
-        (["washer", "--set", "roughness"], ["roughness", "NAME=VALUE"]),
-        (["washer", "--set", "roughness=nan"], ["roughness", "nan", "m"]),
-        (["washer", "--set", "roughness=3 mm"], ["roughness", "0.003", "m"]),
-        (["washer", "--set", "friction_law=magic"], ["friction_law", "magic", "'load'"]),
-        (["clutch", "--set", "faces=2.5"], ["faces", "2.5"]),
-        (["clutch", "--set", "film_dynamics=perhaps"], ["film_dynamics", "true or false"]),
-        (["washer", "--set", "outer_radius=0.012"], ["gear_inner_radius", "outer_radius"]),
-        (["gearmesh", "--set", "pinion_teeth=14"], ["pinion_teeth = 14", "15 and more"]),
-        (["washer", "--plot", "x.gif"], ["--plot", "x.gif", ".png"]),
-        (["curve", "--out", "/proc/none/x.csv"], ["--out", "/proc/none"]),
-        (["engage", "--ramp", "-1"], ["ramp", "-1", "s"]),
-        (["engage", "--duration", "0"], ["duration", "0", "s"]),
-        (["engage", "--step", "1"], ["step", "1.0 s", "duration"]),
-        (["build", "Toaster"], ["Toaster", "ThrustWasher"]),
-        (["build", "--out", "/proc/none"], ["--out", "/proc/none"]),
-        (["shift", "--out", "/proc/none"], ["--out", "/proc/none"]),
-        (["chart", "--only", "stability", "--draw", "x.json"], ["--only", "--draw"]),
-        (["chart", "--only", "accuracy"], ["--only", "accuracy"]),
-        (["chart", "--only", "stability", "--out", "/proc/x.md"], ["--out /proc: cannot"]),
-    ],
-)
-def test_wrong_input_is_one_line_that_names_it(words, named, capsys, monkeypatch, tmp_path):
-    monkeypatch.chdir(tmp_path)
-    assert main(words) == 2
-    line = one_line(capsys)
-    assert [text for text in named if text not in line] == []
-    assert list(tmp_path.iterdir()) == []
-
-
 @pytest.mark.parametrize(
     ("error", "status"),
     [
-        (ParameterError("load = 1 N"), 2),
         (BranchError("no such branch"), 2),
         (EnvironmentProblem("no fmpy"), 2),
         (SolveError("tried\neverything"), 3),
-        (PermissionError(13, "Permission denied", "/locked/x"), 2),
         (OSError(28, "No space left on device"), 2),
         (KeyboardInterrupt(), 130),
         (BrokenPipeError(), 141),
@@ -151,25 +85,6 @@ def test_parameter_list_is_the_dataclass(command, spec, capsys):
         assert f.metadata["help"] in line
 
 
-def test_help_of_build_names_every_fmu(capsys):
-    from thrustwasher.model.registry import all_specs
-
-    main(["build", "--help"])
-    text = capsys.readouterr().out
-    assert [s.name for s in all_specs() if s.name not in text] == []
-
-
-def test_what_cannot_be_built_sends_nobody_in_a_circle(tmp_path, capsys):
-    for words, named in (
-        (["--target", "python", "--fmi", "3"], "native"),
-        (["--target", "python", "--platforms", "all"], "native"),
-        (["--platforms", "linux64,amiga"], "'amiga'"),
-        (["--target", "stone"], "stone"),
-    ):
-        assert main(["build", *words, "--out", str(tmp_path)]) == 2
-        assert named in one_line(capsys)
-
-
 @pytest.mark.skipif(not DOCS.is_dir(), reason="the documents are in the source tree only")
 def test_the_document_knows_every_command():
     text = (DOCS / "command-line.md").read_text("utf-8")
@@ -187,21 +102,14 @@ def test_help_needs_no_compiler(command):
 
 
 def test_a_plot_is_written_whole_or_not_at_all(tmp_path, capsys, monkeypatch):
-    target = tmp_path / "new" / "clutch.png"
-    target.parent.mkdir()
-    assert main(["clutch", "--load", "9000", "--speed", "2", "--plot", str(target)]) == 0
-    assert target.read_bytes()[:4] == b"\x89PNG"
-    assert [p.name for p in target.parent.iterdir()] == ["clutch.png"]
-    capsys.readouterr()
-
     def fail(*_, **__):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("matplotlib.figure.Figure.savefig", fail)
-    other = tmp_path / "new" / "other.png"
-    assert main(["clutch", "--load", "9000", "--speed", "2", "--plot", str(other)]) == 2
-    assert "No space" in one_line(capsys)
-    assert [p.name for p in target.parent.iterdir()] == ["clutch.png"]
+    assert main(["clutch", "--plot", str(tmp_path / "other.png")]) == 2
+    out, err = capsys.readouterr()
+    assert "No space" in err and out == "" and err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_closed_pipe_is_quiet():

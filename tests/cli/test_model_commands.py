@@ -2,7 +2,6 @@
 
 import csv
 import json
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,15 +11,13 @@ from thrustwasher import (
     ClutchParams,
     GearMeshParams,
     WasherParams,
-    cli,
     solve_clutch,
     solve_gearmesh,
     solve_washer,
 )
-from thrustwasher.cli import MODELS, engage, main
+from thrustwasher.cli import engage, main
 from thrustwasher.gearmesh.parameters import SPEC as MESH_SPEC
 from thrustwasher.model.part_file import preset_parts
-from thrustwasher.washer.model import Washer
 
 WASHER = {"load": 300.0, "speed": 953.0, "tilt": 0.002}
 PACK = {"load": 9000.0, "speed": -2.0}
@@ -73,11 +70,8 @@ def test_json_has_every_result_and_input_in_full_precision(command, capsys):
 @pytest.mark.parametrize(
     ("command", "words"),
     [
-        ("washer", ["friction_torque", " N·m ", " °C ", "branch", "error_estimate", "grid 10x32"]),
-        (
-            "clutch",
-            ["friction pack at load 5 kN", "shear_ratio", "interface temperature", "field,"],
-        ),
+        ("washer", ["friction_torque", " N·m ", " °C ", "branch", "grid 10x32"]),
+        ("clutch", ["friction pack at load 5 kN", "shear_ratio", "field,"]),
         ("gearmesh", ["20 teeth, ratio 2, at power 7.5 kW, speed 180 rad/s (1718.9 rpm), oil_t"]),
     ],
 )
@@ -87,22 +81,8 @@ def test_a_bare_call_answers_with_a_table_for_a_person(command, words, capsys):
 
 
 def test_units_grids_and_settings_reach_the_model(capsys):
-    words = [
-        "washer",
-        "--load",
-        "0.3 kN",
-        "--speed",
-        "9100.479 rpm",
-        "--tilt",
-        "2 mrad",
-        "--oil-temperature",
-        "40 degC",
-        "--set",
-        "roughness=0.4 um",
-        "--grid",
-        "9x24",
-    ]
-    record = told(words, capsys)
+    words = "washer --load 0.3kN --speed 9100.479rpm --tilt 2mrad --oil-temperature 40degC"
+    record = told(f"{words} --set roughness=0.4um --grid 9x24".split(), capsys)
     assert record["speed"] == pytest.approx(953.0, abs=1e-3)
     assert record["oil_temperature"] == pytest.approx(313.15)
     assert record["parameters"]["roughness"] == pytest.approx(4e-7)
@@ -120,16 +100,6 @@ def test_settings_change_a_preset(preset, capsys):
     assert (record["preset"], record["fidelity"]) == (preset, "fine")
 
 
-def test_settings_change_the_papers_washer(capsys):
-    words = [*words_of("washer", WASHER), "--preset", "paper"]
-    record = told([*words, "--set", "pressure_flow_shear=true"], capsys)
-    params = WasherParams.preset("paper", pressure_flow_shear=True)
-    expected = solve_washer(params, **WASHER)
-    assert record["friction_torque"] == expected.friction_torque
-    assert (record["preset"], record["parameters"]["oil_cooling"]) == ("paper", False)
-    assert record["throughflow_heat"] == 0.0
-
-
 def test_the_table_of_a_mesh_sets_both_steels_side_by_side(capsys):
     out = shown([*words_of("gearmesh", MESH), "--preset", "paper"], capsys)
     lines = {line.split()[0]: line for line in out.splitlines()}
@@ -138,30 +108,15 @@ def test_the_table_of_a_mesh_sets_both_steels_side_by_side(capsys):
     steels = [line for line in out.splitlines() if line.startswith("  AISI")]
     assert [line.split()[1] for line in steels] == ["1020", "4340"]
     assert "these gears" in steels[1] and "these gears" not in steels[0]
-    result = solve_gearmesh(GearMeshParams.preset("paper"), **MESH)
-    assert [float(text) for text in steels[0].split()[2:5]] == pytest.approx(
-        [
-            result.modification_factor_aisi1020,
-            result.allowable_ratio_aisi1020,
-            result.stress_utilization_aisi1020,
-        ],
-        rel=1e-4,
-    )
 
 
 @pytest.mark.parametrize(
     "words",
-    [
-        words_of("washer", WASHER),
-        words_of("clutch", PACK),
-        ["clutch", "--set", "friction_law=constant"],
-        words_of("gearmesh", MESH),
-        ["gearmesh", "--power", "0", "--speed", "0"],
-    ],
+    ["washer", "clutch", "clutch --set friction_law=constant", "gearmesh --power 0 --speed 0"],
 )
 def test_a_picture_is_drawn_and_named(words, tmp_path, capsys):
     target = tmp_path / "shown.svg"
-    assert main([*words, "--plot", str(target)]) == 0
+    assert main([*words.split(), "--plot", str(target)]) == 0
     assert "<svg" in target.read_text("utf-8")
     assert f"wrote {target}" in capsys.readouterr().err
 
@@ -221,16 +176,3 @@ def test_an_engagement_is_written_whole(tmp_path):
     assert np.isfinite([float(v) for v in rows[-1][:-1]]).all()
     assert picture.stat().st_size > 10_000
     assert sorted(p.name for p in tmp_path.iterdir()) == ["e.csv", "e.png"]
-
-
-def test_a_record_alone_makes_a_command(capsys, monkeypatch):
-    class Ring(Washer):
-        key = "ring"
-        command = replace(Washer.command, help="solve a ring", title="ring", options=(), plot="")
-
-    monkeypatch.setitem(MODELS, "ring", Ring())
-    monkeypatch.setattr(cli, "COMMANDS", (*cli.COMMANDS, "ring"))
-    assert "  ring      solve a ring\n" in shown([], capsys)
-    assert shown(["ring", "--load", "300"], capsys).startswith("ring at load 300 N")
-    assert "--plot" in shown(["washer", "--help"], capsys)
-    assert "--plot" not in shown(["ring", "--help"], capsys)

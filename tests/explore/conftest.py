@@ -2,14 +2,7 @@
 
 import pytest
 from browser_pages import Seen
-from browser_pages import chromium as launched
 from pages import html
-
-
-@pytest.fixture(scope="module")
-def chromium():
-    with launched() as browser:
-        yield browser
 
 
 @pytest.fixture(scope="module")
@@ -56,11 +49,11 @@ class Opened(Seen):
 
 
 @pytest.fixture
-def opened(chromium, files):
+def opened(browser, files):
     made = []
 
     def open_(model="washer", address="", **look):
-        made.append(Opened(chromium, files(model), address, **look))
+        made.append(Opened(browser, files(model), address, **look))
         return made[-1]
 
     yield open_

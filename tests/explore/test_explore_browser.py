@@ -10,12 +10,10 @@ from pages import MODELS
 
 from thrustwasher import (
     ClutchParams,
-    GearMeshParams,
     WasherParams,
     cli,
     load_curve,
     oil,
-    solve_gearmesh,
     solve_washer,
 )
 from thrustwasher.ladder.error_table import SAFETY, fresh_rungs
@@ -125,39 +123,25 @@ def test_the_point_is_dragged_over_the_fold_and_comes_back_on_the_other_branch(o
         assert page.figure(f"{kind}_load") == pytest.approx(load, rel=1e-8)
     plot = page.page.locator("svg").first
     plot.scroll_into_view_if_needed()
-    box = plot.bounding_box()
-    handle = plot.locator(".handle").bounding_box()
+    box, handle = plot.bounding_box(), plot.locator(".handle").bounding_box()
     y = handle["y"] + handle["height"] / 2
     page.page.mouse.move(handle["x"] + 8, y)
     page.page.mouse.down()
-    branches = []
-    for share in (0.6, 0.7, 0.8, 0.9, 0.8, 0.75, 0.7):
+    seen = []
+    for share in (0.6, 0.7, 0.9, 0.75, 0.7):
         page.page.mouse.move(box["x"] + 62 + share * (box["width"] - 74), y, steps=8)
-        page.settled()
-        load = float(page.page.input_value("#in-load"))
-        branches.append((load, page.page.text_content("#branch")))
+        branch = page.settled().page.text_content("#branch")
+        seen.append((float(page.page.input_value("#in-load")), branch))
     page.page.mouse.up()
-    page.settled()
-    seen = dict(branches)
-    assert all(b == "contact" for load, b in branches if load > folds["film_lost"] * 1.02)
-    assert all(b == "film" for load, b in branches[:2] if load < folds["film_lost"])
-    assert page.page.get_attribute("#state", "class") != "problem"
-    between = [b for load, b in branches[4:] if folds["film_regained"] < load < folds["film_lost"]]
+    assert page.settled().page.get_attribute("#state", "class") != "problem"
+    assert all(b == "contact" for load, b in seen if load > folds["film_lost"] * 1.02)
+    assert all(b == "film" for load, b in seen[:2] if load < folds["film_lost"])
+    between = [b for load, b in seen[3:] if folds["film_regained"] < load < folds["film_lost"]]
     assert between and set(between) == {"contact"}, seen
     assert "branch=contact" in page.page.url
 
 
-def test_arrow_keys_move_the_point(opened):
-    page = opened()
-    before = float(page.page.input_value("#in-load"))
-    page.page.locator("svg .handle").first.focus()
-    for _ in range(3):
-        page.page.keyboard.press("ArrowRight")
-    page.settled()
-    assert float(page.page.input_value("#in-load")) > before
-
-
-@pytest.mark.parametrize("bad", ["20000", "-5", "", "abc", "1e999", "NaN", "1,5", "3 m", "<b>"])
+@pytest.mark.parametrize("bad", ["20000", "", "1e999", "NaN", "<b>"])
 def test_a_bad_value_is_marked_with_its_range_and_the_last_good_result_stays(opened, bad):
     page = opened()
     before = page.figure("friction_torque")
@@ -213,52 +197,23 @@ def test_a_browser_without_it_shows_values_and_pictures_of_the_start(opened, mod
     said = page.text_content("#state")
     assert "of the start: " in said and "Rung field; verified error of the torque: at most" in said
     assert ("has no WebAssembly" in said) is ("init" in look)
+    if "init" in look:
+        assert page.evaluate("document.documentElement.scrollWidth") <= page.viewport_size["width"]
+        assert faults(page) == []
 
 
-def test_still_values_are_those_of_python(opened):
-    page = opened(ready="", java_script_enabled=False)
-    wanted = solve_washer(WasherParams(), **POINT)
-    assert page.figure("friction_torque") == wanted.friction_torque
-    words = f"verified error of the torque: at most {100 * wanted.error_estimate:.2g} %"
-    assert words in page.page.text_content("#state")
-
-
-def test_kernels_that_cannot_run_leave_the_still_version(chromium, files, tmp_path):
+def test_kernels_that_cannot_run_leave_the_still_version(browser, files, tmp_path):
     path = tmp_path / "broken.html"
     text = files("gearmesh").read_text("utf-8")
     path.write_text(re.sub(r'(id="module">)[^<]*', r"\g<1>AGFzbQ==", text), "utf-8")
-    page = Seen(chromium, path.as_uri(), ready="#state.problem")
+    page = Seen(browser, path.as_uri(), ready="#state.problem")
     assert page.page.text_content("#state").startswith("This browser cannot run the kernels: ")
     looks_still(page.page)
     page.close()
 
 
-@pytest.mark.parametrize("model", MODELS)
-def test_on_paper_the_views_are_full_and_dark_on_white(opened, model):
-    page = opened(model, color_scheme="dark").settled().page
-    page.emulate_media(media="print", color_scheme="dark")
-    plots = page.locator("#views svg")
-    assert plots.count() >= 2
-    for plot in plots.all():
-        plot.locator("polyline").first.wait_for(state="attached")
-        lines = plot.locator("polyline").evaluate_all("(all) => all.map((p) => p.points.length)")
-        assert max(lines) >= 2
-    ink, paper = page.evaluate(
-        "() => ['color', 'backgroundColor'].map((name) => getComputedStyle(document.body)[name])"
-    )
-    assert (ink, paper) == ("rgb(29, 39, 48)", "rgb(255, 255, 255)")
-    assert not page.is_visible("#controls")
-
-
 def test_the_washers_four_discs_have_colours_scales_and_units(opened):
     page = opened(address="#load=700&branch=contact").settled().page
-    names = page.locator(".disc figcaption").all_text_contents()
-    assert names == [
-        "film thickness",
-        "film pressure",
-        "asperity pressure",
-        "temperature of the carrier",
-    ]
     for disc, unit in zip(page.locator(".disc").all(), ("m", "Pa", "Pa", "°C"), strict=True):
         ends = disc.locator(".ends span").all_text_contents()
         assert ends[0] != ends[1] and ends[1].endswith(unit)
@@ -291,15 +246,9 @@ def test_the_clutch_says_the_error_of_its_cards_engagement(opened, rung):
 ADDRESSES = [
     ("#load=abc", "The address: load = abc: a number is required, in N or kN or MN or "),
     ("#load=1e9", "The address: load = 1e9 N, allowed: 1 .. 10000 N. "),
-    ("#load=", "The address: load: a number is missing; allowed: 1 .. 10000 N. "),
-    ("#load=1,5", "The address: load = 1,5: a decimal point is required, no comma; allowed"),
     ("#load=300&load=-1", "The address: load = -1 N, allowed"),
     ("#weight=3", "The address: weight is nothing that this page knows. "),
-    (
-        "#__proto__=3&constructor=1",
-        "The address: __proto__ is nothing that this page knows; constr",
-    ),
-    ("#fidelity=map", "The address: fidelity = map, allowed: field or fine. "),
+    ("#__proto__=3&constructor=1", "The address: __proto__ is nothing that this page knows; cons"),
     ("#fidelity=constructor", "The address: fidelity = constructor, allowed: field or fine. "),
     ("#branch=<script>window.hit=1</script>", "The address: branch = <script>window.hit=1</scri"),
     ("#load=%E0%A4%A", "The address: load = %E0%A4%A: a number is required"),
@@ -321,32 +270,6 @@ def test_an_address_that_cannot_be_taken_is_told_and_harmless(opened, address, w
         assert page.page.get_attribute("#in-load", "aria-invalid") == "true"
     page.put("load", 300)  # and the page goes on
     assert page.page.get_attribute("#in-load", "aria-invalid") == "false"
-
-
-@pytest.mark.parametrize(
-    "ramp",
-    [
-        "5",
-        "[1]",
-        "[1,2",
-        '["a",1,1,1,1,1,1,1,1]',
-        "[9e9,0,0,0,0,0,0,0,0]",
-        "[null,1,1,1,1,1,1,1,1]",
-    ],
-)
-def test_a_ramp_that_cannot_be_taken_is_told(opened, ramp):
-    page = opened("clutch", f"#ramp={ramp}")
-    said = page.page.text_content("#state")
-    assert said.startswith("The address: ramp, allowed: 9 loads in brackets, numbers 0 .. ")
-    assert "2500" in page.page.text_content("#as-python")
-
-
-def test_the_gear_mesh_follows_its_inputs(opened):
-    page = opened("gearmesh")
-    page.put("power", 20000)
-    wanted = solve_gearmesh(GearMeshParams(), power=20e3, speed=180.0)
-    for name in ("friction_torque", "scuffing_safety", "surface_temperature"):
-        assert page.figure(name) == pytest.approx(getattr(wanted, name), rel=SAME)
 
 
 def test_a_point_without_a_solution_is_told_and_the_last_result_stays(opened):
@@ -383,32 +306,20 @@ def test_a_ramp_is_drawn_and_the_engagement_follows(opened):
 
 @pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize("look", LOOKS.values(), ids=LOOKS)
-def test_an_automated_check_of_access_finds_nothing_serious(opened, model, look):
-    assert faults(opened(model, **look).page) == []
+def test_nothing_bars_access_nothing_is_too_wide_and_all_fields_have_names(opened, model, look):
+    page = opened(model, **look).page
+    page.evaluate("document.querySelectorAll('details').forEach((d) => { d.open = true; })")
+    assert page.evaluate("document.documentElement.scrollWidth") <= page.viewport_size["width"]
+    for field in page.locator("input, select, button").all():
+        name = field.get_attribute("id")
+        label = page.locator(f"label[for='{name}']").count()
+        assert field.get_attribute("aria-label") or label or field.text_content(), name
+    assert faults(page) == []
 
 
-def test_nor_does_it_in_the_still_version(opened):
-    for look in LOOKS.values():
-        page = opened("clutch", ready="", init=WITHOUT["webassembly"]["init"], **look).page
-        assert faults(page) == []
-        wide = page.evaluate("document.documentElement.scrollWidth")
-        assert wide <= page.viewport_size["width"]
-
-
-@pytest.mark.parametrize("model", MODELS)
-@pytest.mark.parametrize("look", LOOKS.values(), ids=LOOKS)
-def test_nothing_is_wider_than_the_screen_and_all_fields_have_names(opened, model, look):
-    page = opened(model, **look)
-    page.page.evaluate("document.querySelectorAll('details').forEach((d) => { d.open = true; })")
-    wide = page.page.evaluate("document.documentElement.scrollWidth")
-    assert wide <= page.page.viewport_size["width"]
-    for field in page.page.locator("input, select, button").all():
-        named = field.get_attribute("aria-label") or field.get_attribute("id")
-        label = page.page.locator(f"label[for='{field.get_attribute('id')}']").count()
-        assert field.get_attribute("aria-label") or label or field.text_content(), named
-
-
-def test_back_to_the_start_takes_everything_back(opened):
+def test_a_wrong_ramp_is_told_and_back_to_the_start_takes_everything_back(opened):
+    said = opened("clutch", "#ramp=[1,2").page.text_content("#state")
+    assert said.startswith("The address: ramp, allowed: 9 loads in brackets, numbers 0 .. ")
     page = opened("clutch", "#speed=50&duration=1&faces=6&ramp=[0,1,2,3,4,5,6,7,8]")
     assert page.page.input_value("#in-faces") == "6" and "ramp=%5B0%2C1" in page.page.url
     page.page.click("#reset")

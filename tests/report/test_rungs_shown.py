@@ -38,10 +38,6 @@ def test_the_page_has_the_section_with_reasons_checks_and_what_ran_again():
     assert table.rows[1][-2:] == ("yes", "400.00")
 
 
-def test_a_run_without_choice_has_no_such_section():
-    assert "rungs" not in [s.anchor for s in shift_page(shift_stand_in.record()).sections]
-
-
 def test_a_choice_that_was_not_checked_says_so():
     (section,) = rung_sections(replace(record(), guard=None))
     assert any("not checked" in text for text in section.texts) and not section.tables

@@ -6,10 +6,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import shift_stand_in
-import washer_stand_in
-from browser_pages import chromium, faults, opened
+from browser_pages import faults, opened
 
-from thrustwasher import solve_washer
+from thrustwasher import WasherParams, solve_washer
 from thrustwasher.report.html import render
 from thrustwasher.report.shift import sequence_report, shift_report
 from thrustwasher.report.shift.comparison import comparison_page
@@ -19,27 +18,16 @@ from thrustwasher.report.shift.worst_moments import Moment, rung_with_fields
 
 pytestmark = pytest.mark.browser
 RECORD = shift_stand_in.record(mesh=True)
-POINT = {
-    "load": 300.0,
-    "speed": 953.0,
-    "tilt": 2e-3,
-    "oil_temperature": 297.15,
-    "far_face_temperature": 0.0,
-}
+POINT = {"load": 300.0, "speed": 953.0, "tilt": 2e-3, "oil_temperature": 297.15}
+POINT["far_face_temperature"] = 0.0
 SHOWN = "document.querySelectorAll('.panel:not(.more)')"
 SCALES = "() => Plots.state.panels.filter((p) => p.visible && p.plot).map((p) => p.plot.scales.x)"
 
 
 @pytest.fixture(scope="module")
-def browser():
-    with chromium() as found:
-        yield found
-
-
-@pytest.fixture(scope="module")
 def report(tmp_path_factory):
     def solve(record, time):
-        return Moment(time, POINT, washer_stand_in.Washer(), 1.5)
+        return Moment(time, POINT, solve_washer(WasherParams(), **POINT), 1.5)
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(shift_report, "solve_moment", solve)
@@ -52,9 +40,13 @@ def report(tmp_path_factory):
 @pytest.fixture
 def page(browser, report):
     with opened(browser, report) as found:
-        found.evaluate("() => document.getElementById('plots').scrollIntoView()")
-        found.wait_for_selector(".u-over")
+        to_plots(found)
         yield found
+
+
+def to_plots(page):
+    page.evaluate("() => document.getElementById('plots').scrollIntoView()")
+    page.wait_for_selector(".u-over")
 
 
 def settle(page):
@@ -83,50 +75,28 @@ def test_the_cursor_is_the_same_in_all_plots_and_tells_the_values_there(page):
     assert page.locator("#now").text_content().startswith(f"{RECORD.time[index]:g} s, ")
 
 
-def dragged(page, first, last):
-    """Drag over the second plot, from one share of its width to another; return the plot."""
+def test_a_zoom_in_one_plot_zooms_all(page):
     plot = page.locator(".u-over").nth(1)
     plot.scroll_into_view_if_needed()
     box = plot.bounding_box()
-    middle = box["y"] + 0.5 * box["height"]
-    page.mouse.move(box["x"] + first * box["width"], middle)
+    page.mouse.move(box["x"] + 0.25 * box["width"], box["y"] + 0.5 * box["height"])
     page.mouse.down()
-    page.mouse.move(box["x"] + last * box["width"], middle, steps=5)
+    page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"], steps=5)
     page.mouse.up()
     settle(page)
-    return plot
-
-
-def test_a_zoom_in_one_plot_zooms_all(page):
-    plot = dragged(page, 0.25, 0.5)
     scales = page.evaluate(SCALES)
     assert len(scales) >= 2
     for scale in scales:
-        assert scale["min"] == pytest.approx(0.625, abs=0.01)
-        assert scale["max"] == pytest.approx(1.25, abs=0.01)
-    plot.dblclick(position={"x": 10, "y": 80})
-    settle(page)
-    assert {(s["min"], s["max"]) for s in page.evaluate(SCALES)} == {(0.0, 2.5)}
-
-
-def test_after_a_zoom_the_cursor_is_drawn_at_the_time_that_the_table_tells(page):
-    dragged(page, 0.3, 0.5)
+        assert [scale["min"], scale["max"]] == pytest.approx([0.625, 1.25], abs=0.01)
     time, drawn = page.evaluate(
         """() => [Plots.state.time[Plots.state.index],
           Plots.state.panels.filter((p) => p.visible && p.plot)
             .map(({ plot }) => plot.posToVal(plot.cursor.left, "x"))]"""
     )
-    assert time == pytest.approx(1.25, abs=0.01)
     assert drawn == pytest.approx([time] * len(drawn), abs=2e-3)
-
-
-def test_a_plot_that_was_out_of_sight_has_the_zoom_when_it_comes(page):
-    page.evaluate("Plots.zoom(1, 2)")
-    last = page.locator(".panel:not(.more) .u-over").last
-    page.locator(".panel:not(.more)").last.scroll_into_view_if_needed()
-    last.wait_for()
+    plot.dblclick(position={"x": 10, "y": 80})
     settle(page)
-    assert {(s["min"], s["max"]) for s in page.evaluate(SCALES)} == {(1.0, 2.0)}
+    assert {(s["min"], s["max"]) for s in page.evaluate(SCALES)} == {(0.0, 2.5)}
 
 
 def test_signals_are_switched_on_and_off(page):
@@ -255,7 +225,8 @@ def test_the_washers_worst_moment_is_drawn_as_discs(page):
     page.wait_for_selector("#discs canvas")
     assert page.locator("#discs figure").count() == 4
     page.get_by_role("button", name="hottest moment").click()
-    page.wait_for_selector("text=film ratio 15.389, in the run it was 1.5.")
+    ratio = solve_washer(WasherParams(), **POINT).film_ratio
+    page.wait_for_selector(f"text=film ratio {ratio:.5g}, in the run it was 1.5.")
 
 
 def test_without_scripts_there_are_the_tables_and_one_picture(browser, report):
@@ -300,22 +271,27 @@ def test_nothing_serious_bars_access_and_nothing_is_wider_than_the_screen(
     browser, report, wide, scheme
 ):
     with opened(browser, report, wide=wide, scheme=scheme) as page:
-        page.evaluate("() => document.getElementById('plots').scrollIntoView()")
-        page.wait_for_selector(".u-over")
+        to_plots(page)
         assert page.evaluate("document.documentElement.scrollWidth") <= wide
+        text = page.locator("#flow text").last
+        text.scroll_into_view_if_needed()
+        assert text.bounding_box()["height"] > 9
         assert faults(page) == []
+
+
+def beside(other, folder):
+    """Write the page of two runs; return its file."""
+    runs, path = [run_data(record, {}) for record in (RECORD, other)], folder / "compare.html"
+    path.write_text(render(comparison_page(runs, [overview_figure(RECORD)] * 2)), "utf-8")
+    return path
 
 
 @pytest.mark.parametrize(("wide", "scheme"), [(1200, "light"), (380, "dark")])
 def test_two_runs_are_laid_over_each_other_on_one_time(browser, tmp_path, wide, scheme):
-    late = replace(RECORD, title="late", time=RECORD.time + 0.5005)
-    runs = [run_data(record, {}) for record in (RECORD, late)]
-    path = tmp_path / "compare.html"
-    path.write_text(render(comparison_page(runs, [overview_figure(RECORD)] * 2)), "utf-8")
+    path = beside(replace(RECORD, title="late", time=RECORD.time + 0.5005), tmp_path)
     with opened(browser, path, wide=wide, scheme=scheme) as page:
         assert page.evaluate("document.documentElement.scrollWidth") <= wide
-        page.evaluate("() => document.getElementById('plots').scrollIntoView()")
-        page.wait_for_selector(".u-over")
+        to_plots(page)
         assert page.evaluate("Plots.state.time.length") == 5002
         page.evaluate("Plots.moveTo(Plots.nearest(1.5))")
         settle(page)
@@ -340,9 +316,7 @@ def test_two_runs_are_laid_over_each_other_on_one_time(browser, tmp_path, wide, 
 def test_beyond_the_end_of_a_run_its_final_energies_stay(browser, tmp_path):
     signals = {name: values[:1301] for name, values in RECORD.signals.items()}
     short = replace(RECORD, title="short", time=RECORD.time[:1301], signals=signals)
-    runs = [run_data(record, {}) for record in (RECORD, short)]
-    path = tmp_path / "compare.html"
-    path.write_text(render(comparison_page(runs, [overview_figure(RECORD)] * 2)), "utf-8")
+    path = beside(short, tmp_path)
     heat = signals["transmission.clutch_heat"][-1]
     with opened(browser, path) as page:
         page.evaluate("Plots.moveTo(Plots.nearest(2.4))")
@@ -357,8 +331,7 @@ def test_beyond_the_end_of_a_run_its_final_energies_stay(browser, tmp_path):
 
 def test_without_webassembly_plots_cursor_and_zoom_stay_and_the_discs_say_why(browser, report):
     with opened(browser, report, init="delete globalThis.WebAssembly") as page:
-        page.evaluate("() => document.getElementById('plots').scrollIntoView()")
-        page.wait_for_selector(".u-over")
+        to_plots(page)
         page.locator(".u-over").first.hover(position={"x": 200, "y": 60})
         page.get_by_role("button", name="zoom in", exact=True).click()
         settle(page)
@@ -382,16 +355,10 @@ def cycle(tmp_path_factory):
         signals.setdefault(f"{pack}.temperature", np.full(len(time), 300.0))
     oil = np.linspace(300.0, 310.0, len(time))
     sequence = SimpleNamespace(shifts=[(0.0, "up"), (10.0, "down")])
-    result = SimpleNamespace(
-        shifts=[RECORD, later],
-        time=time,
-        signals=signals,
-        oil_temperature=oil,
-        messages=[],
-        warnings=(),
-        step_errors={},
-        wall_time=1.0,
-        scene=SimpleNamespace(sequence=sequence, title="Two shifts"),
+    scene = SimpleNamespace(sequence=sequence, title="Two shifts")
+    result = SimpleNamespace(shifts=[RECORD, later], time=time, signals=signals, scene=scene)
+    vars(result).update(
+        oil_temperature=oil, messages=[], warnings=(), step_errors={}, wall_time=1.0
     )
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(sequence_report, "record_of", lambda record: record)
@@ -403,8 +370,7 @@ def cycle(tmp_path_factory):
 
 def test_several_shifts_have_one_time_and_each_is_a_button(browser, cycle):
     with opened(browser, cycle) as page:
-        page.evaluate("() => document.getElementById('plots').scrollIntoView()")
-        page.wait_for_selector(".u-over")
+        to_plots(page)
         event = page.get_by_role("button", name="2 down locks")
         assert not event.is_visible()
         page.get_by_label("shift", exact=True).select_option(index=2)
@@ -418,22 +384,4 @@ def test_several_shifts_have_one_time_and_each_is_a_button(browser, cycle):
         page.get_by_role("button", name="at the cursor").click()
         page.wait_for_selector("#discs figure", timeout=10_000)
         assert page.locator("#discs figure").count() == 4
-        assert faults(page) == []
-
-
-def test_several_shifts_have_no_empty_chapter_without_scripts_or_webassembly(browser, cycle):
-    with opened(browser, cycle, ready="", java_script_enabled=False) as page:
-        assert page.locator("img").is_visible()
-        assert not page.get_by_role("heading", name="The thrust washer").is_visible()
-    with opened(browser, cycle, init="delete globalThis.WebAssembly") as page:
-        assert "has no WebAssembly" in page.locator("#discs").text_content()
-
-
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_the_flow_picture_is_no_smaller_than_readable(browser, report, scheme):
-    with opened(browser, report, wide=380, scheme=scheme) as page:
-        text = page.locator("#flow text").last
-        text.scroll_into_view_if_needed()
-        assert text.bounding_box()["height"] > 9
-        assert page.evaluate("document.documentElement.scrollWidth") <= 380
         assert faults(page) == []

@@ -23,13 +23,8 @@ def full(pitting=1.8, jerk=24.7):
     # Nine tenths are stored; the oil gets the rest, as means of the steps.
     energy = np.concatenate(([0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(t))))
     given = np.concatenate(([0.0], 0.1 * np.diff(energy) / np.diff(t)))
-    teeth = {
-        "pitting_safety": pitting,
-        "scuffing_safety": 7.8,
-        "micropitting_safety": 0.4,
-        "film_ratio_gf": 0.4,
-        "contact_pressure_max": 976e6,
-    }
+    teeth = {"pitting_safety": pitting, "scuffing_safety": 7.8, "micropitting_safety": 0.4}
+    teeth |= {"film_ratio_gf": 0.4, "contact_pressure_max": 976e6}
     signals = {
         **made.signals,
         "transmission.output_acceleration": np.where(t < 1.75, 12.0, 11.0),
@@ -73,14 +68,11 @@ def test_at_least_ten_figures_stand_beside_a_range():
         words: [c.replace("\N{NO-BREAK SPACE}", " ") for c in row] for words, row in rows.items()
     }
     assert plain["jerk of the vehicle, over 10 ms"][:3] == ["24.7 m/s³", "10 .. 15 m/s³", "▲ above"]
-    assert plain["greatest heat per area and time"][:3] == [
-        "0.83 W/mm²",
-        "1 .. 2.5 W/mm²",
-        "▼ below",
-    ]
+    assert plain["greatest heat per area and time"][2] == "▼ below"
     assert plain["least safety against pitting"][:3] == ["1.8", "1 or more", ""]
     # 3 kN on four fifths of a face of 64/85 mm.
     assert plain["greatest pressure on the land while it slips"][0] == "0.381 MPa"
+    assert beside(replace(full(), alone=True)) == {}  # a pack on a rig
 
 
 def test_a_figure_outside_its_range_is_marked_but_no_warning():
@@ -88,10 +80,6 @@ def test_a_figure_outside_its_range_is_marked_but_no_warning():
     assert page.warnings == []
     (card,) = [card for card in page.cards if card.name == "jerk"]
     assert card.note.startswith("usual: 10") and card.note.endswith("above")
-
-
-def test_a_pack_alone_on_a_rig_has_no_ranges_of_a_shift():
-    assert beside(replace(full(), alone=True)) == {}
 
 
 def test_teeth_below_their_limit_are_a_warning_and_said_to_be_an_estimate():
@@ -112,14 +100,6 @@ def test_phases_fill_the_run_and_share_the_heat_of_the_clutch():
     assert sum(float(row[2]) for row in rows) == pytest.approx(2.5)
     heat = sum(float(row[3].replace("\N{THIN SPACE}", "")) for row in rows)
     assert heat == pytest.approx(full().energy["clutch"], rel=1e-3)
-
-
-def test_heat_made_is_stored_or_in_the_oil():
-    split = heat_split(full(), "clutch")
-    assert split.to_oil[-1] == pytest.approx(0.1 * split.made[-1])
-    assert np.max(np.abs(split.rest)) < 1e-9 * split.made[-1]
-    row = next(row for row in shift_tables.heat_table(full()).rows if row[0] == "clutch")
-    assert row[-1] == "10.000"
 
 
 def test_a_part_without_an_account_of_its_heat_has_made_what_its_steps_did():

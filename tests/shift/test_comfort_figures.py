@@ -65,17 +65,9 @@ def phases_of(unloaded):
         "transmission.brake_reaction": -100.0 * (unloaded - TIME),
         "transmission.washer_speed": zero,
     }
-    events = find_events(
-        SCENE,
-        TIME,
-        s
-        | {
-            f"{part}.{o.name}": zero
-            for part, p in SCENE.parts.items()
-            for o in p.spec.outputs
-            if part != "transmission"
-        },
-    )
+    others = {n: p for n, p in SCENE.parts.items() if n != "transmission"}
+    rest = {f"{part}.{o.name}": zero for part, p in others.items() for o in p.spec.outputs}
+    events = find_events(SCENE, TIME, s | rest)
     return find_phases(SCENE, s, events), [e.kind for e in events]
 
 
@@ -87,13 +79,8 @@ def test_a_pack_that_lets_go_before_the_kiss_point_leaves_no_torque_phase():
 
 def test_phases_of_courses_end_at_kiss_point_unloaded_brake_and_lock_up():
     phases, kinds = phases_of(0.3925)
-    assert [name for name, *_ in phases] == [
-        "first gear",
-        "fill",
-        "torque phase",
-        "inertia phase",
-        "locked",
-    ]
+    names = [name for name, *_ in phases]
+    assert names == ["first gear", "fill", "torque phase", "inertia phase", "locked"]
     ends = [end for *_, end in phases]
     assert ends == pytest.approx([0.1, 0.2, 0.3925, 0.8, 1.3], abs=1e-9)
     order = [kinds.index(k) for k in ("clutch_filled", "brake_unloaded", "clutch_locked")]

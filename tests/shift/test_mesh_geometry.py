@@ -10,17 +10,13 @@ HELIX = math.radians(20.0)
 TRANSVERSE = 1.5e-3 / math.cos(HELIX)  # module
 
 
-def test_centre_distance_is_half_the_teeth_in_transverse_modules():
+def test_the_mesh_is_the_transverse_section_of_the_teeth():
+    """20 degrees and one normal module, both in the normal section of the tooth."""
     scene = load_scene("planetary-sun")
     gearbox, mesh = scene.parts["transmission"].params, scene.parts["mesh"].params
     assert (gearbox.normal_module, gearbox.helix_angle) == (1.5e-3, pytest.approx(HELIX))
     distance = 0.5 * TRANSVERSE * (gearbox.sun_teeth + gearbox.planet_teeth)
     assert mesh.centre_distance == pytest.approx(distance, abs=0.5e-6)
-
-
-def test_pressure_angle_and_addendum_are_transverse():
-    """20 degrees and one normal module, both in the normal section of the tooth."""
-    mesh = load_scene("planetary-sun").parts["mesh"].params
     angle = math.atan(math.tan(math.radians(20.0)) / math.cos(HELIX))
     assert mesh.pressure_angle == pytest.approx(angle, abs=math.radians(5e-4))
     assert mesh.addendum == pytest.approx(1.5e-3 / TRANSVERSE, abs=5e-5)

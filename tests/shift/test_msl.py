@@ -41,23 +41,10 @@ def test_five_digits_at_0_1_ms(master):
 @pytest.mark.parametrize(("extrapolated", "order"), [(True, 2.0), (False, 1.0)])
 def test_lock_time_converges_with_the_order_of_the_capacities(master, extrapolated, order):
     """Held capacities are late by part of a step; extrapolated ones leave a second-order error."""
-    steps = [4e-3, 2e-3, 1e-3]
-    times = [
-        shift(
-            "msl",
-            stop_time=2.2,
-            master=master,
-            step=h,
-            parts={
-                "transmission": {
-                    "capacity_extrapolation": extrapolated,
-                    "torque_age": 1 if master == "jacobi" else 0,
-                }
-            },
-        ).figures["lock_time"]
-        for h in steps
-    ]
-    errors = np.abs(np.array(times) - 2.11079036)
+    gearbox = {"capacity_extrapolation": extrapolated, "torque_age": int(master == "jacobi")}
+    options = {"stop_time": 2.2, "master": master, "parts": {"transmission": gearbox}}
+    runs = [shift("msl", step=h, **options) for h in (4e-3, 2e-3, 1e-3)]
+    errors = np.abs([r.figures["lock_time"] - 2.11079036 for r in runs])
     found = np.log2(errors[:-1] / errors[1:])
     assert found == pytest.approx([order, order], abs=0.1)
 
@@ -75,12 +62,8 @@ def test_drum_inertia_delays_the_lock_up_in_proportion():
 
 def test_events_come_in_order_and_the_book_closes():
     r = shift("msl")
-    assert [e.kind for e in r.events] == [
-        "ramp_start",
-        "brake_released",
-        "ramp_end",
-        "clutch_locked",
-    ]
+    kinds = [e.kind for e in r.events]
+    assert kinds == ["ramp_start", "brake_released", "ramp_end", "clutch_locked"]
     assert [p.name for p in r.phases] == ["first gear", "torque phase", "inertia phase", "locked"]
     assert r.energy["residual_share"] < 1e-12
     assert r.energy["coupling_difference_share"] < 1e-3

@@ -5,7 +5,7 @@ import math
 import pytest
 from scene_runs import changed
 
-from thrustwasher.model.oil_laws import roelands, three_points, vogel
+from thrustwasher.model.oil_laws import roelands, vogel
 from thrustwasher.shift.run import _remarks
 from thrustwasher.tribology.viscosity import viscosity
 
@@ -20,16 +20,6 @@ def test_both_laws_go_through_three_points():
         assert factor * math.exp(b / (t - 273.15 + c)) == pytest.approx(thick, rel=1e-12)
     # The fluid of Jackson & Green has 9.37 mPa s at 80 degC.
     assert viscosity(353.15, scale, constant, exponent)[0] == pytest.approx(9.37e-3, rel=2e-3)
-
-
-def test_two_points_lie_on_the_line_of_astm_d341():
-    """SAE 30 of 100 and 11 mm2/s at 40 and 100 degC; log log(nu + 0.7) is straight over log T."""
-    points = three_points([(373.15, 11e-6 * 880.0), (313.15, 100e-6 * 880.0)], 880.0)
-    level = [math.log10(math.log10(1e6 * x / 880.0 + 0.7)) for _, x in points]
-    run = [math.log10(t) for t, _ in points]
-    slopes = [(level[i] - level[0]) / (run[i] - run[0]) for i in (1, 2)]
-    assert slopes[0] == pytest.approx(slopes[1], rel=1e-9)
-    assert [t for t, _ in points] == pytest.approx([283.15, 313.15, 373.15])
 
 
 def test_every_part_has_the_scenes_oil(tmp_path):

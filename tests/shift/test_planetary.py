@@ -31,6 +31,7 @@ def test_shifts_without_drag_have_the_expected_magnitudes(name):
     assert r.figures["slip_energy_per_area"] / 1e6 == pytest.approx(per_area, abs=6e-3)
     assert 0.0 < r.energy["brake"] < 1.0
     assert r.figures["friction_lock"] == pytest.approx(0.11, abs=1e-5)
+    assert "tie_up_heat" not in r.figures  # without shear they hand over cleanly
 
 
 def test_a_moving_film_shifts_sooner_because_its_oil_resists():
@@ -66,11 +67,6 @@ def test_cold_oil_makes_both_packs_work_against_each_other():
     assert s["clutch.viscous_torque"][i] > 0.9 * s["clutch.friction_torque"][i]
 
 
-def test_settled_packs_without_shear_hand_over_cleanly():
-    r = shift("planetary-sun", parts=SETTLED | NO_DRAG, stop_time=0.6)
-    assert r.figures["release_time"] > 0.38 and "tie_up_heat" not in r.figures
-
-
 def test_coupling_difference_shrinks_with_the_square_of_the_step():
     coarse, fine = (
         shift("planetary-sun", step=h).energy["coupling_difference_share"] for h in (4e-3, 5e-4)
@@ -85,18 +81,6 @@ def test_the_washer_gets_what_the_planets_give():
         assert (used[1:] == sent[:-1]).all()
     assert (s["washer.oil_temperature"] == 297.15).all()
     assert (s["transmission.washer_torque"][1:] == s["washer.friction_torque"][1:]).all()
-
-
-def test_the_course_has_a_torque_and_an_inertia_phase():
-    r = default_shift()
-    s, t = r.signals, r.time
-    assert [p.name for p in r.phases] == ["first gear", "torque phase", "inertia phase", "locked"]
-    tau, start = s["transmission.input_tooth_torque"], r.phases[0].end
-    assert tau.min() < 0.4 * tau[t <= start].max()
-    locked = t > r.figures["lock_time"]
-    assert (s["transmission.clutch_speed"][locked] == 0.0).all()
-    assert (s["transmission.brake_speed"][t <= r.figures["release_time"]] == 0.0).all()
-    assert s["transmission.clutch_load"][-1] == 5898.0 and s["transmission.brake_load"][-1] == 0.0
 
 
 @slow_without_jit

@@ -13,9 +13,9 @@ STOP = 0.75  # s: past lock-up
 
 
 @cache
-def real(step=1e-3):
-    """Return the default shift at a step, every part with its own kernels."""
-    scene = load_scene("planetary-sun").with_options(step=step, stop_time=STOP)
+def real():
+    """Return the default shift, every part with its own kernels."""
+    scene = load_scene("planetary-sun").with_options(stop_time=STOP)
     return run_shift(*with_all_parts(scene))
 
 
@@ -37,34 +37,16 @@ def test_the_book_closes_and_coupling_is_tight():
     assert sum(e[n] for n in parts) + e["residual"] == pytest.approx(e["engine_work"], rel=1e-12)
 
 
-@pytest.mark.slow
-def test_halving_the_step_changes_little():
-    coarse, fine = real().figures, real(5e-4).figures
-    for name in ("slip_energy", "lock_time", "mesh_loss", "slip_energy_per_area"):
-        assert coarse[name] == pytest.approx(fine[name], rel=5e-3), name
-    for name in (
-        "clutch_temperature",
-        "washer_temperature",
-        "flash_temperature",
-        "mesh_temperature",
-    ):
-        rise = [f[f"peak_{name}"] - 297.15 for f in (coarse, fine)]
-        assert rise[0] == pytest.approx(rise[1], rel=5e-3), name
-
-
 def test_every_figure_of_washer_mesh_and_packs_is_found():
+    found = {f.name for f in real().key_figures if f.value is not None}
+    assert found >= {"clutch_viscous_share", "peak_clutch_heat_flux", "brake_heat_per_area"}
+    assert found >= {"peak_flash_rise", "least_mesh_film_ratio", "least_washer_film_ratio"}
+    assert found >= {"stress_margin_aisi1020", "stress_margin_aisi4340"}
+
+
+def test_four_planets_have_their_meshes_with_sun_and_ring():
+    """The ring's share is (1/18 - 1/66)/(1/18 + 1/30) of the sun's."""
     r = real()
-    found = {f.name: f.value for f in r.key_figures}
-    for name in (
-        "clutch_viscous_share",
-        "peak_clutch_heat_flux",
-        "brake_heat_per_area",
-        "peak_flash_rise",
-        "least_mesh_film_ratio",
-        "stress_margin_aisi1020",
-        "stress_margin_aisi4340",
-        "least_washer_film_ratio",
-    ):
-        assert found[name] is not None, name
-    assert found["stress_margin_aisi1020"] < found["stress_margin_aisi4340"]
-    assert found["mesh_loss"] == r.energy["meshes"]
+    power = 4 * (1 + (1 / 18 - 1 / 66) / (1 / 18 + 1 / 30)) * r.signals["mesh.friction_power"]
+    assert r.energy["meshes"] == pytest.approx(np.trapezoid(power, r.time), rel=5e-3)
+    assert r.figures["mesh_loss"] == r.energy["meshes"]

@@ -24,13 +24,8 @@ def run():
 
 
 def test_the_phases_are_those_of_the_courses(run):
-    assert [p.name for p in run.phases] == [
-        "first gear",
-        "fill",
-        "torque phase",
-        "inertia phase",
-        "locked",
-    ]
+    names = [p.name for p in run.phases]
+    assert names == ["first gear", "fill", "torque phase", "inertia phase", "locked"]
     figures = run.figures
     assert figures["filled_time"] == pytest.approx(0.1075, abs=1e-9)
     assert run.phases[1].end == 0.2
@@ -71,21 +66,19 @@ def test_half_the_step_moves_lock_up_heat_and_temperature_by_a_thousandth_at_mos
     assert half().figures[name] == pytest.approx(run.figures[name], rel=1e-3)
 
 
-@pytest.mark.parametrize("part", ["clutch", "brake", "washer", "mesh", "ring_mesh"])
 @pytest.mark.parametrize("name", SHIFTS)
-def test_heat_made_is_heat_stored_and_heat_in_the_oil(name, part):
+def test_heat_made_is_heat_stored_and_heat_in_the_oil(name):
     r = real_shift(name)
     s, h = r.signals, np.diff(r.time)
-    if part not in r.scene.parts:
-        pytest.skip("not in this scene")
-    oil = np.sum(s[f"{part}.oil_heat"][1:] * h)
-    made = np.sum(s[f"{part}.friction_power"][1:] * h)
-    if f"{part}.energy" in s:
-        made, held = s[f"{part}.energy"][-1], made
-        assert held == pytest.approx(made, rel=2e-3)
-    assert oil + s[f"{part}.stored_heat"][-1] == pytest.approx(made, rel=1e-9, abs=0.0)
-    if part in ("clutch", "brake"):
-        assert r.figures[f"{part}_oil_heat"] == pytest.approx(oil, rel=1e-12)
+    assert r.energy["residual_share"] < 1e-12 and r.figures["lock_time"] is not None
+    for part in r.scene.parts.keys() - {"transmission"}:
+        oil, made = (np.sum(s[f"{part}.{n}"][1:] * h) for n in ("oil_heat", "friction_power"))
+        if f"{part}.energy" in s:
+            made, held = s[f"{part}.energy"][-1], made
+            assert held == pytest.approx(made, rel=2e-3)
+        assert oil + s[f"{part}.stored_heat"][-1] == pytest.approx(made, rel=1e-9, abs=0.0), part
+        if part in ("clutch", "brake"):
+            assert r.figures[f"{part}_oil_heat"] == pytest.approx(oil, rel=1e-12)
 
 
 def test_a_brake_that_holds_makes_no_heat():
@@ -108,20 +101,6 @@ def test_the_ring_mesh_carries_the_suns_load_and_loses_less(run):
     power = 4.0 * sum(np.abs(s[f"transmission.{n}_torque"]) for n in ("mesh", "ring_mesh"))
     lost = np.trapezoid(power * np.abs(s["transmission.mesh_speed"]), run.time)
     assert run.energy["meshes"] == pytest.approx(lost, rel=2e-3)
-
-
-@pytest.mark.parametrize(
-    ("name", "last"),
-    [
-        ("planetary-downshift", "brake"),
-        ("planetary-cold", "clutch"),
-        ("planetary-hot-oil", "clutch"),
-    ],
-)
-def test_its_variants_finish(name, last):
-    r = shift(name)
-    assert r.scene.engaging == last and r.figures["lock_time"] is not None
-    assert r.energy["residual_share"] < 1e-12
 
 
 @pytest.mark.parametrize("step", [1e-3, 2e-3])

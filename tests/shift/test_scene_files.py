@@ -19,13 +19,6 @@ def test_every_builtin_scene_loads_and_explains_itself(name):
     assert list(parameters) == [*known, "fidelity"]
 
 
-def test_the_default_set_can_be_built_and_the_reference_set_has_no_gears():
-    p = load_scene("planetary-sun").parts["transmission"].params
-    assert (p.sun_teeth + p.ring_teeth) % p.planets == 0
-    assert p.ring_teeth - p.sun_teeth == 2 * p.planet_teeth
-    assert load_scene("msl").parts["transmission"].params.planet_teeth == 0
-
-
 def test_units_and_a_base_are_understood(tmp_path):
     text = """oil_temperature = "90 degC"
 [clutch]
@@ -41,20 +34,6 @@ film_dynamics = false"""
     assert scene.parts["transmission"].params.helix_angle == math.radians(20.0)
 
 
-def test_a_part_may_start_from_a_preset(tmp_path):
-    text = '[washer]\npreset = "paper"\nconduction = "carrier"'
-    params = changed(tmp_path, text, "planetary-sun").parts["washer"].params
-    assert (params.oil_cooling, params.conduction) == (False, "carrier")
-    assert params.outer_radius == load_scene("planetary-sun").parts["washer"].params.outer_radius
-
-
-def test_a_base_beside_the_file_is_found(tmp_path):
-    changed(tmp_path, "step = 2e-3", "planetary-sun")
-    (tmp_path / "top.toml").write_text('base = "mine.toml"\nstop_time = 1.0\n', encoding="utf-8")
-    scene = load_scene(tmp_path / "top.toml")
-    assert (scene.step, scene.stop_time) == (2e-3, 1.0)
-
-
 def test_the_command_is_a_ramp():
     scene = load_scene("planetary-sun")
     assert [scene.command(t) for t in (0.0, 0.1, 0.4, 9.0)] == [0.0, 0.0, 1.0, 1.0]
@@ -68,9 +47,3 @@ def test_the_command_may_run_the_other_way(tmp_path):
     upshift = load_scene("planetary-sun")
     assert upshift.engaging == "clutch" and not upshift.alone
     assert load_scene("brake-test").alone
-
-
-def test_the_choice_of_master_reaches_the_transmission():
-    scene = load_scene("msl")
-    assert scene.parts["transmission"].params.torque_age == 0
-    assert scene.with_options(master="jacobi").parts["transmission"].params.torque_age == 1

@@ -27,17 +27,10 @@ def test_work_is_motion_load_heat_in_the_parts_and_heat_in_the_sump(tmp_path):
     r = run_shift(*with_all_parts(changed(tmp_path, "stop_time = 0.5\n[sump]")))
     s, h, book = r.signals, np.diff(r.time), r.energy
     count = {"clutch": 1, "brake": 1, "washer": 8, "mesh": 4, "ring_mesh": 4}
-    made, stored = (
-        sum(n * f(part) for part, n in count.items())
-        for f in (
-            lambda p: (
-                s[f"{p}.energy"][-1]
-                if f"{p}.energy" in s
-                else np.sum(s[f"{p}.friction_power"][1:] * h)
-            ),
-            lambda p: s[f"{p}.stored_heat"][-1],
-        )
-    )
+    made = sum(n * s[f"{p}.energy"][-1] for p, n in count.items() if f"{p}.energy" in s)
+    rest = [p for p in count if f"{p}.energy" not in s]
+    made += sum(count[p] * np.sum(s[f"{p}.friction_power"][1:] * h) for p in rest)
+    stored = sum(n * s[f"{p}.stored_heat"][-1] for p, n in count.items())
     coupling = sum(book[name] for name in ("clutch", "brake", "washers", "meshes")) - made
     sump = sum(s[f"sump.{name}"][-1] for name in ("stored_heat", "ambient_heat", "cooler_heat"))
     work = book["engine_work"]

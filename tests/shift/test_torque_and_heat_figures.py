@@ -12,17 +12,15 @@ TIME = np.linspace(0.0, 1.3, 1301)
 LOCK, END = 0.6, 0.8
 
 
-def hole(before, least, after, end=None):
-    """Return the torque hole of a shift whose acceleration is known at three times."""
-    points = [(0.1, before), (0.4, least), (LOCK, least), (END if end else LOCK + 0.1, after)]
-    felt = np.interp(TIME, *zip(*points, strict=True))
+def hole(points, *, lock=LOCK, end=None):
+    """Return the torque hole of a shift whose acceleration is known at times: {time: m/s2}."""
+    felt = np.interp(TIME, list(points), list(points.values()))
     signals = {
         "transmission.output_acceleration": felt / 0.1,
         "transmission.output_speed": np.full_like(TIME, 100.0),
         "transmission.engine_speed": np.full_like(TIME, 100.0),
     }
-    found = comfort_figures(load_scene("planetary"), TIME, signals, LOCK, end)
-    return found["torque_hole"][0]
+    return comfort_figures(load_scene("planetary"), TIME, signals, lock, end)["torque_hole"][0]
 
 
 @pytest.mark.parametrize(
@@ -35,21 +33,15 @@ def hole(before, least, after, end=None):
     ],
 )
 def test_the_torque_hole_is_below_the_smaller_of_before_and_after(before, least, after, expected):
-    assert hole(before, least, after) == pytest.approx(expected, abs=1e-9)
+    felt = {0.1: before, 0.4: least, LOCK: least, LOCK + 0.1: after}
+    assert hole(felt) == pytest.approx(expected, abs=1e-9)
 
 
 def test_a_hole_is_settled_after_the_later_packs_slip():
     """0.1 s after lock-up the other pack still slips and acceleration is still low."""
-    assert hole(1.5, 0.8, 1.2) == pytest.approx(0.4)
-    assert hole(1.5, 0.8, 1.2, end=END) == pytest.approx(0.4)
-    felt = np.interp(TIME, [0.1, 0.4, LOCK + 0.1, END + 0.1], [1.5, 0.8, 0.9, 1.4])
-    read = {"output_acceleration": felt / 0.1, "output_speed": TIME, "engine_speed": TIME}
-    signals = {f"transmission.{name}": values for name, values in read.items()}
-    early, late = (
-        comfort_figures(load_scene("planetary"), TIME, signals, LOCK, end) for end in (None, END)
-    )
-    assert early["torque_hole"][0] == pytest.approx(0.1)
-    assert late["torque_hole"][0] == pytest.approx(0.6)
+    felt = {0.1: 1.5, 0.4: 0.8, LOCK + 0.1: 0.9, END + 0.1: 1.4}
+    assert hole(felt) == pytest.approx(0.1)
+    assert hole(felt, end=END) == pytest.approx(0.6)
 
 
 def packs():
@@ -98,6 +90,8 @@ def test_a_downshift_under_power_changes_speeds_first_and_its_clutch_makes_the_h
     run = shift("planetary-downshift")
     names = [p.name for p in run.phases]
     assert names == ["second gear", "fill", "inertia phase", "torque phase", "locked"]
+    texts = {k.name: k.text for k in run.key_figures}
+    assert texts["lock_time"] == "brake locks" and texts["release_time"] == "clutch lets go"
     f = run.figures
     assert f["torque_phase"] == pytest.approx(0.6 - f["lock_time"], abs=1e-9)
     assert f["shift_heat"] > 0.9 * (run.energy["clutch"] + run.energy["brake"])

@@ -55,15 +55,12 @@ def test_choices_are_varied_by_their_names():
 @pytest.mark.parametrize(
     ("name", "text", "says"),
     [
-        ("laod", "1:2:1", "did you mean load?"),
         ("load", "1:2", "start:stop:step"),
         ("load", "1:2:-1", "a step that leads from start to stop"),
-        ("load", "1:2:0", "a step that leads from start to stop"),
         ("load", "1:2:n1", "2 .. "),
         ("speed", "-10:10:x5", "one sign"),
         ("load", "1:99999:1", "allowed: 0 .. 10000 N"),
         ("load", "1:9999:1e-9", "more than"),
-        ("load", "heavy", "load = 'heavy'"),
         ("load", "1 m", "in kN"),
         ("load", "1,,2", "load = ''"),
         ("load [m]", "1", "in kN"),
@@ -75,8 +72,3 @@ def test_what_is_wrong_is_named(name, text, says):
     with pytest.raises(ParameterError) as caught:
         values(name, text)
     assert says in str(caught.value)
-
-
-def test_no_value_is_refused():
-    with pytest.raises(ParameterError, match="no value"):
-        read_axis("load", [], KNOWN, SPEC)

@@ -50,31 +50,6 @@ def test_an_input_that_is_not_given_is_where_the_model_s_command_has_it(capsys):
     assert float(row["temperature [K]"]) == pytest.approx(told["temperature"], rel=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("words", "says"),
-    [
-        (["washer"], "nothing is varied"),
-        (["washer", "--over", "load"], "NAME=VALUES"),
-        (["washer", "--over", "load=1,2", "--over", "load=3"], "twice"),
-        (["washer", "--over", "load=1,2", "--set", "tilt=1e-3", "--tilt", "2e-3"], "twice"),
-        (["washer", "--over", "load=1,2", "--power", "3"], "no input of ThrustWasher"),
-        (["washer", "--over", "load=1,2", "--workers", "two"], "--workers: two"),
-        (["washer", "--points", "nowhere.csv"], "nowhere.csv"),
-    ],
-)
-def test_wrong_input_is_one_line_and_exit_status_2(words, says, capsys):
-    assert main(["sweep", *words]) == 2
-    said = capsys.readouterr()
-    assert said.out == "" and says in said.err and len(said.err.splitlines()) == 1
-
-
-def test_a_point_that_is_not_allowed_is_named(tmp_path, capsys):
-    points = tmp_path / "points.csv"
-    points.write_text("load\n100\n1e6\n")
-    assert main(["sweep", "washer", "--points", str(points)]) == 2
-    assert "point 2: load = 1000000.0 N, allowed: 0 .. 10000 N" in capsys.readouterr().err
-
-
 def test_a_file_without_a_known_column_is_refused(tmp_path, capsys):
     points = tmp_path / "points.csv"
     points.write_text("force [N]\n100\n")

@@ -129,12 +129,7 @@ def test_a_cluster_that_loses_a_worker_loses_no_point(tmp_path, monkeypatch):
                 os.kill(next(iter(pids.values())), signal.SIGKILL)
                 killed.set()
 
-        table = run_sweep(
-            "clutch",
-            over,
-            cluster=cluster.scheduler_address,
-            out=tmp_path / "map.csv",
-            progress=kill_one,
-        )
+        options = {"out": tmp_path / "map.csv", "progress": kill_one}
+        table = run_sweep("clutch", over, cluster=cluster.scheduler_address, **options)
     assert killed.is_set() and once_each(firsts, len(table))
     assert same(table, run_sweep("clutch", over, workers=1))

@@ -31,15 +31,9 @@ def test_held_capacities_are_corrected_to_the_end_of_the_step():
     """The ramp's capacities are then not late: lock-up errs a quarter of what it did."""
     gearbox = {"washers": 0, "capacity_extrapolation": False}
     fine = shift("planetary-sun", parts=NO_DRAG, stop_time=0.8).figures["lock_time"]
+    options = {"parts": NO_DRAG | {"transmission": gearbox}, "stop_time": 0.8, "step": 4e-3}
     held, corrected = (
-        shift(
-            "planetary-sun",
-            parts=NO_DRAG | {"transmission": gearbox},
-            master=m,
-            stop_time=0.8,
-            step=4e-3,
-        ).figures["lock_time"]
-        - fine
+        shift("planetary-sun", master=m, **options).figures["lock_time"] - fine
         for m in ("gauss-seidel", MASTER)
     )
     assert held > 3e-3 and abs(corrected) < 0.25 * held

@@ -1,7 +1,5 @@
 """Chatter: found where a step is too long for a torque loop, and the step named ends it."""
 
-from dataclasses import replace
-
 import pytest
 from scene_runs import shift, slow_without_jit
 
@@ -44,9 +42,3 @@ def test_the_step_that_is_named_ends_the_chatter(master):
 def test_nothing_chatters_where_packs_stick_or_torques_are_corrected():
     assert bare(coupling="capacity").chatter == []
     assert bare(master="linearly-implicit").chatter == []
-
-
-def test_a_master_without_a_limit_is_given_none():
-    r = bare()
-    record = replace(record_of(r), chatter=[replace(c, limit=None) for c in r.chatter])
-    assert "is stable below" not in " ".join(chatter_texts(record))

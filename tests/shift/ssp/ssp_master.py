@@ -40,12 +40,11 @@ def values(component):
     return found
 
 
-def run(root, instances, exchanges=1):
-    """Step the instances over the default experiment; return the rows of all outputs by name.
+def run(root, instances):
+    """Step the instances over the default experiment; return all outputs at its end by name.
 
-    ``exchanges``: how often values are passed on before each step. Once: those of the last step, as
-    libcosim and FMPy do; more: until they agree, as OMSimulator's fixed-step master does, which
-    reads every output after it has set the inputs it depends on.
+    Before each step values are passed on until they agree, as by OMSimulator's fixed-step master,
+    which reads every output after it has set the inputs it depends on.
     """
     experiment = root.find("ssd:DefaultExperiment", NS)
     start, stop = float(experiment.get("startTime")), float(experiment.get("stopTime"))
@@ -68,16 +67,11 @@ def run(root, instances, exchanges=1):
         for name, instance in instances.items():
             instance.set_inputs(list(inputs[name].values()))
 
-    for _ in range(EXCHANGES):
-        exchange()
-        put()
-    rows = []
     for i in range(round((stop - start) / h)):
-        for _ in range(exchanges):
+        for _ in range(EXCHANGES):
             exchange()
             put()
         for instance in instances.values():
             instance.step(start + i * h, h)
-        exchange()
-        rows.append({f"{p}.{n}": x for p, found in outputs.items() for n, x in found.items()})
-    return rows
+    exchange()
+    return {f"{p}.{n}": x for p, found in outputs.items() for n, x in found.items()}

@@ -68,9 +68,4 @@ def test_the_washer_leaves_the_field_to_a_check_of_some_thirty_points():
     (check,) = r.guard.checks
     assert (check.part, check.rung, check.above) == ("washer", "map", "field")
     assert 25 <= check.points <= 0.05 * (len(r.time) - 1)
-
-
-def test_the_check_confirms_the_choice():
-    (check,) = at_tolerance().guard.checks
     assert 0.0 < check.worst.share <= check.tolerance and check.failed == () and check.holds
-    assert at_tolerance().guard.again == []

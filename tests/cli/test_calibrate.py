@@ -63,6 +63,11 @@ def test_options_reach_the_fit(table, capsys):
     assert (record["confidence"], record["parameters"]["plough_weight"]) == (0.9, 0.2)
 
 
+def test_the_constant_law_is_fitted_by_its_one_constant(table, capsys):
+    record = json.loads(run(capsys, table, "--set", "friction_law=constant", "--json").out)
+    assert record["fitted"] == {"constant_friction": pytest.approx(FRICTION.mean())}
+
+
 def test_sentences_end_with_the_command_that_uses_them(table, capsys):
     out, _ = run(capsys, table, "--set", "hardness_ratio=7", "--set", "faces=6")
     last = out.splitlines()[-1]
@@ -145,6 +150,7 @@ def test_the_fitted_part_is_a_part_file(mesh, tmp_path, capsys):
     assert part.params.constant_friction == pytest.approx(0.06, rel=1e-9)
     assert "mesh.csv, 95 %: constant_friction 0.06 (0.0" in part.notes and f"wrote {out}" in err
     assert (tmp_path / "fit.png").read_bytes()[:4] == b"\x89PNG"
+    assert f"--part {out}" in run(capsys, str(out), mesh, "--fit", "constant_friction").out
     again = json.loads(run(capsys, str(out), mesh, "--fit", "constant_friction", "--json").out)
     assert again["fitted"]["constant_friction"] == pytest.approx(0.06, rel=1e-9)
 

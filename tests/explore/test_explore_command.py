@@ -10,6 +10,7 @@ import pytest
 from pages import MODELS, WEB, about, html
 
 from thrustwasher import WasherParams, cli, solve_washer
+from thrustwasher.errors import ParameterError
 from thrustwasher.explore.page import VIEWS, page
 from thrustwasher.model.part_file import find_part
 from thrustwasher.model.registry import find_model, models_with_points
@@ -83,3 +84,8 @@ def test_a_page_holds_its_equations_and_names_the_other_pages():
 
 def test_models_with_a_page_are_those_with_a_command():
     assert VIEWS.keys() == models_with_points().keys()
+
+
+def test_a_model_without_a_page_is_refused():
+    with pytest.raises(ParameterError, match="'sump' has no page to explore"):
+        page(find_part("sump"))

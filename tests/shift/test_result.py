@@ -104,3 +104,10 @@ def test_a_part_above_the_limit_of_its_temperature_is_an_event():
     scene = replace(scene, parts=parts)
     hot = [e for e in find_events(scene, time, signals) if e.kind.endswith("hot")]
     assert hot == [(0.5, "clutch_hot", "clutch is hotter than 523 K")]
+
+
+def test_progress_is_called_to_the_end():
+    scene = load_scene("msl").with_options(stop_time=0.05)
+    calls = []
+    run_shift(scene, instances(scene), progress=lambda done, total: calls.append((done, total)))
+    assert calls[-1] == (50, 50) and len(calls) <= 101

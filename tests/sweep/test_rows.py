@@ -141,6 +141,7 @@ def test_a_tolerance_is_handed_to_the_choice_with_the_box_of_all_points(monkeypa
             {"over": {"load": [1.0]}, "at": {"roughness": 4e-7}, "fidelity": "map"},
             "no map was made",
         ),
+        ({"over": {"load": []}}, "load: no value is given"),
         ({**REST, "fidelity": "auto:0.05"}, "no point has allowed inputs"),
     ],
 )

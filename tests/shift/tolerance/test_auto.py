@@ -176,3 +176,9 @@ def test_a_tolerance_asked_for_leaves_nothing_open_in_the_result(run):
     told = r.as_dict()["selection"]
     assert told["parts"][0]["part"] == "clutch" and told["reasons"] == r.selection.words()
     assert replace(r, selection=None).as_dict()["selection"] is None
+
+
+def test_a_part_that_follows_heat_in_time_keeps_its_default_and_says_so():
+    scene = load_scene("planetary-transient").with_options(stop_time=0.02)
+    r = run_auto(with_fidelities(scene, ["washer=auto:0.01"]), made([]))
+    assert any("errors are measured in steady states" in m for m in r.messages)

@@ -114,7 +114,7 @@ def _component(
     if OIL in values:
         values[OIL] = scene.oil_temperature
     given = part.parameters()
-    span = {"stop_time": scene.stop_time - scene.start_time, "step_size": scene.step}
+    span = scene.stop_time - scene.start_time
     return Component(
         name=name,
         spec=tailored(

@@ -21,7 +21,7 @@ from thrustwasher import Choice, SolveError, choose
 from thrustwasher.errors import ParameterError
 from thrustwasher.ladder.choose import rungs_of
 from thrustwasher.ladder.error_table import Interval, fresh_rungs
-from thrustwasher.model.part_file import made_of
+from thrustwasher.model.part_file import preset_params
 from thrustwasher.model.registry import spec_of
 from thrustwasher.study.cases import Case, cases, own_case
 from thrustwasher.study.measured_chart import deviation, floor_of
@@ -85,7 +85,7 @@ def error_at(case: Case, rung: str, known: ReferencePoint, floor: float) -> floa
 def random_case(model: str, number: int, points: int) -> Case | None:
     """Return a part of random parameters that has no table; None if they do not fit together."""
     rng, spec = np.random.default_rng([SEED, number]), spec_of(model)
-    start = made_of(spec, PRESETS.get(model) if number % 2 else None, {})
+    start = preset_params(spec, PRESETS.get(model) if number % 2 else None, {})
     changes = {n: getattr(start, n) * float(rng.uniform(*FACTORS)) for n in VARIED[model]}
     try:
         return own_case(spec, dataclasses.replace(start, **changes), {}, points)

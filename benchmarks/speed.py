@@ -25,7 +25,7 @@ from thrustwasher.washer.kernel_arguments import constants
 from thrustwasher.washer.kernels import gap, heat, layout, newton
 from thrustwasher.washer.kernels.constants import washer_model
 from thrustwasher.washer.kernels.continuation import cold_start
-from thrustwasher.washer.kernels.film import evaluate_film, film_residual, film_solve
+from thrustwasher.washer.kernels.film import evaluate_film, film_solve
 from thrustwasher.washer.kernels.workspace import Point, fields_of, size_of_work, workspace_of
 
 PARAMS = WasherParams()
@@ -158,7 +158,6 @@ def profile() -> None:
         ("viscosity", lambda: gap.evaluate_viscosity(m, pt, f)),
         ("heat residual", lambda: heat.heat_residual(m, pt, f.temp, f)),
         ("film conductances", lambda: evaluate_film(m, pt, q, f)),
-        ("film residual", lambda: film_residual(m, f.p, f)),
         ("heat, back substitution", lambda: heat.solve_heat(m, f.heat, f.dtemp, f)),
         ("film, five right sides", lambda: film_solve(m, f.p, f)),
         ("heat, factor (cold only)", lambda: heat.factor_heat(m, pt, f)),

@@ -10,7 +10,7 @@ from functools import cache, partial
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-from thrustwasher.model.part_file import made_of
+from thrustwasher.model.part_file import preset_params
 from thrustwasher.tribology.lumped_body import exponential_weights
 from thrustwasher.washer.load_curve import load_curve
 from thrustwasher.washer.parameters import SPEC, WasherParams
@@ -124,7 +124,7 @@ def _rival(make: Any, *, warm: bool = False) -> Any:
 
 def _ours(point: Hazard, fidelity: str, warm: bool, preset: str | None = None) -> Found:
     """Solve with a rung of the package."""
-    params = made_of(SPEC, preset, {})
+    params = preset_params(SPEC, preset, {})
 
     def solve(load: float, speed: float, tilt: float, start: Any = None) -> Any:
         return solve_washer(

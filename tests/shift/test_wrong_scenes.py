@@ -79,7 +79,7 @@ WRONG = [
         "time_2 = 0.1 s, allowed",
     ),
     ("planetary", "[pressure.clutch]\npoints = [[0.2, -1.0]]", "pressure_1 = -1.0 Pa, allowed: 0"),
-    ("planetary", "[shift]\nstart = 0.1", "[shift] beside [pressure], allowed: a ramp or courses"),
+    ("planetary", "[shift]\nstart = 0.1", "[shift] beside [pressure], allowed: a ramp or profiles"),
     ("planetary", "[transmission]\ncarrier_inertia = 8.0", "carrier_inertia = 8.0 beside a table"),
     ("planetary", '[clutch]\ngroove_width = "30 mm"', "groove_width = 0.03 m, allowed: below"),
     ("planetary", '[transmission]\nhelix_angle = "45.5 deg"', "rad, allowed: 0 .. 0.785398 rad"),

@@ -89,7 +89,7 @@ def gearmesh_figure(result: Any, point: Mapping[str, float], params: GearMeshPar
     for axis in axes:
         axis.set_xlabel("teeth of the pinion [1]")
         axis.set_xlim(min(teeth) - 1, max(teeth) + 1)
-    _draw(axes[0], teeth, sweeps, TEMPERATURES, zero=CELSIUS)
+    draw_temperatures(axes[0], teeth, sweeps)
     label(axes[0], "Temperatures", "", "temperature [°C]")
     axes[0].plot([here], [result.asperity_temperature - CELSIUS], **dot)
     if result.allowable_ratio is None:
@@ -102,8 +102,7 @@ def gearmesh_figure(result: Any, point: Mapping[str, float], params: GearMeshPar
         label(axes[2], "Loss", "", "friction power [W]")
         axes[2].plot([here], [result.friction_power], **dot)
     else:
-        _draw(axes[1], teeth, sweeps, _of_steels("allowable_ratio"), loc="lower right")
-        axes[1].set_ylim(0.0, 1.04)
+        draw_ratios(axes[1], teeth, sweeps)
         label(axes[1], "Contact stress still allowed", "", r"allowable ratio $1/\sqrt{1+K}$ [1]")
         rest = f"not drawn: K below {LEAST_FACTOR:g}"
         factors = _of_steels("modification_factor")
@@ -123,6 +122,17 @@ def gearmesh_figure(result: Any, point: Mapping[str, float], params: GearMeshPar
         f"asperities at {format_quantity(result.asperity_temperature, 'K')}",
     )
     return figure
+
+
+def draw_temperatures(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
+    """Draw temperatures of film, asperities and surface [degC]."""
+    _draw(axes, teeth, sweeps, TEMPERATURES, zero=CELSIUS)
+
+
+def draw_ratios(axes: Axes, teeth: Sequence[int], sweeps: Sweeps) -> None:
+    """Draw the allowable ratio of each steel [1]."""
+    _draw(axes, teeth, sweeps, _of_steels("allowable_ratio"), loc="lower right")
+    axes.set_ylim(0.0, 1.04)
 
 
 def _of_steels(name: str) -> list[Line]:

@@ -39,6 +39,8 @@ def test_both_levels_are_equal_to_the_bit_failures_too(model):
             assert runs[0].memory() == runs[1].memory(), (i, h)
 
 
+# 1e-13: an output next to nothing is a difference of large numbers, and rounding differs with the
+# version of numpy.
 SOURCE = """
 import sys
 sys.path[:0] = {path!r}
@@ -52,7 +54,7 @@ assert [run.start(parameters(model)) for run in runs] == [0, 0]
 rows, dt = course(model, 10)
 def same(what):
     a, b = (getattr(run, what) for run in runs)
-    return np.allclose(a, b, rtol=1e-10, atol=1e-300, equal_nan=True)
+    return np.allclose(a, b, rtol=1e-9, atol=1e-13, equal_nan=True)
 for i, row in enumerate(rows):
     status = [run.step(row, i * dt, dt) for run in runs]
     assert status == [0, 0], i

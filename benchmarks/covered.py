@@ -3,7 +3,7 @@
     python benchmarks/covered.py all FOLDER [--below 90]
 
 Compiled kernels leave no trace of their lines, so there are two kinds of runs. ``kernels FOLDER``:
-the kernels' tests as plain Python (NUMBA_DISABLE_JIT), each file for a minute at most. The suite,
+the kernels' tests as plain Python (NUMBA_DISABLE_JIT), each file for 40 s at most. The suite,
 compiled, processes that it starts included, is run by whoever wants it, any part of it:
 
     python benchmarks/covered.py start FOLDER
@@ -48,7 +48,7 @@ MORE = (
     "tests/model/test_rungs_in_short.py",
     "tests/model/test_status_numbers.py",
 )
-LIMIT, LAST_WORDS = 60, 10  # s
+LIMIT, LAST_WORDS = 40, 10  # s
 SETTINGS = """[run]
 branch = True
 source_pkgs = thrustwasher

@@ -70,7 +70,7 @@ def closure(*modules: str) -> dict[str, Path]:
         path = file_of(name)
         if path and path.name != "__init__.py":
             found[name] = path
-            todo += _imported(path.read_bytes(), name.rpartition(".")[0])
+            todo += _imported(path, name.rpartition(".")[0])
     return found
 
 
@@ -83,12 +83,13 @@ def file_of(name: str) -> Path | None:
     return Path(spec.origin) if spec and spec.origin else None
 
 
-def _imported(source: bytes, package: str) -> Iterable[str]:
-    """Return the modules a source imports by ``from . import x`` and ``from .x import y``."""
+@cache
+def _imported(path: Path, package: str) -> Iterable[str]:
+    """Return the modules a file imports at its top by ``from . import x``, ``from .x import y``."""
     names = []
     with _parsing:
-        tree = ast.parse(source)
-    for node in ast.walk(tree):
+        tree = ast.parse(path.read_bytes())
+    for node in tree.body:
         if isinstance(node, ast.ImportFrom):
             given = "." * node.level + (node.module or "")
             module = importlib.util.resolve_name(given, package)

@@ -22,7 +22,8 @@ def quantity(default: float, unit: str, low: float, high: float, text: str, **ex
     """Return a real-valued field; ``low`` and ``high`` belong to the allowed range.
 
     ``tunable=True``: an FMU's host may change it between two steps. ``overrides``, ``belongs_to``,
-    ``read_by``: see ``model.idle``.
+    ``read_by``: see ``model.idle``. ``at_zero``: what counts where the value is 0, the name of a
+    parameter or input, or a function of all parameters; else the one parameter it ``overrides``.
     """
     meta = {"kind": "real", "unit": unit, "min": low, "max": high, "help": text, **extra}
     return field(default=default, metadata=meta)

@@ -281,6 +281,7 @@ class WasherParams:
         0.0,
         473.15,
         "temperature of the oil that is drawn in (0: oil_temperature)",
+        at_zero="oil_temperature",
         read_by=(("oil_cooling", True),),
     )
     cavity_shear: str = choice(

@@ -96,7 +96,7 @@ def _constant(place: str) -> Callable[[Any], float]:
 def _module(p: Any) -> float:
     """Return the normal module [m] by centre distance and teeth."""
     teeth = p.pinion_teeth * (p.gear_ratio - 1.0 if p.internal else p.gear_ratio + 1.0)
-    return 2.0 * centre_distance(p) * math.cos(p.helix_angle) / teeth
+    return float(2.0 * centre_distance(p) * math.cos(p.helix_angle) / teeth)
 
 
 def _interference(p: Any) -> str:

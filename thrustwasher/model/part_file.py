@@ -40,9 +40,10 @@ from .parameters import (
     other_names_of,
     plainly_named,
     renewed_values,
+    with_changes,
 )
-from .point import point_of
 from .places import part_places
+from .point import point_of
 from .registry import find_model
 from .rungs import rung_named
 from .scatter import Place, Scatter, read_scatter
@@ -205,7 +206,7 @@ class PartFile:
         names = {s.name for s in self.spec.inputs}
         own = {n: value for n, value in values.items() if n not in names}
         inputs = {n: value for n, value in values.items() if n in names}
-        return self.spec.params(**{**self.parameters, **own}), inputs
+        return with_changes(self.params, self.parameters, own), inputs
 
     def inside(self, name: str, value: float) -> float:
         """Return the value of an input, moved into the box."""

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import fields, replace
 from typing import Any
 
+from .parameters import earlier_of, former_values
 from .scatter import Place
 from .spec import ModelSpec
 
@@ -31,6 +32,8 @@ def part_places(spec: ModelSpec, params: Any, inputs: Mapping[str, float]) -> di
             high=high,
             relative=s.relative,
         )
+    former, earlier = former_values(params), earlier_of(spec.params)
+    found |= {name: _parameter(name, former[name], meta) for name, meta in earlier.items()}
     others = {f.name: _other(f.metadata) for f in fields(params)}
     others |= {s.name: s.at_zero for s in spec.inputs}
     for name, other in others.items():

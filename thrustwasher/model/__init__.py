@@ -10,7 +10,7 @@
 ``idle``        parameters without effect, or kept though what they belong to was changed
 ``point``       an operating point: what is given, what a part's box fixes, what is left to defaults
 ``scatter``     laws of what is known within bounds only: tables ``[scatter]``, draws, correlation
-``places``      what of a part can scatter
+``part_places`` what of a part can scatter
 ``unread``      which parameters are not read, because of the value of another one
 ``oil``         an oil by name, data sheet or points, as parameters of a model; ``oil_laws``: how
 ``rungs``       names of rungs, and which one runs in the place of one that is gone

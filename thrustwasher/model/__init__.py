@@ -8,7 +8,7 @@
 ``part_file``    parts of one's own and presets: TOML
 ``advice``       warnings of a solution, one line each
 ``idle``         parameters without effect, or kept though what they belong to was changed
-``point``        an operating point: what is given, what a part's box fixes, what is left to defaults
+``point``        an operating point: what is given, fixed by the box, left to the defaults
 ``scatter``      laws of what is known within bounds only: tables ``[scatter]``, draws, correlation
 ``part_places``  what of a part can scatter
 ``unread``       which parameters are not read, because of the value of another one

@@ -1,4 +1,4 @@
-"""Which runs a study makes: scrambled Sobol' points, and Saltelli's exchange of groups between them.
+"""Which runs a study makes: scrambled Sobol' points, groups of sources exchanged between them.
 
 A base point j is a row A_j of independent uniforms. For indices it comes with a second row B_j and,
 for each group g of sources, AB_gj: A_j with the columns of the group taken from B_j.

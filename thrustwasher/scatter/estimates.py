@@ -7,9 +7,11 @@ Sources: quantiles: Hyndman & Fan 1996, type 5. Their confidence: Woodruff 1952 
 probability, read back as quantiles), with the variance between independent scrambles; bounds of a
 probability: Wilson 1927 with the number of independent runs that would have that variance (Korn &
 Graubard 1998). Order statistics: David & Nagaraja 2003, chapter 7. Indices: Saltelli et al. 2010
-(``scipy.stats.sobol_indices``), confidence by leaving out one scramble at a time (Tukey's jackknife).
+(``scipy.stats.sobol_indices``), their
+confidence by leaving out one scramble at a time (jackknife).
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -22,6 +24,8 @@ LEVELS = (0.05, 0.5, 0.95)
 CONFIDENCE = 0.95
 T = 2.3646242515927844  # Student's t of 7 degrees of freedom at 0.975
 FEW = 256  # base points; below, 5 and 95 % have bounds by order statistics
+LEAST_BOUNDED = 59  # independent runs of which one is beyond the 5 % quantile, by 95 %
+METHOD = "saltelli_2010"
 SAME = 1e-9  # standard deviation over largest value below which a figure does not vary
 
 
@@ -56,7 +60,7 @@ def quantile_bounds(values: Array, level: float) -> Bounds:
 
 
 def probability_bounds(values: Array) -> Bounds:
-    """Return the confidence interval of the mean of 0 or 1 (N,); those that are NaN may be either."""
+    """Return the confidence interval of the mean of 0 or 1 (N,); NaN may be either."""
     n = len(values)
     low, high = (_shares(np.where(np.isnan(values), end, values)) for end in (0.0, 1.0))
     return Bounds(
@@ -79,14 +83,14 @@ def _independent(shares: Array, n: int) -> float:
     share = float(shares.mean())
     if not 0.0 < share < 1.0:
         return float(n)
-    error = max(float(shares.std(ddof=1)) / SCRAMBLES**0.5, 0.5 / n)
+    error = max(float(shares.std(ddof=1)) / math.sqrt(SCRAMBLES), 0.5 / n)
     return share * (1.0 - share) / error**2
 
 
 def _wilson(share: float, n: float) -> Bounds:
     """Return the score interval of a share of ``n`` independent runs, within 0 .. 1."""
     middle = share + T**2 / (2.0 * n)
-    width = T * (share * (1.0 - share) / n + T**2 / (4.0 * n**2)) ** 0.5
+    width = T * math.sqrt(share * (1.0 - share) / n + T**2 / (4.0 * n**2))
     scale = 1.0 + T**2 / n
     return Bounds(max((middle - width) / scale, 0.0), min((middle + width) / scale, 1.0))
 

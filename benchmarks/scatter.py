@@ -5,6 +5,7 @@ whose quantiles, probabilities and Sobol' indices are known, each with another s
 many per cent of the intervals hold the true value.
 """
 
+import argparse
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -22,6 +23,7 @@ from thrustwasher.scatter.estimates import (
 )
 
 MANY = 2**20  # points that tell the true quantiles
+TENTH = 1.2815515655446004  # standard deviations beyond which there is a tenth
 
 
 @dataclass(frozen=True)
@@ -83,7 +85,7 @@ def product(spreads: Iterable[float] = (0.4, 0.3, 0.2)) -> Known:
     w = np.exp(s**2) - 1.0
     v = np.prod(1.0 + w) - 1.0
     first, total = w / v, w / (1.0 + w) * (1.0 + v) / v
-    limit = float(np.exp(1.2815515655446004 * np.sqrt(s @ s)))
+    limit = float(np.exp(TENTH * np.sqrt(s @ s)))
     return Known(lambda u: np.exp(norm.ppf(u) @ s), tuple(first), tuple(total), limit)
 
 
@@ -130,3 +132,24 @@ def truth(known: Known, points: int = MANY) -> dict[str, float]:
     y = known.value(qmc.Sobol(len(known.first), seed=np.random.default_rng(0)).random(points))
     found = dict(zip((f"{level:g}" for level in LEVELS), np.quantile(y, LEVELS), strict=True))
     return found | {"P": float((y > known.limit).mean())}
+
+
+def main() -> None:
+    """Print a table per size of the studies."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+    )
+    parser.add_argument("--studies", type=int, default=100)
+    parser.add_argument("--runs", type=int, nargs="+", default=[64, 128, 256])
+    arguments = parser.parse_args()
+    for name, make in FUNCTIONS.items():
+        known = make()
+        true = truth(known)
+        for runs in arguments.runs:
+            found = coverage(known, runs, arguments.studies, true)
+            cells = "  ".join(f"{what} {100.0 * share:.0f}" for what, share in found.items())
+            print(f"{name}, {runs} base points: {cells}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

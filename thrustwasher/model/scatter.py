@@ -216,10 +216,11 @@ def read_scatter(where: str, table: Mapping[str, Any], places: Mapping[str, Plac
     """
     sources: dict[str, Source] = {}
     for name, given in _lines(where, table, places):
-        if name in sources:
-            raise ParameterError(f"{where}: {name} is there twice, allowed: once")
+        place = places[name]
+        if place.name in sources:
+            raise ParameterError(f"{where}: {place.name} is there twice, allowed: once")
         with within(f"{where}: {name}"):
-            sources[name] = _source(places[name], given)
+            sources[place.name] = _source(place, given)
     found = tuple(sources.values())
     pairs = _pairs(f"{where}: {CORRELATION}", table.get(CORRELATION, []), found)
     scatter = Scatter(sources=found, pairs=pairs, warnings=tuple(_warnings(found)))

@@ -39,11 +39,11 @@ def cache_folder(target: str) -> Path:
 
 def source_digest(target: str) -> str:
     """Return 16 hex digits over version, sources, linker and, if native, what was compiled."""
+    from ..model.prepare import tables_of
+    from ..model.registry import all_specs
     from .model_kernels import package_version
     from .package.model_sources import TEXTS, source_folder
     from .shell.platform_libraries import library_identity
-    from ..model.prepare import tables_of
-    from ..model.registry import all_specs
 
     native, texts = target == "native", (*TEXTS, ".json", ".npz")
     made_for = "python"

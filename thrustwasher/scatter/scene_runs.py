@@ -5,11 +5,10 @@ that the washers of another run have recorded; afterwards each is solved along t
 loop has recorded, at instants between which these are all but straight, warm from one to the next.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import SolveError, Status
 from ..numerics.jit import Array
@@ -67,7 +66,7 @@ class Loop:
             instance.close()
 
 
-def followed(part: Part, name: str, time: Array, signals: Signals, more: NDArray[np.intp]) -> Signals:
+def followed(part: Part, name: str, time: Array, signals: Signals, more: Sequence[int]) -> Signals:
     """Return the outputs of a washer along its recorded inputs, by name.
 
     Parameters
@@ -75,7 +74,7 @@ def followed(part: Part, name: str, time: Array, signals: Signals, more: NDArray
     part : the washer
     name : its name in the scene
     time, signals : (n,) of a run, its inputs among them
-    more : (m,) points at which it is solved in any case
+    more : points at which it is solved in any case
 
     Returns
     -------

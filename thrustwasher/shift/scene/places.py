@@ -129,7 +129,8 @@ def _of_vehicle(scene: Scene) -> list[Place]:
 
 def _of_oil(table: Mapping[str, Any]) -> list[Place]:
     """Return the factor of the viscosity, and the numbers that a scene's oil is given by."""
-    rules = {k: rule[:3] for k, rule in (*OIL.items(), *SHEET.items()) if k in table}
+    rules = {k: (unit, low, high) for k, (unit, low, high, _) in OIL.items() if k in table}
+    rules |= {k: rule for k, rule in SHEET.items() if k in table}
     rules["viscosity_scale"] = SCALE
     return [
         _place(f"oil.{k}", quantity("[oil]", k, table.get(k, 1.0), rule[0]), rule)

@@ -110,6 +110,10 @@ def _written(table: Mapping[str, Any], above: str = "") -> Iterator[str]:
     own = {key: value for key, value in table.items() if key not in inner}
     if own and above:
         yield from ("", f"[{above}]")
-    yield from (f"{json.dumps(key)} = {json.dumps(value)}" for key, value in own.items())
+    yield from (f"{_key(key)} = {json.dumps(value)}" for key, value in own.items())
     for key, value in inner.items():
-        yield from _written(value, f"{above}.{json.dumps(key)}".removeprefix("."))
+        yield from _written(value, f"{above}.{_key(key)}".removeprefix("."))
+
+
+def _key(name: str) -> str:
+    return name if name.isidentifier() and name.isascii() else json.dumps(name)

@@ -62,6 +62,7 @@ class Swing:
     )
     outcomes: tuple[str, ...] = ("high",)
     series: tuple[str, ...] = ("signal",)
+    warnings: tuple[str, ...] = ()
     costly: tuple[str, ...] = ("dear",)
     reasons: tuple[str, ...] = ("broken", "b is too large")
 

@@ -9,7 +9,6 @@ A command that solves a model at one point is no file: ``_solve`` makes it from 
 ``_options``    options made from a model's inputs and parameters
 ``_table``      columns of a CSV file, found by their names
 ``_output``     JSON, tables, progress, files that are written whole or not at all
-``_fmu_cache``  FMUs built when needed, for ``shift``
 ==============  ==================================================================
 """
 

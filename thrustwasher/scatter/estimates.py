@@ -176,13 +176,14 @@ def _indices(f_A: Array, f_B: Array, f_AB: Array) -> tuple[Array, Array]:
     inverse = np.linalg.pinv(controls @ controls.swapaxes(-1, -2), rcond=1e-9, hermitian=True)
 
     def steadied(terms: Array) -> Array:
-        index = terms.mean(-1) / variance
+        index: Array = terms.mean(-1) / variance
         for _ in range(2):
             rest = terms - index[..., None] * square
             share = inverse @ (controls @ rest[..., None])
             at = rest.mean(-1) - (share[..., 0] * controls.mean(-1)).sum(-1)
-            index = index + at / variance
-        return index.T
+            index += at / variance
+        found: Array = index.T
+        return found
 
     return steadied(f_B * (f_AB - f_A)), steadied(0.5 * (f_A - f_AB) ** 2)
 

@@ -30,8 +30,8 @@ class Plot:
     """A figure with the sentence below it; ``file`` is the stem of its file beside the page.
 
     One that is ``still`` stands for what scripts show: it is seen where none run. A bitmap may be
-    given as the content of its file. ``tiles`` stand beside each other where there is room, so many in
-    a row; they fit on a telephone, and their colours are those of the page.
+    given as the content of its file. ``tiles`` stand beside each other where there is room, so many
+    in a row; they fit on a telephone, and their colours are those of the page.
     """
 
     file: str
@@ -179,7 +179,9 @@ def _drawing(figure: "Figure", prefix: str) -> str:
 
 def themed(svg: str) -> str:
     """Return a drawing whose colours are those of the page, light or dark."""
-    return re.sub(r"#[0-9a-f]{6}\b", lambda m: f"var(--{n})" if (n := INKS.get(m[0])) else m[0], svg)
+    return re.sub(
+        r"#[0-9a-f]{6}\b", lambda m: f"var(--{n})" if (n := INKS.get(m[0])) else m[0], svg
+    )
 
 
 def picture(figure: "Figure", dpi: int = 100) -> bytes:

@@ -8,7 +8,7 @@ from ..html import Card, Page, Plot, Section
 from . import scatter_plots as plots
 from . import scatter_tables as tables
 from .decides import INDEX, RANK, chances, column, share_words, shares, verdict
-from .words import HIGH, LOW, band_words, joined, named, percent, probability, title_of, varies
+from .words import band_words, between, joined, named, percent, title_of, varies
 
 MOST_FIGURES, MOST_CARDS, MOST_BANDS, MOST_OVER_TIME = 12, 6, 8, 4
 BAND_TEXT = (
@@ -20,9 +20,9 @@ DISTRIBUTION_TEXT = (
     "the nominal values. The outermost 0.5 % are drawn at the ends."
 )
 DECIDED_TEXT = (
-    "Total Sobol' index: the share of a figure's variance that would go if this input were known. "
-    "It counts interactions, so that the indices of a figure may add up to more than 1. The line at "
-    "the end of a bar is the 95 % confidence interval."
+    "Total Sobol' index: the share of a figure's variance that this input has to do with, alone or "
+    "with others; the indices of a figure may add up to more than 1. The line at the end of a bar is "
+    "the 95 % confidence interval."
 )
 RANK_TEXT = (
     "Of figures without indices: the rank correlation of the sample (Spearman), which says how "
@@ -86,8 +86,8 @@ def main_figures(result: Any, most: int) -> list[str]:
 
 def _subtitle(result: Any) -> str:
     kind = {"part": "Part", "scene": "Scene"}.get(result.kind, "Function")
-    runs = f"{result.runs} base points, {result.solves} runs"
-    return f"{kind} {result.target}, {len(result.sources)} inputs scatter, {runs}, made by thrustwasher"
+    runs = f"{len(result.sources)} inputs scatter, {result.runs} base points, {result.solves} runs"
+    return f"{kind} {result.target}, {runs}, made by thrustwasher"
 
 
 def _verdicts(result: Any, names: Sequence[str]) -> list[str]:
@@ -118,7 +118,11 @@ def _chance_text(result: Any) -> list[str]:
 
 def _cards(result: Any, names: Sequence[str]) -> list[Card]:
     cards = [
-        Card(name.replace("_", " "), percent(p.value), f"{100.0 * p.low:.2g} .. {100.0 * p.high:.3g} %")
+        Card(
+            name.replace("_", " "),
+            percent(p.value),
+            f"{100.0 * p.low:.2g} .. {100.0 * p.high:.3g} %",
+        )
         for name, p in result.probabilities.items()
     ]
     for name in names[: max(MOST_CARDS - len(cards), 3)]:
@@ -229,9 +233,9 @@ def _run_texts(result: Any) -> list[str]:
     return [
         tables.share_of_failed(result),
         f"Scrambled Sobol' points, seed {result.seed}: quantiles and probabilities are of "
-        f"{result.runs} base runs, indices of exchanges between them (Saltelli's design), confidence "
-        "of eight independent scrambles. Where several solutions exist, the branch is the one "
-        f"reached {side}. Took {say(result.wall_time, 's', digits=3)}.",
+        f"{result.runs} base runs, indices of exchanges between them (Saltelli's design), "
+        "confidence of eight independent scrambles. Where several solutions exist, the branch is "
+        f"the one reached {side}. Took {say(result.wall_time, 's', digits=3)}.",
     ]
 
 

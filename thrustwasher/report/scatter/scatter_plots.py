@@ -51,7 +51,9 @@ def _any(values: Any) -> bool:
 
 def is_there(series: Any) -> bool:
     """Return whether a signal has values and moves or scatters."""
-    return all(map(_any, _lines(series))) and any(np.nanmax(v) > np.nanmin(v) for v in _lines(series))
+    return all(map(_any, _lines(series))) and any(
+        np.nanmax(v) > np.nanmin(v) for v in _lines(series)
+    )
 
 
 @styled
@@ -122,9 +124,7 @@ def bar_figure(found: Sequence[Share], title: str) -> Figure:
     shown = [share for share in found if share.weight >= LEAST][:BARS] or list(found[:1])
     figure = Figure(figsize=(NARROW, 0.64 + 0.36 * len(shown)))
     tall = figure.get_figheight()
-    axis = figure.add_axes(
-        (0.16 / NARROW, 0.32 / tall, 1.0 - 0.32 / NARROW, 1.0 - 0.62 / tall)
-    )
+    axis = figure.add_axes((0.16 / NARROW, 0.32 / tall, 1.0 - 0.32 / NARROW, 1.0 - 0.62 / tall))
     by_rank = found[0].by == RANK
     for row, share in enumerate(shown):
         size = abs(share.value)

@@ -109,7 +109,12 @@ def probability(p: Any) -> str:
     """Return a probability with its confidence interval."""
     if p is None or not math.isfinite(p.value):
         return NONE
-    return f"{percent(p.value)} ({100.0 * p.low:.2g} .. {100.0 * p.high:.3g} %)"
+    return f"{percent(p.value)} ({between(p)})"
+
+
+def between(p: Any) -> str:
+    """Return the confidence interval of a probability."""
+    return f"{100.0 * p.low:.2g} .. {100.0 * p.high:.3g} %"
 
 
 def value_words(value: Any, unit: str) -> str:

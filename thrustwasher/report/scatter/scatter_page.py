@@ -7,8 +7,8 @@ from ...units import format_quantity as say
 from ..html import Card, Page, Plot, Section
 from . import scatter_plots as plots
 from . import scatter_tables as tables
-from .decides import INDEX, RANK, chances, column, share_words, shares, verdict
-from .words import band_words, between, joined, named, percent, title_of, varies
+from .decides import INDEX, LEAST, RANK, chances, column, share_words, shares, verdict
+from .words import band_scale, band_words, between, joined, named, percent, title_of, varies
 
 MOST_FIGURES, MOST_CARDS, MOST_BANDS, MOST_OVER_TIME = 12, 6, 8, 4
 BAND_TEXT = (
@@ -21,8 +21,8 @@ DISTRIBUTION_TEXT = (
 )
 DECIDED_TEXT = (
     "Total Sobol' index: the share of a figure's variance that this input has to do with, alone or "
-    "with others; the indices of a figure may add up to more than 1. The line at the end of a bar is "
-    "the 95 % confidence interval."
+    "with others; the indices of a figure may add up to more than 1. The line at a bar's end is the "
+    "95 % confidence interval."
 )
 RANK_TEXT = (
     "Of figures without indices: the rank correlation of the sample (Spearman), which says how "
@@ -118,16 +118,12 @@ def _chance_text(result: Any) -> list[str]:
 
 def _cards(result: Any, names: Sequence[str]) -> list[Card]:
     cards = [
-        Card(
-            name.replace("_", " "),
-            percent(p.value),
-            f"{100.0 * p.low:.2g} .. {100.0 * p.high:.3g} %",
-        )
+        Card(f"probability: {named(name)}", percent(p.value), f"95 % confidence: {between(p)}")
         for name, p in result.probabilities.items()
     ]
     for name in names[: max(MOST_CARDS - len(cards), 3)]:
         band = result.figures[name]
-        note = f"5 .. 95 %; nominal {tables.band_scale(band).words(band.nominal)}"
+        note = f"5 .. 95 %; nominal {band_scale(band).words(band.nominal)}"
         cards.append(Card(title_of(name, band), band_words(band), note))
     return cards
 
@@ -188,7 +184,7 @@ def _small_sources(result: Any) -> list[str]:
     largest: dict[str, float] = {}
     for share in all_shares:
         largest[share.source] = max(largest.get(share.source, 0.0), share.value)
-    return [joined(source) for source, value in largest.items() if value < tables.LEAST]
+    return [joined(source) for source, value in largest.items() if value < LEAST]
 
 
 def over_time_sections(result: Any) -> list[Section]:

@@ -100,7 +100,7 @@ def distribution_figure(result: Any, name: str, title: str) -> Figure:
     groups = [kept] if is_lost is None else [kept[is_lost < 0.5], kept[is_lost > 0.5]]
     colours, names = [palette.BLUE, palette.RED], ["film kept", "film lost"]
     colours, names = colours[: len(groups)], names[: len(groups)]
-    axis.hist(groups, ends, stacked=True, color=colours, label=names, alpha=0.75)
+    axis.hist(groups, ends.tolist(), stacked=True, color=colours, label=names, alpha=0.75)
     if logarithmic:
         axis.set_xscale("log")
         axis.xaxis.set_major_formatter("{x:g}")

@@ -71,17 +71,17 @@ def probability_table(result: Any) -> Table:
 
 def matrix_table(result: Any, names: Sequence[str]) -> Table | None:
     """Return total indices, figures by sources; None without any. Small sources are left out."""
-    found = {
-        name: {s.source: s for s in of}
-        for name in names
-        if (of := shares(result, name)) and of[0].by == INDEX
-    }
-    sources = [s for s in _sources(found) if any(_counts(of.get(s)) for of in found.values())]
+    found = {}
+    for name in names:
+        of = shares(result, name)
+        if of and of[0].by == INDEX:
+            found[name] = {s.source: s for s in of}
+    sources = [s for s in _sources(found) if any(_counts(f.get(s)) for f in found.values())]
     if not found or not sources:
         return None
     rows, shades = [], []
-    for name, of in found.items():
-        values = [of[s].value if s in of else None for s in sources]
+    for name, by_source in found.items():
+        values = [by_source[s].value if s in by_source else None for s in sources]
         cells = [NONE if v is None else "" if v < LEAST else f"{v:.2f}" for v in values]
         rows.append((title_of(name, result.figures[name]), *cells))
         shades.append((None, *(None if v is None else min(max(v, 0.0), 1.0) for v in values)))

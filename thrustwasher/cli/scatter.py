@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Any
 from ..errors import ParameterError
 from ..model.registry import models_with_points, spec_of
 from ..model.rungs import rung_named
-from ..sweep.axes import places
 from ..storage.whole_files import new_folder
+from ..sweep.axes import places
 from . import _options, _output
 from ._options import option_name
 
 if TYPE_CHECKING:
+    from ..model.part_file import PartFile
     from ..scatter.result import Band, ScatterResult
 
 HELP = "how sure figures are: the scatter of inputs through a part or a gear shift"
@@ -80,7 +81,7 @@ def run(arguments: argparse.Namespace) -> int:
             out=folder,
             progress=_progress(),
         )
-        _write(result, target, folder)
+        _write(result, target, at, folder)
     _output.warn(result.warnings)
     if arguments.json:
         _output.print_json({**result.as_dict(), "out": str(folder)})
@@ -152,13 +153,36 @@ def _progress() -> Callable[[int, int], None]:
     return progress
 
 
-def _write(result: "ScatterResult", target: Any, folder: Path) -> None:
-    """Write the page."""
+def _write(result: "ScatterResult", target: Any, at: Any, folder: Path) -> None:
+    """Write the page, and the runs nearest to quantiles of its figures as files to open."""
+    from ..model.part_file import PartFile, part_text
     from ..report.html import render
     from ..report.scatter import scatter_page
+    from ..report.scatter.scatter_page import MOST_FIGURES, main_figures
+    from ..shift.scene.variation import scene_text
 
+    files: dict[str, dict[float, str]] = {}
     with _output.whole_folder(folder) as draft:
-        (draft / PAGE).write_text(render(scatter_page(result)), encoding="utf-8")
+        for name in main_figures(result, MOST_FIGURES):
+            for level, values in result.nearest.get(name, {}).items():
+                if isinstance(target, PartFile):
+                    text = part_text(_drawn(target, at or {}, values))
+                else:
+                    text = scene_text(target, values)
+                file = f"{name}-{100.0 * level:02.0f}.toml"
+                (draft / file).write_text(text, encoding="utf-8")
+                files.setdefault(name, {})[level] = file
+        page = render(scatter_page(result, files))
+        (draft / PAGE).write_text(page, encoding="utf-8")
+
+
+def _drawn(part: "PartFile", at: dict[str, str], values: dict[str, Any]) -> "PartFile":
+    """Return a part as one draw has it: its parameters, and the inputs as its box."""
+    from ..scatter.propagate import inputs_of
+
+    params, inputs = part.varied(values)
+    box = {name: (x, x) for name, x in {**inputs_of(part, at), **inputs}.items()}
+    return replace(part, parameters=_output.parameters_of(params), box=box, scatter={})
 
 
 def _say(result: "ScatterResult", folder: Path) -> None:

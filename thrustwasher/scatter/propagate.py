@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError, SolveError, suggestion
 from ..model.part_file import PartFile, find_part
-from ..model.registry import models_with_points
+from ..model.point import point_of
+from ..model.registry import find_model, models_with_points
 from ..model.toml_tables import read_file
 from ..storage.journal import Journal
 from ..storage.whole_files import new_folder, whole_folder
@@ -165,10 +166,10 @@ def target_of(
     if isinstance(target, PartFile):
         from .part_target import part_target
 
-        part = held(target, at or {})
-        drawn = part.scattered(scatter)
+        inputs = inputs_of(target, at or {})
+        drawn = target.scattered(scatter, inputs)
         _refuse_nothing(drawn, "part file")
-        of_part: Target = part_target(part, drawn, part.starts, reached, outputs)
+        of_part: Target = part_target(target, drawn, inputs, reached, outputs)
         return of_part
     if at:
         raise ParameterError("at: is of a part's inputs; a scene has its own")
@@ -181,11 +182,11 @@ def target_of(
     return of_scene
 
 
-def held(part: PartFile, at: Mapping[str, Any]) -> PartFile:
-    """Return the part with inputs held at values: its box is that single value there."""
+def inputs_of(part: PartFile, at: Mapping[str, Any]) -> dict[str, float]:
+    """Return the values [SI] of the model's inputs: those given, others at box or default."""
     known = {n: p for n, p in places(part.spec).items() if p.is_input}
-    values = {name: float(find_place(name, known, part.spec).check(x)) for name, x in at.items()}
-    return replace(part, box=part.box | {name: (x, x) for name, x in values.items()})
+    given = {name: float(find_place(name, known, part.spec).check(x)) for name, x in at.items()}
+    return find_model(part.spec.key).place(point_of(part, given).values)
 
 
 def _refuse_nothing(scatter: Any, what: str) -> None:

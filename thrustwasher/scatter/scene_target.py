@@ -187,9 +187,7 @@ class SceneTarget:
     def _key(self, row: Mapping[str, Any], costly: bool) -> tuple[Any, ...]:
         """Return the values that the loop depends on or, if costly, the washers' inputs too."""
         return tuple(
-            x
-            for name, x in row.items()
-            if self.touches(name) or (costly and name in OF_WASHERS)
+            x for name, x in row.items() if self.touches(name) or (costly and name in OF_WASHERS)
         )
 
     def new_loop(self, played: Mapping[str, Any]) -> Loop:

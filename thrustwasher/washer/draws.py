@@ -43,9 +43,9 @@ from .neighbours import Family, chain, spread
 from .parameters import WasherParams
 from .solve import GRIDS, check_far_face
 
-TOLERANCE = 1e-8  # of a solution: torque within 1e-6 of that of a single solve
+TOLERANCE = 1e-7  # of a solution: torque within 1e-6 of that of a single solve
 ROUGHLY, CLOSELY = 3e-4, 1e-5  # of places on the curve around a fold
-CHORDS, AFRESH = 10.0, 8.0  # iterations with another draw's heat factor, then with its own
+CHORDS, AFRESH = 12.0, 8.0  # iterations with another draw's heat factor, then with its own
 BESIDE, CLOSE = 0.25, 0.05  # [sigma] between places around a fold
 SURE = 1e-3  # relative distance of a load to the fold that settles the branch
 STEEP = 0.3  # relative change of the load over one sigma that makes a solution surely stable
@@ -170,7 +170,9 @@ class Bench:
         if found is None:
             return self._alone(x, pt)
         carries, top = found
-        name = self.other if carries is False else self.own
+        name = self.own if carries else self.other
+        if carries is None:
+            name = "contact" if math.log(pt.load) > fold[-1] else "film"
         if name != arrived and not self._arrives(name, x, pt):
             return self._alone(x, pt)
         film = self.places[name].film

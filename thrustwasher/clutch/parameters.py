@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import Any
 
 from ..errors import ParameterError
@@ -86,6 +87,7 @@ class ClutchParams:
         10.0,
         "radius the friction acts at (0: from the face's radii)",
         overrides=("inner_radius", "outer_radius"),
+        at_zero=attrgetter("friction_radius"),
     )
     friction_law: str = choice(
         "table",

@@ -1,6 +1,7 @@
 """Parameters of the gear mesh: a pair of gears, its surfaces, oil, steel and the laws to apply."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -77,6 +78,25 @@ def _numbers(p: Any) -> Any:
     import numpy as np
 
     return np.array(as_numbers(p))
+
+
+def _constant(place: str) -> Callable[[Any], float]:
+    """Return what makes of parameters a constant of the kernel; ``place``: its name in layout."""
+
+    def value(p: Any) -> float:
+        from ..model.prepare import filled
+        from .kernels import constants, layout
+
+        par = filled(SPEC, p, SPEC.default_fidelity, layout.NPAR, constants.derive)
+        return float(par[getattr(layout, place)])
+
+    return value
+
+
+def _module(p: Any) -> float:
+    """Return the normal module [m] by centre distance and teeth."""
+    teeth = p.pinion_teeth * (p.gear_ratio - 1.0 if p.internal else p.gear_ratio + 1.0)
+    return float(2.0 * centre_distance(p) * math.cos(p.helix_angle) / teeth)
 
 
 def _interference(p: Any) -> str:
@@ -198,6 +218,7 @@ class GearMeshParams:
         0.1,
         "normal module, gives the centre distance (0: from centre_distance)",
         overrides=("centre_distance",),
+        at_zero=_module,
     )
     pressure_angle: float = quantity(
         0.3490658503988659, "rad", 0.2, 0.6, "pressure angle in the normal section, pitch point"
@@ -230,6 +251,7 @@ class GearMeshParams:
         2e-5,
         "composite RMS roughness (0: that of the surface)",
         overrides=("surface",),
+        at_zero=_constant("D_SIGMA"),
     )
     effective_roughness: float = quantity(
         0.0,
@@ -238,6 +260,7 @@ class GearMeshParams:
         1e-4,
         "effective roughness S of Li and Seireg (0: that of the surface)",
         overrides=("surface",),
+        at_zero=_constant("D_ROUGHNESS"),
         read_by=(("friction_law", "li-seireg"),),
     )
     mean_roughness: float = quantity(
@@ -247,6 +270,7 @@ class GearMeshParams:
         2e-5,
         "Ra for the ISO law (0: composite RMS over sqrt 2)",
         overrides=("surface", "sigma_rms"),
+        at_zero=_constant("D_MEAN"),
     )
     friction_law: str = choice("iso", FRICTION_LAWS, "GearFrictionLaw", "law of the friction")
     f0: float = quantity(
@@ -291,6 +315,7 @@ class GearMeshParams:
         0.0,
         1e8,
         "heat capacity of this mesh's bodies (0: by masses over mates)",
+        at_zero=_constant("D_BULK_CAPACITY"),
         belongs_to=SIZE,
         read_by=OF_LOSS,
     )
@@ -310,7 +335,13 @@ class GearMeshParams:
     )
     steel: str = choice("case-hardened", STEELS, "Steel", "steel that the main outputs are for")
     contact_limit: float = quantity(
-        0.0, "Pa", 0.0, 3e9, "allowable contact stress (0: that of the steel)", overrides=("steel",)
+        0.0,
+        "Pa",
+        0.0,
+        3e9,
+        "allowable contact stress (0: that of the steel)",
+        overrides=("steel",),
+        at_zero=_constant("D_LIMIT"),
     )
     structural_factor: float = quantity(
         1.0, "1", 0.1, 2.0, "structural factor X_W of the steel against scuffing"

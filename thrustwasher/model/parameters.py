@@ -15,14 +15,16 @@ from ..units import meant
 from .spec import ModelSpec, Rule
 
 T = TypeVar("T")
-EARLIER: dict[type[Any], tuple[dict[str, Any], Callable[[dict[str, Any]], dict[str, Any]]]] = {}
+Renew = Callable[[dict[str, Any]], dict[str, Any]]
+EARLIER: dict[type[Any], tuple[dict[str, Any], Renew, Callable[[Any], dict[str, float]]]] = {}
 
 
 def quantity(default: float, unit: str, low: float, high: float, text: str, **extra: Any) -> Any:
     """Return a real-valued field; ``low`` and ``high`` belong to the allowed range.
 
     ``tunable=True``: an FMU's host may change it between two steps. ``overrides``, ``belongs_to``,
-    ``read_by``: see ``model.idle``.
+    ``read_by``: see ``model.idle``. ``at_zero``: what counts where the value is 0, the name of a
+    parameter or input, or a function of all parameters; else the one parameter it ``overrides``.
     """
     meta = {"kind": "real", "unit": unit, "min": low, "max": high, "help": text, **extra}
     return field(default=default, metadata=meta)
@@ -91,11 +93,13 @@ def other_names(params: type[T]) -> type[T]:
 
 def renewed(
     old: Mapping[str, tuple[str, float, float, str]],
-    renew: Callable[[dict[str, Any]], dict[str, Any]],
+    renew: Renew,
+    former: Callable[[Any], dict[str, float]],
 ) -> Callable[[type[T]], type[T]]:
     """Let parameters of an earlier form be given and read: unit and range of each by its name.
 
-    ``renew`` makes fields of them and of all that is given beside them.
+    ``renew`` makes fields of them and of all that is given beside them, ``former`` them of all
+    fields.
     """
 
     def decorate(params: type[T]) -> type[T]:
@@ -110,7 +114,7 @@ def renewed(
             name: {"kind": "real", "unit": unit, "min": low, "max": high, "help": text}
             for name, (unit, low, high, text) in old.items()
         }
-        EARLIER[params] = meta, renew
+        EARLIER[params] = meta, renew, former
         return params
 
     return decorate
@@ -124,6 +128,23 @@ def earlier_of(params: type[Any]) -> dict[str, Any]:
 def renewed_values(params: type[Any], given: dict[str, Any]) -> dict[str, Any]:
     """Return values [SI] by name with none of an earlier form."""
     return next((EARLIER[c][1](given) for c in params.__mro__ if c in EARLIER), given)
+
+
+def former_values(params: Any) -> dict[str, float]:
+    """Return parameters of an earlier form that are those of now."""
+    return next((EARLIER[c][2](params) for c in type(params).__mro__ if c in EARLIER), {})
+
+
+def with_changes(params: Any, given: Mapping[str, Any], changes: Mapping[str, Any]) -> Any:
+    """Return parameters with changes, those of an earlier form too.
+
+    ``given`` are the values that ``params`` were made of, none of an earlier form.
+    """
+    former = former_values(params)
+    if former.keys() & changes.keys():
+        replaced = renewed_values(type(params), former).keys()
+        given = {**{n: v for n, v in given.items() if n not in replaced}, **former}
+    return type(params)(**{**given, **changes})
 
 
 def other_names_of(params: type[Any]) -> dict[str, str]:

@@ -14,6 +14,9 @@ notes::
     [box]
     load = ["20 N", "1850 N"]
 
+    [scatter]
+    roughness = "10 %"
+
 Presets are such files, in ``data/parts/MODEL/NAME.toml``. What a file leaves out is at its default.
 """
 
@@ -37,15 +40,28 @@ from .parameters import (
     other_names_of,
     plainly_named,
     renewed_values,
+    with_changes,
 )
+from .places import part_places
 from .point import point_of
 from .registry import find_model
 from .rungs import rung_named
+from .scatter import Place, Scatter, read_scatter
 from .spec import ModelSpec, tailored
-from .toml_tables import nothing_else, number, parse, read_file, read_value, unknown
+from .toml_tables import (
+    key_text,
+    nothing_else,
+    number,
+    parse,
+    read_file,
+    read_value,
+    unknown,
+    value_text,
+)
+from .unread import unread, why_unread
 
 TEXTS = ("model", "name", "description", "fidelity", "notes")
-TABLES = ("parameters", "box")
+TABLES = ("parameters", "box", "scatter")
 LONGEST_NAME = 60  # characters, of a name that becomes that of files
 SUFFIX = ".toml"
 Box = dict[str, tuple[float, float]]
@@ -67,6 +83,9 @@ class PartFile:
     """Range [SI] of each input that it is meant for; an input that is not there has no bounds."""
     oil: Oil | None = None
     """The oil that gave some of the parameters."""
+    scatter: Mapping[str, Any] = field(default_factory=dict)
+    """How parameters and inputs scatter: the table as it is written, so that a law relative to a
+    nominal value follows that."""
     description: str = ""
     notes: str = ""
 
@@ -153,6 +172,42 @@ class PartFile:
         result = model.solve(self.params, **point.values, **{"fidelity": self.fidelity, **more})
         return replace(result, warnings=(*point.warnings, *result.warnings))
 
+    def places(self, inputs: Mapping[str, float] | None = None) -> dict[str, Place]:
+        """Return what of the part can scatter, by name; ``inputs`` [SI], others at their starts."""
+        return part_places(self.spec, self.params, {**self.starts, **(inputs or {})})
+
+    def scattered(
+        self,
+        table: Mapping[str, Any] | None = None,
+        inputs: Mapping[str, float] | None = None,
+    ) -> Scatter:
+        """Return how the part scatters, by its own table or by another one.
+
+        ``inputs`` [SI] are those of the point that it is solved at; ParameterError if something in
+        the table is not allowed.
+        """
+        places, params = self.places(inputs), self.params
+        also = {other: places[name] for other, name in other_names_of(self.spec.params).items()}
+        given = self.scatter if table is None else table
+        scatter = read_scatter("[scatter]", given, places | also)
+        idle = {}
+        for name in scatter.names:
+            pairs = unread(params, name, self.fidelity)
+            if pairs and not any(by in scatter.names for by, _ in pairs):
+                idle[name] = why_unread(params, pairs, self.fidelity)
+        doubts = (f"scatter of {name} {why}" for name, why in idle.items())
+        return replace(scatter, warnings=(*scatter.warnings, *doubts))
+
+    def varied(self, values: Mapping[str, Any]) -> tuple[Any, dict[str, float]]:
+        """Return the parameters, and the inputs among ``values`` [SI], of one draw of its scatter.
+
+        ParameterError if the parameters do not go together.
+        """
+        names = {s.name for s in self.spec.inputs}
+        own = {n: value for n, value in values.items() if n not in names}
+        inputs = {n: value for n, value in values.items() if n in names}
+        return with_changes(self.params, self.parameters, own), inputs
+
     def inside(self, name: str, value: float) -> float:
         """Return the value of an input, moved into the box."""
         low, high = self.box.get(name, (-math.inf, math.inf))
@@ -175,6 +230,8 @@ def load_part(path: str | Path) -> PartFile:
     part = _part(where, read_file("part", path))
     with within(f"{where} [parameters]"):
         part.params  # noqa: B018  (raises what the model says about them)
+    with within(where):
+        part.scattered()
     return part
 
 
@@ -188,7 +245,7 @@ def find_part(name: str) -> PartFile:
     if is_part(name):
         return load_part(name)
     spec = find_model(name).spec
-    return PartFile(spec=spec, name=spec.name, fidelity=spec.default_fidelity)
+    return PartFile(spec=spec, name=spec.name, fidelity=spec.default_fidelity, scatter=spec.scatter)
 
 
 @cache
@@ -257,6 +314,7 @@ def _part(where: str, table: dict[str, Any]) -> PartFile:
         fidelity=fidelity,
         oil=own,
         box=_box(f"{where} [box]", spec, table.get("box", {})),
+        scatter=table.get("scatter", {}),
         description=table.get("description", ""),
         notes=table.get("notes", ""),
     )
@@ -354,3 +412,8 @@ def _lines(part: PartFile) -> Iterator[str]:
         if s.name in part.box:
             ends = [exact_quantity(x, s.unit, difference=s.relative) for x in part.box[s.name]]
             yield f"{s.name} = {json.dumps(ends if ends[0] != ends[1] else ends[0])}  # {s.help}"
+    if part.scatter:
+        yield ""
+        yield "[scatter]  # what is not named here is taken as known"
+        for name, law in part.scatter.items():
+            yield f"{key_text(name)} = {value_text(law)}"

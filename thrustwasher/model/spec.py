@@ -44,6 +44,7 @@ class Signal:
     events: tuple[str, str] | None = None
     limit: float | None = None
     verified: tuple[float, ...] = ()
+    at_zero: str = ""  # another input, whose value counts where this one is 0
 
     @property
     def usual(self) -> float:
@@ -141,6 +142,8 @@ class ModelSpec:
     absent: Callable[[Any], frozenset[str]] = no_outputs
     """From parameters to the names of outputs without a value; an FMU has the number there that
     the output's help names."""
+    scatter: Mapping[str, Any] = field(default_factory=dict)
+    """How parameters and inputs scatter with the default parameters: a table ``[scatter]``."""
     # Of a part of one's own: the name of the model, the inputs it is meant for, what else is known.
     kind: str = ""
     box: Mapping[str, tuple[float, float]] = field(default_factory=dict)

@@ -1,5 +1,6 @@
 """TOML files and their tables: read, with quantities in SI units, or an error that says where."""
 
+import json
 import tomllib
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import is_dataclass, replace
@@ -88,6 +89,22 @@ def spec_beside(
             signals[kind].append(signal | rest)
     spec: ModelSpec = from_plain(ModelSpec, table | signals | {"params": params})
     return replace(spec, rules=rules, **more)
+
+
+def key_text(key: str) -> str:
+    """Return a key as TOML has it."""
+    bare = key.replace("_", "").replace("-", "")
+    return key if bare.isascii() and bare.isalnum() else json.dumps(key)
+
+
+def value_text(value: Any) -> str:
+    """Return a value as TOML has it on one line: a text, number, Boolean, list or table of them."""
+    if isinstance(value, Mapping):
+        parts = (f"{key_text(k)} = {value_text(v)}" for k, v in value.items())
+        return f"{{ {', '.join(parts)} }}"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(value_text, value))}]"
+    return json.dumps(value, ensure_ascii=False)
 
 
 def unknown(where: str, key: str, known: Iterable[str]) -> ParameterError:

@@ -207,7 +207,18 @@ def _over_pressure(given: dict[str, Any]) -> dict[str, Any]:
     return values
 
 
-@renewed(NEWTONS, _over_pressure)
+def _over_load(params: Any) -> dict[str, float]:
+    """Return the law over the load that is the one over the mean pressure."""
+    face = face_of(params.inner_radius, params.outer_radius)
+    slope = params.friction_slope * math.log(MEGAPASCAL * face)
+    return {
+        "friction_constant": params.friction_reference + slope,
+        "friction_load_min": params.friction_pressure_min * face,
+        "friction_load_max": params.friction_pressure_max * face,
+    }
+
+
+@renewed(NEWTONS, _over_pressure, _over_load)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WasherParams:
     """Geometry, surfaces, oil and friction of a thrust washer between carrier and gear.
@@ -281,6 +292,7 @@ class WasherParams:
         0.0,
         473.15,
         "temperature of the oil that is drawn in (0: oil_temperature)",
+        at_zero="oil_temperature",
         read_by=(("oil_cooling", True),),
     )
     cavity_shear: str = choice(

@@ -1,7 +1,7 @@
 """The kernel's constants for many washers: made anew only where they must be.
 
-Most of them is the contact table, which takes 1 ms. It depends on surfaces and materials alone; over
-the roughness it is smooth, so that draws of roughness take theirs from tables on a grid.
+Most of them is the contact table, which takes 1 ms. It depends on surfaces and materials alone;
+over the roughness it is smooth, so that draws of roughness take theirs from tables on a grid.
 """
 
 import math
@@ -58,7 +58,10 @@ class Constants:
         """Return constants with contact tables interpolated over the roughness."""
         sigma1, sigma2, shear = combined_roughness(own)
         par = np.zeros(0)
-        for sigma, table in ((sigma1, slice(L.D_TABLE1, L.D_TABLE2)), (sigma2, slice(L.D_TABLE2, L.D_MESH))):
+        for sigma, table in (
+            (sigma1, slice(L.D_TABLE1, L.D_TABLE2)),
+            (sigma2, slice(L.D_TABLE2, L.D_MESH)),
+        ):
             at = math.log(sigma) / GRID
             first = math.floor(at) - POINTS // 2 + 1
             around = [self._at_grid(own, k) for k in range(first, first + POINTS)]
@@ -91,7 +94,5 @@ def _without_roughness(own: Array) -> Key:
 
 def _lagrange(x: float) -> Array:
     """Return the weights (POINTS,) of values at 0, 1, 2 .. for the value at ``x``."""
-    weights = [
-        math.prod((x - j) / (i - j) for j in range(POINTS) if j != i) for i in range(POINTS)
-    ]
+    weights = [math.prod((x - j) / (i - j) for j in range(POINTS) if j != i) for i in range(POINTS)]
     return np.array(weights)

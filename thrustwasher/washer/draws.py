@@ -30,7 +30,7 @@ from .kernels.constants import washer_model
 from .kernels.heat import far_rise, set_steady
 from .kernels.newton import FILM, LOAD, NO_FLOOR, film_ratio, newton, smooth_film
 from .kernels.outputs import outputs_at
-from .kernels.regime_and_status import point_of
+from .kernels.regime_and_status import LEAST_LOAD, point_of
 from .kernels.workspace import (
     Point,
     fields_of,
@@ -40,8 +40,9 @@ from .kernels.workspace import (
     workspace_of,
 )
 from .neighbours import Family, chain, spread
-from .parameters import WasherParams
-from .solve import GRIDS, check_far_face
+from .parameters import SPEC, WasherParams
+from .solve import GRIDS, check_far_face, solve_washer
+from .washer_result import INPUTS
 
 TOLERANCE = 1e-7  # of a solution: torque within 1e-6 of that of a single solve
 ROUGHLY, CLOSELY = 3e-4, 1e-5  # of places on the curve around a fold
@@ -322,7 +323,7 @@ def solve_draws(
     ----------
     params : of each draw; None: they break a rule
     inputs : (n, 5) of each draw, as the model has them
-    fidelity : "field" or "fine"
+    fidelity : of the washer's; "map" for draws of one washer, others take long with it
     above : the washer comes from heavy load, else from light load
 
     Notes
@@ -330,6 +331,8 @@ def solve_draws(
     A failed draw has a status from `errors.FIRST_FAILURE` on, and NaN. The film is lost on the
     contact branch; where the curve has no folds, below a film ratio of 3.
     """
+    if fidelity == "map":
+        return _looked_up(params, inputs, above=above)
     nodes, n = GRIDS[fidelity], len(params)
     rows, lost = np.full((n, SHOWN), np.nan), np.zeros(n, bool)
     status, numbers = np.full(n, Status.BAD_INPUT, np.int32), np.zeros((n, L.N_PARAM))
@@ -358,5 +361,29 @@ def solve_draws(
             benches[shape] = Bench(par, nodes, above=above)
         rows[i], status[i], lost[i] = benches[shape].solve(x[k], par, inputs[i].tolist())
     rows[status >= FIRST_FAILURE] = np.nan
-    solve_draws.alone = sum(b.alone for b in benches.values())
+    return rows, status, lost
+
+
+def _looked_up(
+    params: Sequence[WasherParams | None], inputs: Array, *, above: bool
+) -> tuple[Array, NDArray[np.int32], NDArray[np.bool_]]:
+    """Do the same by the map, or outside its box by the field."""
+    n, names = len(params), SPEC.real_outputs[:SHOWN]
+    rows, lost = np.full((n, SHOWN), np.nan), np.zeros(n, bool)
+    status = np.full(n, Status.BAD_INPUT, np.int32)
+    for i, (own, point) in enumerate(zip(params, inputs.tolist(), strict=True)):
+        if own is None:
+            continue
+        at = dict(zip(INPUTS, (max(point[0], LEAST_LOAD), *point[1:]), strict=True))
+        wanted: tuple[str | None, ...] = ("contact", None) if above else (None,)
+        try:
+            for branch in wanted:
+                found = solve_washer(own, **at, fidelity="map", branch=branch, throw=False)
+                if found.status is not Status.NO_BRANCH:
+                    break
+        except ParameterError:
+            continue
+        status[i], lost[i] = found.status, found.branch == "contact"
+        if not found.status.is_failure:
+            rows[i] = [getattr(found, name) for name in names]
     return rows, status, lost

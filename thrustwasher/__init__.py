@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from .ladder.choose import Choice, choose
     from .model.oil import Oil, oil
     from .model.part_file import PartFile, load_part
+    from .scatter.propagate import propagate
+    from .scatter.result import ScatterResult
     from .sweep.run_sweep import run_sweep
     from .sweep.sweep_table import SweepTable
     from .washer.follow import WasherCourse, follow_washer
@@ -36,6 +38,8 @@ _HOMES = {
     "calibration.model_fit": ("ModelCalibration", "calibrate"),
     "gearmesh.solve": ("GearMeshParams", "GearMeshResult", "solve_gearmesh"),
     "clutch.engagement": ("Engagement", "engage_clutch"),
+    "scatter.propagate": ("propagate",),
+    "scatter.result": ("ScatterResult",),
     "washer.solve": ("WasherParams", "WasherResult", "solve_washer"),
     "washer.follow": ("WasherCourse", "follow_washer"),
     "washer.load_curve": ("LoadCurve", "load_curve"),
@@ -56,6 +60,7 @@ __all__ = [
     "Oil",
     "ParameterError",
     "PartFile",
+    "ScatterResult",
     "SolveError",
     "Status",
     "SweepTable",
@@ -70,6 +75,7 @@ __all__ = [
     "load_curve",
     "load_part",
     "oil",
+    "propagate",
     "run_sweep",
     "solve_clutch",
     "solve_gearmesh",

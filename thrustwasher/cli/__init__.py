@@ -33,7 +33,18 @@ from ..model.registry import models_with_points
 MODELS = models_with_points()
 COMMANDS = (
     *(name for model in MODELS.values() for name in model.commands()),
-    *("part", "calibrate", "explore", "shift", "sweep", "chart", "build", "cards", "doctor"),
+    *(
+        "part",
+        "calibrate",
+        "explore",
+        "shift",
+        "sweep",
+        "scatter",
+        "chart",
+        "build",
+        "cards",
+        "doctor",
+    ),
 )
 DONE, DEFECT, WRONG_INPUT, NO_SOLUTION, PIPE_CLOSED = 0, 1, 2, 3, 141
 LONGEST = 2000  # characters of a message

@@ -190,8 +190,8 @@ def _say_sequence(result: Any) -> None:
 @contextmanager
 def _fmu_instances(scene: Any, target: str) -> Iterator[Callable[[str, Any], Any]]:
     """Give a function that makes an FMU instance of a part; all are freed in the end."""
-    from ..fmu.stepper import Instance
     from ..fmu.fmu_cache import fmu_paths
+    from ..fmu.stepper import Instance
 
     names = {part.spec.name for part in scene.parts.values()}
     paths = fmu_paths(names, target)

@@ -106,6 +106,10 @@ class Sweep:
     """From parameters, fidelity and inputs to a warning or ""."""
     least: Mapping[str, tuple[float, str]] = field(default_factory=dict)
     """Output -> value that it should not be below, and what it means there."""
+    draws: Callable[..., Any] | None = None
+    """Solves rows of which each has parameters of its own, on the branch that it is on when it
+    comes from light load (from heavy load with ``above``): called with (parameters of each row or
+    None, inputs, fidelity, above=), returns outputs, statuses, and whether the film is lost."""
 
 
 class Model(ABC):

@@ -11,11 +11,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
 from ..templates import policy_source, template
+from . import palette
 
 if TYPE_CHECKING:  # who wants the words alone waits for no drawing
     from matplotlib.figure import Figure
 
 WEB, PAGE = Path(__file__).with_name("web"), Path(__file__).with_name("page.html.jinja")
+
+_COLOURS = ("BLUE", "ORANGE", "GREEN", "RED", "SKY", "PURPLE", "BLACK", "GREY")
+INKS = {  # colours of drawings and those of ``page.css``
+    **{getattr(palette, name).lower(): name.lower() for name in _COLOURS},
+    **{"#ffffff": "paper", "#e3e3e3": "line", "#666666": "soft", "#444444": "soft"},
+}
 
 
 @dataclass(frozen=True)
@@ -23,7 +30,8 @@ class Plot:
     """A figure with the sentence below it; ``file`` is the stem of its file beside the page.
 
     One that is ``still`` stands for what scripts show: it is seen where none run. A bitmap may be
-    given as the content of its file.
+    given as the content of its file. ``tiles`` stand beside each other where there is room, so many
+    in a row; they fit on a telephone, and their colours are those of the page.
     """
 
     file: str
@@ -31,6 +39,7 @@ class Plot:
     caption: str
     bitmap: bool = False  # many long lines are smaller as a picture than as a drawing
     still: bool = False
+    tiles: int = 0
 
     @property
     def name(self) -> str:
@@ -52,20 +61,25 @@ class Plot:
         from markupsafe import Markup
 
         if not self.bitmap:
-            return Markup(self.content.decode())
+            svg = self.content.decode()
+            return Markup(themed(svg) if self.tiles else svg)
         data = base64.b64encode(self.content).decode("ascii")
         return Markup('<img alt="{}" src="data:image/png;base64,{}">').format(self.caption, data)
 
 
 @dataclass(frozen=True)
 class Table:
-    """Rows of text; ``numbers`` are the columns set to the right."""
+    """Rows of text; ``numbers`` are the columns set to the right.
+
+    ``shades`` are shares 0 .. 1 that colour the cells of each row; None leaves one as it is.
+    """
 
     heads: Sequence[str]
     rows: Sequence[Sequence[str]]
     numbers: Sequence[int] = ()
     title: str = ""
     folded: bool = False
+    shades: Sequence[Sequence[float | None]] = ()
 
     @classmethod
     def of(
@@ -161,6 +175,13 @@ def _drawing(figure: "Figure", prefix: str) -> str:
     svg = svg[svg.index("<svg") :]
     svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
     return re.sub(r'(\bid="|url\(#|href="#)', rf"\g<1>{prefix}-", svg)
+
+
+def themed(svg: str) -> str:
+    """Return a drawing whose colours are those of the page, light or dark."""
+    return re.sub(
+        r"#[0-9a-f]{6}\b", lambda m: f"var(--{n})" if (n := INKS.get(m[0])) else m[0], svg
+    )
 
 
 def picture(figure: "Figure", dpi: int = 100) -> bytes:

@@ -1,0 +1,213 @@
+"""``thrustwasher scatter``: how sure the figures of a part or a gear shift are."""
+
+import argparse
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..errors import ParameterError
+from ..model.registry import models_with_points, spec_of
+from ..model.rungs import rung_named
+from ..storage.whole_files import new_folder
+from ..sweep.axes import places
+from . import _options, _output
+from ._options import option_name
+
+if TYPE_CHECKING:
+    from ..model.part_file import PartFile
+    from ..scatter.result import Band, ScatterResult
+
+HELP = "how sure figures are: the scatter of inputs through a part or a gear shift"
+FOLDER, PAGE = "scatter-report", "scatter.html"
+OPTIONS = {
+    "--runs N": "base points, rounded up to a power of two; default 1024, of a scene 256",
+    "--seed N": "of the sample; default 1",
+    "--outputs LIST": "figures and signals to keep, names with commas; default: all",
+    "--no-indices": "leave out what decides each figure (Sobol' indices): runs / (2 + sources)",
+    "--preset NAME": "of a model: named set of parameters, e.g. paper",
+    "--fidelity RUNG": "of a part: rung of its model, if not the part file's",
+    "--out DIR": f"folder for scatter.html and tables, default {FOLDER}; stopped, the same command "
+    "goes on",
+    "--scheduler ADDRESS": "Dask scheduler, e.g. tcp://10.0.0.1:8786, instead of processes",
+    "--json": "one JSON object instead of a table",
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options."""
+    models = ", ".join(models_with_points())
+    parser.add_argument(
+        "target", metavar="TARGET", help=f"a part file or a scene (.toml, built-in), {models}"
+    )
+    _options.add(parser, OPTIONS)
+    parser.set_defaults(out=FOLDER)
+    parser.add_argument("--indices", choices=["all"], help="all: of the costly figures too")
+    parser.add_argument(
+        "--reached",
+        choices=["below", "above"],
+        default="below",
+        help="where several solutions exist, the branch: as loaded up from light load (below, "
+        "default), or coming down (above)",
+    )
+    _options.add_workers(parser, "processes; default: one per core, 1: none")
+    inputs = parser.add_argument_group("inputs of a part, if not those of its [box]")
+    for name, units in _inputs().items():
+        inputs.add_argument(option_name(name), dest=name, metavar="QUANTITY", help=units)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Study the target, say what came out, write its files."""
+    if arguments.no_indices and arguments.indices:
+        raise ParameterError("--indices all: beside --no-indices, allowed: one of them")
+    runs, seed = (_whole(arguments, name) for name in ("runs", "seed"))
+    target, at = _target(arguments)
+    folder = _output.check_folder(arguments.out, "--out")
+
+    from ..scatter.propagate import propagate
+
+    with new_folder(folder):
+        result = propagate(
+            target,
+            runs=runs,
+            seed=1 if seed is None else seed,
+            outputs=_names(arguments.outputs),
+            indices=False if arguments.no_indices else arguments.indices or True,
+            reached=arguments.reached,
+            at=at,
+            workers=arguments.workers,
+            cluster=arguments.scheduler,
+            out=folder,
+            progress=_progress(),
+        )
+        _write(result, target, at, folder)
+    _output.warn(result.warnings)
+    if arguments.json:
+        _output.print_json({**result.as_dict(), "out": str(folder)})
+    else:
+        _say(result, folder)
+    return 0
+
+
+def _whole(arguments: argparse.Namespace, name: str) -> int | None:
+    """Return the whole number of an option."""
+    text = getattr(arguments, name)
+    if text is None:
+        return None
+    if not text.strip().isdecimal() or len(text) > 12:
+        raise ParameterError(f"--{name} {text}: allowed: a whole number")
+    return int(text)
+
+
+def _names(text: str | None) -> list[str] | None:
+    return None if text is None else [name.strip() for name in text.split(",") if name.strip()]
+
+
+def _target(arguments: argparse.Namespace) -> tuple[Any, dict[str, str] | None]:
+    """Return the part or scene and the inputs that are given."""
+    from ..model.part_file import PartFile
+    from ..scatter.propagate import part_or_scene
+
+    given = {n: getattr(arguments, n) for n in _inputs() if getattr(arguments, n) is not None}
+    if arguments.preset is not None:
+        return _options.solvable(arguments.target, arguments.preset), given
+    found = part_or_scene(arguments.target)
+    if isinstance(found, PartFile):
+        if arguments.fidelity is not None:
+            found = replace(found, fidelity=rung_named(found.spec, arguments.fidelity))
+        return found, given
+    of_a_part = (*given, *(["fidelity"] if arguments.fidelity else []))
+    if of_a_part:
+        raise ParameterError(f"{option_name(of_a_part[0])}: is for a part; a scene has its own")
+    return found, None
+
+
+def _inputs() -> dict[str, str]:
+    """Return the inputs of all models with the units that they have there."""
+    found: dict[str, dict[str, None]] = {}
+    for model in models_with_points():
+        for place in places(spec_of(model)).values():
+            if place.is_input:
+                found.setdefault(place.name, {})[f"{place.unit} ({model})"] = None
+    return {name: ", ".join(units) for name, units in found.items()}
+
+
+def _progress() -> Callable[[int, int], None]:
+    """Return what says how many runs there are, then how long they take, then shows them pass."""
+    show, began, first = _output.time_left("scatter:"), time.perf_counter(), -1
+    told = False
+
+    def progress(done: int, total: int) -> None:
+        nonlocal first, told
+        if first < 0:
+            first = done
+            kept = f", {done} of them done before" if done else ""
+            _output.note(f"scatter: {total} runs{kept}")
+        elif not told and done < total:
+            told = True
+            pace = (time.perf_counter() - began) / (done - first)
+            _output.note(f"scatter: about {pace * (total - done):.2g} s on one core")
+        show(done, total)
+
+    return progress
+
+
+def _write(result: "ScatterResult", target: Any, at: Any, folder: Path) -> None:
+    """Write the page, and the runs nearest to quantiles of its figures as files to open."""
+    from ..model.part_file import PartFile, part_text
+    from ..report.html import render
+    from ..report.scatter import scatter_page
+    from ..report.scatter.scatter_page import MOST_FIGURES, main_figures
+    from ..shift.scene.variation import scene_text
+
+    files: dict[str, dict[float, str]] = {}
+    with _output.whole_folder(folder) as draft:
+        for name in main_figures(result, MOST_FIGURES):
+            for level, values in result.nearest.get(name, {}).items():
+                if isinstance(target, PartFile):
+                    text = part_text(_drawn(target, at or {}, values))
+                else:
+                    text = scene_text(target, values)
+                file = f"{name}-{100.0 * level:02.0f}.toml"
+                (draft / file).write_text(text, encoding="utf-8")
+                files.setdefault(name, {})[level] = file
+        page = render(scatter_page(result, files))
+        (draft / PAGE).write_text(page, encoding="utf-8")
+
+
+def _drawn(part: "PartFile", at: dict[str, str], values: dict[str, Any]) -> "PartFile":
+    """Return a part as one draw has it: its parameters, and the inputs as its box."""
+    from ..scatter.propagate import inputs_of
+
+    params, inputs = part.varied(values)
+    box = {name: (x, x) for name, x in {**inputs_of(part, at), **inputs}.items()}
+    return replace(part, parameters=_output.parameters_of(params), box=box, scatter={})
+
+
+def _say(result: "ScatterResult", folder: Path) -> None:
+    """Print the bands, what decides them, probabilities, and where the files are."""
+    failed = sum(result.failed.values())
+    print(
+        f"{result.target}: {result.runs} base points, {result.solves} runs"
+        + (f", {failed} failed" if failed else "")
+    )
+    heads = ("figure", "nominal", "5 %", "50 %", "95 %", "decided by (total index)")
+    rows = [heads, *(_row(name, band) for name, band in result.figures.items())]
+    widths = [max(len(row[i]) for row in rows) for i in range(len(heads) - 1)]
+    for name, *numbers, decided in rows:
+        cells = (f"{x:>{w}}" for x, w in zip(numbers, widths[1:], strict=True))
+        print(f"  {name:<{widths[0]}}  {'  '.join(cells)}  {decided}".rstrip())
+    for name, p in result.probabilities.items():
+        print(f"  P({name}) = {p.value:.3g}, between {p.low:.2g} and {p.high:.2g}")
+    print(f"Report: {folder / PAGE}")
+
+
+def _row(name: str, band: "Band") -> tuple[str, ...]:
+    values = (band.nominal, *band.quantiles.values())
+    cells = (_output.shown(x, band.unit) if x == x else "-" for x in values)
+    ranked = sorted(
+        ((i.total, n) for n, i in band.indices.items() if i.total is not None), reverse=True
+    )
+    decided = ", ".join(f"{n} {total:.2f}" for total, n in ranked[:3] if total >= 0.01)
+    return (name, *cells, decided)

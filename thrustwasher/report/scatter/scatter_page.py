@@ -1,0 +1,239 @@
+"""The page of a study: bands first, then what decides them, then what all of it rests on."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from ...units import format_quantity as say
+from ..html import Card, Page, Plot, Section
+from . import scatter_plots as plots
+from . import scatter_tables as tables
+from .decides import INDEX, LEAST, RANK, chances, column, share_words, shares, verdict
+from .words import band_scale, band_words, between, joined, named, percent, title_of, varies
+
+MOST_FIGURES, MOST_CARDS, MOST_BANDS, MOST_OVER_TIME = 12, 6, 8, 4
+BAND_TEXT = (
+    "Shaded: 90 % of all runs are inside, instant by instant. Dashed: the nominal values of all "
+    "inputs, which need not be the middle."
+)
+DISTRIBUTION_TEXT = (
+    "How often which value came out. Thin lines: 5 and 95 %, thick: the median, dashed: the run at "
+    "the nominal values. The outermost 0.5 % are drawn at the ends."
+)
+DECIDED_TEXT = (
+    "Total Sobol' index: the share of a figure's variance that this input has to do with, alone or "
+    "with others; the indices of a figure may add up to more than 1. The line at a bar's end is the "
+    "95 % confidence interval."
+)
+RANK_TEXT = (
+    "Of figures without indices: the rank correlation of the sample (Spearman), which says how "
+    "steadily a figure rises (blue) or falls (purple) with an input. `--indices all` computes "
+    "indices of these too."
+)
+OVER_TIME_TEXT = (
+    "Which input decides a signal at which time. Nothing is drawn where the signal hardly scatters."
+)
+ERROR_TEXT = (
+    "Three errors that have nothing to do with each other, each relative to the nominal value, of "
+    "temperatures in kelvin: what the mesh or rung of the model errs by, how far a choice between "
+    "models moves the median, and how far the scatter of the inputs reaches. A finer mesh helps "
+    "where the first is the largest, and nowhere else."
+)
+SOURCES_TEXT = (
+    "What is called an estimate has no source beyond engineering practice: measure it first if it "
+    "decides much. What is not listed does not scatter."
+)
+Named = Callable[[str], str]
+
+
+def scatter_page(result: Any, files: tables.Files | None = None) -> Page:
+    """Return the page of a study.
+
+    Parameters
+    ----------
+    result : the study, a ``scatter.result.ScatterResult``
+    files : scene or part files of the runs nearest to quantiles, by figure and quantile, as the
+        page links them; None: there are none
+    """
+    chosen = main_figures(result, MOST_FIGURES)
+    return Page(
+        title=f"How sure: {result.target}",
+        subtitle=_subtitle(result),
+        summary=[*_verdicts(result, chosen), *_chance_text(result)],
+        warnings=list(result.warnings),
+        cards=_cards(result, chosen),
+        sections=[
+            *band_sections(result),
+            *_distribution_sections(result, chosen),
+            _figure_section(result),
+            *decided_sections(result, chosen),
+            *over_time_sections(result),
+            source_section(result),
+            error_section(result, chosen),
+            *_nearest_sections(result, chosen, files or {}),
+            Section("runs", "The runs", texts=_run_texts(result), tables=_failed(result)),
+        ],
+        footer="One file, readable offline. The same numbers: sample.csv, figures.csv and, of a "
+        "scene, series.csv beside this page, and thrustwasher scatter --json.",
+    )
+
+
+def main_figures(result: Any, most: int) -> list[str]:
+    """Return so many figures that scatter: first those with a usual range, in their own order."""
+    found = [name for name, band in result.figures.items() if varies(band)]
+    first = sorted(found, key=lambda name: result.figures[name].outside is None)[:most]
+    return [name for name in found if name in first]
+
+
+def _subtitle(result: Any) -> str:
+    kind = {"part": "Part", "scene": "Scene"}.get(result.kind, "Function")
+    runs = f"{len(result.sources)} inputs scatter, {result.runs} base points, {result.solves} runs"
+    return f"{kind} {result.target}, {runs}, made by thrustwasher"
+
+
+def _verdicts(result: Any, names: Sequence[str]) -> list[str]:
+    """Return what decides most, of the washers where there are some."""
+    washers = washer_figures(result)
+    return verdict(result, "the washers", washers) if washers else _first_decided(result, names)
+
+
+def washer_figures(result: Any) -> list[str]:
+    """Return the figures of a scene that say how its washers fare."""
+    return [name for name in result.figures if result.kind == "scene" and "washer" in name]
+
+
+def _first_decided(result: Any, names: Sequence[str]) -> list[str]:
+    """Return what decides the first figures."""
+    texts = []
+    for name in names[:3]:
+        if of := shares(result, name):
+            title, band = title_of(name, result.figures[name]), result.figures[name]
+            texts.append(f"{title}: {band_words(band)}, decided most by {share_words(of[0])}")
+    return [f"{'; '.join(texts)}."] if texts else []
+
+
+def _chance_text(result: Any) -> list[str]:
+    said = "; ".join(chances(result))
+    return [f"{said[0].upper()}{said[1:]}."] if said else []
+
+
+def _cards(result: Any, names: Sequence[str]) -> list[Card]:
+    cards = [
+        Card(f"probability: {named(name)}", percent(p.value), f"95 % confidence: {between(p)}")
+        for name, p in result.probabilities.items()
+    ]
+    for name in names[: max(MOST_CARDS - len(cards), 3)]:
+        band = result.figures[name]
+        note = f"5 .. 95 %; nominal {band_scale(band).words(band.nominal)}"
+        cards.append(Card(title_of(name, band), band_words(band), note))
+    return cards
+
+
+def band_sections(result: Any) -> list[Section]:
+    """Return the signals over time with their bands."""
+    tiles = [
+        Plot(f"band-{i}", plots.band_figure(name, series), f"{named(name)} over time", tiles=2)
+        for i, (name, series) in enumerate(result.series.items())
+        if i < MOST_BANDS and plots.is_there(series)
+    ]
+    return [Section("bands", "Over time", texts=[BAND_TEXT], plots=tiles)] if tiles else []
+
+
+def _distribution_sections(result: Any, names: Sequence[str]) -> list[Section]:
+    tiles = []
+    for i, name in enumerate(names):
+        if column(result.sample, name) is not None:
+            band = result.figures[name]
+            figure = plots.distribution_figure(result, name, title_of(name, band))
+            tiles.append(Plot(f"spread-{i}", figure, f"{band_words(band)}, 5 .. 95 %", tiles=3))
+    title = "What came out"
+    return [Section("spread", title, texts=[DISTRIBUTION_TEXT], plots=tiles)] if tiles else []
+
+
+def _figure_section(result: Any) -> Section:
+    chance = [tables.probability_table(result)] if result.probabilities else []
+    shown = [tables.figure_table(result), *chance, tables.confidence_table(result)]
+    return Section("figures", "Figures and their bands", tables=shown)
+
+
+def decided_sections(result: Any, names: Sequence[str], words: Named = joined) -> list[Section]:
+    """Return what decides each figure: the overview of all, bars of the chosen ones."""
+    found = {name: of for name in names if (of := shares(result, name))}
+    if not found:
+        return []
+    used = {of[0].by for of in found.values()}
+    texts = [text for by, text in ((INDEX, DECIDED_TEXT), (RANK, RANK_TEXT)) if by in used]
+    small = _small_sources(result)
+    texts += [f"Below 0.02 for every figure: {', '.join(small)}."] if small else []
+    matrix = tables.matrix_table(result, list(result.figures))
+    tiles = [
+        Plot(
+            f"decides-{i}",
+            plots.bar_figure(of, title_of(name, result.figures[name])),
+            f"decided most by {share_words(of[0], words)}",
+            tiles=3,
+        )
+        for i, (name, of) in enumerate(found.items())
+    ]
+    shown = [matrix] if matrix else []
+    return [Section("decides", "What decides it", texts=texts, plots=tiles, tables=shown)]
+
+
+def _small_sources(result: Any) -> list[str]:
+    """Return the sources that decide nothing of any figure with indices."""
+    all_shares = [s for name in result.figures for s in shares(result, name) if s.by == INDEX]
+    largest: dict[str, float] = {}
+    for share in all_shares:
+        largest[share.source] = max(largest.get(share.source, 0.0), share.value)
+    return [joined(source) for source, value in largest.items() if value < LEAST]
+
+
+def over_time_sections(result: Any) -> list[Section]:
+    """Return the indices of signals over time; torques first."""
+    known = {n: s for n, s in result.series.items() if s.indices and plots.is_there(s)}
+    ranked = sorted(known, key=lambda name: "torque" not in name)[:MOST_OVER_TIME]
+    tiles = [
+        Plot(f"over-time-{i}", figure, f"indices of {named(name)} over time", tiles=2)
+        for i, name in enumerate(ranked)
+        if (figure := plots.decided_over_time(name, known[name])) is not None
+    ]
+    title = "What decides it over time"
+    return [Section("over-time", title, texts=[OVER_TIME_TEXT], plots=tiles)] if tiles else []
+
+
+def source_section(result: Any) -> Section:
+    """Return what scatters, how, and what that rests on."""
+    return Section(
+        "sources", "What scatters", texts=[SOURCES_TEXT], tables=[tables.source_table(result)]
+    )
+
+
+def error_section(result: Any, names: Sequence[str]) -> Section:
+    """Return mesh, model and inputs side by side."""
+    table = tables.error_table(result, names)
+    return Section("errors", "Mesh, model, inputs", texts=[ERROR_TEXT], tables=[table])
+
+
+def _nearest_sections(
+    result: Any, names: Sequence[str], files: Mapping[str, Mapping[float, str]]
+) -> list[Section]:
+    found = tables.nearest_tables(result, names, files)
+    text = "The base runs nearest to the 5, 50 and 95 % quantile of a figure, with their inputs."
+    if files:
+        text += " Each is a file beside this page: thrustwasher shift --scene FILE runs it."
+    title = "Runs that stand for the band"
+    return [Section("nearest", title, texts=[text], tables=found)] if found else []
+
+
+def _run_texts(result: Any) -> list[str]:
+    side = "up from light load" if result.reached == "below" else "down from a high load"
+    return [
+        tables.share_of_failed(result),
+        f"Scrambled Sobol' points, seed {result.seed}: quantiles and probabilities are of "
+        f"{result.runs} base runs, indices of exchanges between them (Saltelli's design), "
+        "confidence of eight independent scrambles. Where several solutions exist, the branch is "
+        f"the one reached {side}. Took {say(result.wall_time, 's', digits=3)}.",
+    ]
+
+
+def _failed(result: Any) -> list[Any]:
+    return [tables.failed_table(result)] if result.failed else []

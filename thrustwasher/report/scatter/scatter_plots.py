@@ -1,0 +1,172 @@
+"""Plots of a study: bands over time, distributions, bars of what decides."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from .. import palette
+from ..style import styled
+from .decides import LEAST, RANK, Share, column
+from .words import HIGH, LOW, MIDDLE, Scale, band_scale, joined, named, scale_of, with_unit
+
+WIDE, NARROW = 4.6, 3.3  # inch of a tile, two and three in a row
+BARS = 6  # at most
+COLOURS = ("BLUE", "RED", "GREEN", "ORANGE", "PURPLE", "SKY")
+LETTERS = 46  # of a name above a bar
+DRAWN = 0.01  # of the greatest spread: below it indices over time say nothing
+LOST = "film_lost"
+
+
+def _tile(
+    width: float, height: float, *, left: float = 0.62, below: float = 0.3
+) -> tuple[Figure, Axes]:
+    figure = Figure(figsize=(width, height))
+    size = 1.0 - (left + 0.16) / width, 1.0 - (below + 0.32) / height
+    axis = figure.add_axes((left / width, below / height, *size))
+    return figure, axis
+
+
+def _title(axis: Axes, text: str, width: float) -> None:
+    """Write a title from the left edge of the tile, shortened to its width."""
+    most = int(14.5 * width)
+    words = text if len(text) <= most else f"{text[: most - 1].rstrip()}…"
+    axis.figure.text(0.06 / width, 0.985, words, va="top", fontsize=10, fontweight="bold")
+
+
+def series_scale(name: str, series: Any) -> Scale:
+    """Return the unit of a signal over time."""
+    return scale_of(series.unit, [float(np.nanmax(np.abs(v))) for v in _lines(series) if _any(v)])
+
+
+def _lines(series: Any) -> list[Any]:
+    return [series.nominal, series.quantiles[LOW], series.quantiles[HIGH]]
+
+
+def _any(values: Any) -> bool:
+    return bool(np.isfinite(values).any())
+
+
+def is_there(series: Any) -> bool:
+    """Return whether a signal has values and moves or scatters."""
+    return all(map(_any, _lines(series))) and any(
+        np.nanmax(v) > np.nanmin(v) for v in _lines(series)
+    )
+
+
+@styled
+def band_figure(name: str, series: Any, scale: Scale | None = None, title: str = "") -> Figure:
+    """Return a signal over time: nominal, median, the range from 5 to 95 % shaded."""
+    figure, axis = _tile(WIDE, 2.75, below=0.48)
+    scale = scale or series_scale(name, series)
+    time = series.time
+
+    def shown(values: Any) -> Any:
+        return (np.asarray(values, float) - scale.zero) / scale.size
+
+    low, high = shown(series.quantiles[LOW]), shown(series.quantiles[HIGH])
+    look: Any = {"color": palette.BLUE, "alpha": 0.25, "lw": 0}
+    axis.fill_between(time, low, high, label="5 .. 95 %", **look)
+    axis.plot(time, shown(series.quantiles[MIDDLE]), color=palette.BLUE, label="median")
+    axis.plot(time, shown(series.nominal), color=palette.ORANGE, ls="--", label="nominal")
+    if np.nanmin(low) > 0.0 and np.nanmax(high) > 100.0 * np.nanmin(low):
+        axis.set_yscale("log")
+        axis.yaxis.set_major_formatter("{x:g}")
+    axis.set_xlim(time[0], time[-1])
+    axis.set_xlabel("time [s]")
+    _title(axis, with_unit(title or named(name), scale), WIDE)
+    axis.legend(loc="best", handlelength=1.6)
+    return figure
+
+
+@styled
+def distribution_figure(result: Any, name: str, title: str) -> Figure:
+    """Return how often which values of a figure came out; those with the film lost apart."""
+    band = result.figures[name]
+    scale, values = band_scale(band), column(result.sample, name)
+    figure, axis = _tile(NARROW, 2.0, left=0.16)
+    assert values is not None
+    sound = np.isfinite(values)
+    lost = column(result.sample, LOST) if name != LOST else None
+    shown = (values - scale.zero) / scale.size
+    low, high = np.quantile(shown[sound], [0.005, 0.995])
+    logarithmic = low > 0.0 and high > 30.0 * low
+    ends = np.geomspace(low, high, 33) if logarithmic else np.linspace(low, high, 33)
+    if not high > low:
+        ends = np.linspace(low - 0.5, low + 0.5, 4)
+    kept, is_lost = np.clip(shown[sound], ends[0], ends[-1]), None if lost is None else lost[sound]
+    groups = [kept] if is_lost is None else [kept[is_lost < 0.5], kept[is_lost > 0.5]]
+    colours, names = [palette.BLUE, palette.RED], ["film kept", "film lost"]
+    colours, names = colours[: len(groups)], names[: len(groups)]
+    axis.hist(groups, ends.tolist(), stacked=True, color=colours, label=names, alpha=0.75)
+    if logarithmic:
+        axis.set_xscale("log")
+        axis.xaxis.set_major_formatter("{x:g}")
+    for level in (LOW, MIDDLE, HIGH):
+        at = (band.quantiles[level] - scale.zero) / scale.size
+        axis.axvline(at, color=palette.BLACK, lw=1.4 if level == MIDDLE else 0.9)
+    if np.isfinite(band.nominal):
+        at = (band.nominal - scale.zero) / scale.size
+        axis.axvline(at, color=palette.ORANGE, lw=1.8, ls="--")
+    axis.set_yticks([])
+    axis.spines["left"].set_visible(False)
+    if len(groups) > 1 and all(len(group) for group in groups):
+        axis.legend(loc="best", handlelength=1.0)
+    _title(axis, with_unit(title, scale), NARROW)
+    return figure
+
+
+@styled
+def bar_figure(found: Sequence[Share], title: str) -> Figure:
+    """Return the largest shares as bars with their confidence, the name above each."""
+    shown = [share for share in found if share.weight >= LEAST][:BARS] or list(found[:1])
+    figure = Figure(figsize=(NARROW, 0.64 + 0.36 * len(shown)))
+    tall = figure.get_figheight()
+    axis = figure.add_axes((0.16 / NARROW, 0.32 / tall, 1.0 - 0.32 / NARROW, 1.0 - 0.62 / tall))
+    by_rank = found[0].by == RANK
+    for row, share in enumerate(shown):
+        size = abs(share.value)
+        colour = palette.PURPLE if by_rank and share.value < 0.0 else palette.BLUE
+        half = min(share.half, 10.0)
+        bar: Any = {"ecolor": palette.BLACK, "error_kw": {"elinewidth": 1.0, "capsize": 2.0}}
+        axis.barh(row, size, 0.34, xerr=half, color=colour, alpha=0.85, **bar)
+        words = joined(share.source)
+        words = words if len(words) <= LETTERS else f"{words[: LETTERS - 1]}…"
+        axis.text(0.0, row - 0.24, words, ha="left", va="bottom", fontsize=8.5)
+    axis.set_ylim(len(shown) - 0.6, -0.85)
+    axis.set_xlim(0.0, max(1.0, *(min(abs(s.value) + s.half, 1.5) for s in shown)))
+    axis.set_yticks([])
+    axis.spines["left"].set_visible(False)
+    axis.grid(visible=False, axis="y")
+    _title(axis, title, NARROW)
+    return figure
+
+
+@styled
+def decided_over_time(name: str, series: Any, title: str = "") -> Figure | None:
+    """Return the total indices of a signal over time, of the sources that decide most.
+
+    Nothing is drawn where the spread is below DRAWN of its greatest; None where there is none.
+    """
+    low, high = series.quantiles[LOW], series.quantiles[HIGH]
+    spread = np.nan_to_num(np.asarray(high) - np.asarray(low))
+    seen = spread > DRAWN * spread.max()
+    if not seen.any():
+        return None
+    figure, axis = _tile(WIDE, 2.75, left=0.45, below=0.48)
+    weights = {
+        source: float(np.nansum(np.where(seen, np.clip(values, 0.0, 1.0), 0.0)))
+        for source, values in series.indices.items()
+    }
+    ranked = sorted(weights, key=lambda source: -weights[source])[: len(COLOURS)]
+    for source, colour in zip(ranked, COLOURS, strict=False):
+        values = np.where(seen, np.asarray(series.indices[source], float), np.nan)
+        axis.plot(series.time, values, color=getattr(palette, colour), label=joined(source))
+    axis.set_xlim(series.time[0], series.time[-1])
+    axis.set_ylim(0.0, 1.05)
+    axis.set_xlabel("time [s]")
+    axis.legend(loc="upper right", fontsize=7.5, handlelength=1.4)
+    _title(axis, f"{title or named(name)}: total indices", WIDE)
+    return figure

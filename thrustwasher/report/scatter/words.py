@@ -1,0 +1,140 @@
+"""Figures, bands and probabilities as a person reads them."""
+
+import math
+import re
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+from ...units import display_unit, format_quantity
+from ..palette import CELSIUS
+
+NONE = "\N{EN DASH}"
+LOW, MIDDLE, HIGH = 0.05, 0.5, 0.95
+LEVELS = {LOW: "5 %", MIDDLE: "50 %", HIGH: "95 %"}
+
+
+class Scale(NamedTuple):
+    """The unit in which a figure's values are shown: its name, its size and zero [SI]."""
+
+    unit: str
+    size: float = 1.0
+    zero: float = 0.0
+
+    def number(self, value: float | None, digits: int = 3) -> str:
+        """Return a value without its unit."""
+        if value is None or not math.isfinite(value):
+            return NONE
+        return plain((value - self.zero) / self.size, digits)
+
+    def words(self, value: float | None) -> str:
+        """Return a value with its unit."""
+        return self._with_unit(self.number(value))
+
+    def span(self, low: float | None, high: float | None) -> str:
+        """Return a range with its unit; one without an end is open."""
+        if low is None or not math.isfinite(low):
+            return self._with_unit(f"up to {self.number(high)}")
+        if high is None or not math.isfinite(high):
+            return self._with_unit(f"{self.number(low)} or more")
+        return self._with_unit(f"{self.number(low)} .. {self.number(high)}")
+
+    def _with_unit(self, text: str) -> str:
+        return f"{text} {self.unit}".strip()
+
+
+def plain(value: float, digits: int = 3) -> str:
+    """Return significant digits, with an exponent for tiny and huge numbers only."""
+    text = f"{float(f'{value:.{digits}g}'):.12g}"
+    if value and not 1e-4 <= abs(value) < 1e7:
+        text = f"{value:.{digits - 1}e}"
+    return text.replace("-", "\N{MINUS SIGN}")
+
+
+def scale_of(unit: str, values: Iterable[float | None], *, relative: bool = False) -> Scale:
+    """Return the unit for values as large as these [SI]."""
+    if unit == "K" and not relative:
+        return Scale("°C", 1.0, CELSIUS)
+    largest = max((abs(v) for v in values if v is not None and math.isfinite(v)), default=0.0)
+    shown, size = display_unit(largest, unit)
+    return Scale("" if shown == "1" else shown, size)
+
+
+def band_scale(band: Any) -> Scale:
+    """Return the unit of a figure's values."""
+    values = (band.nominal, *band.quantiles.values())
+    return scale_of(band.unit, values, relative=getattr(band, "relative", False))
+
+
+def named(name: str) -> str:
+    """Return a name as words: "clutch.friction_scale" is clutch: friction scale."""
+    part, _, own = name.rpartition(".")
+    words = own.replace("_", " ")
+    if own.isdecimal():  # a point of a list counts from zero
+        return f"{named(part)}, no. {int(own) + 1}"
+    return f"{part.replace('_', ' ').replace('.', ' ')}: {words}" if part else words
+
+
+def joined(name: str) -> str:
+    """Return the name of a source or of correlated ones as words."""
+    return " + ".join(map(named, name.split(" + ")))
+
+
+def spoken(help: str) -> str:
+    """Return what a figure is without what stands in brackets and after a semicolon."""
+    return re.sub(r"\s*\([^()]*\)", "", help.split(";")[0]).strip()
+
+
+def title_of(name: str, band: Any) -> str:
+    """Return what a figure is, its name where nothing says it."""
+    return spoken(band.help) or named(name)
+
+
+def with_unit(title: str, scale: Scale) -> str:
+    """Return a title with the unit of what it names."""
+    return f"{title} [{scale.unit}]" if scale.unit else title
+
+
+def percent(share: float) -> str:
+    """Return a share, never rounded to a certainty that it is not."""
+    if not math.isfinite(share):
+        return NONE
+    if 0.0 < share < 0.001:
+        return "below 0.1 %"
+    if 0.999 < share < 1.0:
+        return "above 99.9 %"
+    return f"{100.0 * share:.3g} %"
+
+
+def probability(p: Any) -> str:
+    """Return a probability with its confidence interval."""
+    if p is None or not math.isfinite(p.value):
+        return NONE
+    return f"{percent(p.value)} ({between(p)})"
+
+
+def between(p: Any) -> str:
+    """Return the confidence interval of a probability."""
+    return f"{100.0 * p.low:.2g} .. {100.0 * p.high:.3g} %"
+
+
+def value_words(value: Any, unit: str) -> str:
+    """Return a source's value: a quantity, a word, yes or no."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, int | float):
+        if not math.isfinite(value):
+            return NONE
+        return format_quantity(float(value), unit or "1", digits=4).removesuffix(" 1")
+    return str(value)
+
+
+def band_words(band: Any) -> str:
+    """Return the range from the 5 to the 95 % quantile."""
+    return band_scale(band).span(band.quantiles.get(LOW), band.quantiles.get(HIGH))
+
+
+def varies(band: Any) -> bool:
+    """Return whether a figure is there and scatters."""
+    low, high = band.quantiles.get(LOW), band.quantiles.get(HIGH)
+    known = low is not None and high is not None and math.isfinite(low) and math.isfinite(high)
+    return known and (high > low or band.standard_deviation > 0.0)

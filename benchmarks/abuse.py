@@ -32,7 +32,7 @@ import calls
 import damage
 import files
 
-from thrustwasher.cli._fmu_cache import fmu_paths
+from thrustwasher.fmu.fmu_cache import fmu_paths
 from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.fmu.build import build
 from thrustwasher.fmu.description.interface import interface

@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from thrustwasher.cli._fmu_cache import fmu_paths
+from thrustwasher.fmu.fmu_cache import fmu_paths
 from thrustwasher.fmu.stepper import Instance
 from thrustwasher.shift import Scene, ShiftResult, load_scene, run_auto, with_fidelities
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import needed
 from filelock import FileLock
 
-from thrustwasher.cli._fmu_cache import fmu_paths, source_digest
+from thrustwasher.fmu.fmu_cache import fmu_paths, source_digest
 from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.fmu.build import build
 from thrustwasher.fmu.running.loading import prune

@@ -5,8 +5,9 @@ import zipfile
 import needed
 import pytest
 
-from thrustwasher.cli import _fmu_cache, main
+from thrustwasher.cli import main
 from thrustwasher.errors import EnvironmentProblem
+from thrustwasher.fmu import fmu_cache
 from thrustwasher.native import link, shipped
 
 PART = "CommandSource"
@@ -41,10 +42,10 @@ def linker():
 
 
 def test_the_second_call_builds_nothing(cache, linker, capsys):
-    first = _fmu_cache.fmu_paths([PART], "native")
+    first = fmu_cache.fmu_paths([PART], "native")
     assert f"built {PART} in" in capsys.readouterr().err
     changed = first[PART].stat().st_mtime_ns
-    assert _fmu_cache.fmu_paths([PART], "native") == first
+    assert fmu_cache.fmu_paths([PART], "native") == first
     assert first[PART].stat().st_mtime_ns == changed
     assert capsys.readouterr() == ("", "")
     names = zipfile.ZipFile(first[PART]).namelist()
@@ -64,16 +65,16 @@ def test_what_was_edited_takes_a_compiler_and_that_is_said(edited, no_linker, tm
     assert main(["build", PART, "--out", str(tmp_path)]) == 2
     assert capsys.readouterr().err.endswith("pip install something\n")
     with pytest.raises(EnvironmentProblem, match="pip install"):
-        _fmu_cache.fmu_paths([PART], "native")
+        fmu_cache.fmu_paths([PART], "native")
 
 
 @pytest.mark.parametrize("changed", ["tools", "local_level"])
 def test_another_compiler_or_processor_is_another_version(changed, edited, linker, monkeypatch):
-    before = _fmu_cache.source_digest("native"), _fmu_cache.source_digest("python")
+    before = fmu_cache.source_digest("native"), fmu_cache.source_digest("python")
     monkeypatch.setattr(
         f"thrustwasher.fmu.shell.platform_libraries.{changed}", lambda given: "other"
     )
-    after = _fmu_cache.source_digest("native"), _fmu_cache.source_digest("python")
+    after = fmu_cache.source_digest("native"), fmu_cache.source_digest("python")
     assert after[0] != before[0] and after[1] == before[1]
 
 
@@ -83,14 +84,14 @@ def test_any_source_counts(tmp_path, monkeypatch):
     seen = set()
     for name in ("model.toml", "readme.md", "shell/lifecycle.c", "shell/shell.h"):
         (tmp_path / name).write_text("x")
-        seen.add(_fmu_cache.source_digest("python"))
+        seen.add(fmu_cache.source_digest("python"))
     (tmp_path / "shell/lifecycle.c").write_text("y")
-    seen.add(_fmu_cache.source_digest("python"))
+    seen.add(fmu_cache.source_digest("python"))
     assert len(seen) == 5
 
 
 def test_a_new_map_is_another_version(tmp_path, monkeypatch):
-    before = _fmu_cache.source_digest("python")
+    before = fmu_cache.source_digest("python")
     (tmp_path / "mine.twm").write_bytes(b"a map")
     monkeypatch.setenv("THRUSTWASHER_MAPS", str(tmp_path))
-    assert _fmu_cache.source_digest("python") != before
+    assert fmu_cache.source_digest("python") != before

@@ -9,7 +9,6 @@ A command that solves a model at one point is no file: ``_solve`` makes it from 
 ``_options``    options made from a model's inputs and parameters
 ``_table``      columns of a CSV file, found by their names
 ``_output``     JSON, tables, progress, files that are written whole or not at all
-``_fmu_cache``  FMUs built when needed, for ``shift``
 ==============  ==================================================================
 """
 
@@ -34,7 +33,18 @@ from ..model.registry import models_with_points
 MODELS = models_with_points()
 COMMANDS = (
     *(name for model in MODELS.values() for name in model.commands()),
-    *("part", "calibrate", "explore", "shift", "sweep", "scatter", "chart", "build", "cards", "doctor"),
+    *(
+        "part",
+        "calibrate",
+        "explore",
+        "shift",
+        "sweep",
+        "scatter",
+        "chart",
+        "build",
+        "cards",
+        "doctor",
+    ),
 )
 DONE, DEFECT, WRONG_INPUT, NO_SOLUTION, PIPE_CLOSED = 0, 1, 2, 3, 141
 LONGEST = 2000  # characters of a message

@@ -11,6 +11,7 @@ from ..errors import ParameterError
 from ..model.registry import models_with_points, spec_of
 from ..model.rungs import rung_named
 from ..sweep.axes import places
+from ..storage.whole_files import new_folder
 from . import _options, _output
 from ._options import option_name
 
@@ -65,7 +66,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     from ..scatter.propagate import propagate
 
-    with _output.new_folder(folder):
+    with new_folder(folder):
         result = propagate(
             target,
             runs=runs,

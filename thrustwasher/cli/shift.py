@@ -191,7 +191,7 @@ def _say_sequence(result: Any) -> None:
 def _fmu_instances(scene: Any, target: str) -> Iterator[Callable[[str, Any], Any]]:
     """Give a function that makes an FMU instance of a part; all are freed in the end."""
     from ..fmu.stepper import Instance
-    from ._fmu_cache import fmu_paths
+    from ..fmu.fmu_cache import fmu_paths
 
     names = {part.spec.name for part in scene.parts.values()}
     paths = fmu_paths(names, target)

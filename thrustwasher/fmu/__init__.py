@@ -5,6 +5,7 @@
 ``description``    the model description
 ``diagnosis``      what works on this machine, and why not
 ``documentation``  the page inside an FMU
+``fmu_cache``      FMUs built when needed, in the user's cache
 ``model_kernels``  the kernels of a model, and the digest that ties an FMU to this package
 ``package``        the files inside an FMU and their sources
 ``python``         FMUs that run in Python

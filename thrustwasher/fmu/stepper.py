@@ -187,9 +187,11 @@ class Instance(Stepped):
         """Return a handle of the state in bytes of ``serialize``."""
         return self._call(self._fmu.deserializeFMUState, data)
 
-    def reset(self) -> None:
-        """Go back to the start values and the parameters given at construction."""
+    def reset(self, parameters: Mapping[str, Any] | None = None) -> None:
+        """Go back to the start values and the parameters given last; to others from now on."""
         self._call(self._fmu.reset)
+        if parameters is not None:
+            self._parameters = self._filled(parameters, "parameter")
         self._put(self._parameters)
 
     def close(self) -> None:

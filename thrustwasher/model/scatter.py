@@ -180,11 +180,10 @@ class Scatter:
         from scipy.special import ndtr, ndtri
 
         u = np.clip(np.asarray(u, float), LEAST_U, 1.0 - LEAST_U)
-        factor = np.linalg.cholesky(self.correlation) if self.pairs else None
-        for group in self.groups if factor is not None else ():
+        for group in self.groups:
             if len(group) > 1:
-                z = ndtri(u[:, group]) @ factor[np.ix_(group, group)].T  # type: ignore[index]
-                u[:, group] = ndtr(z)
+                own = np.linalg.cholesky(self.correlation[np.ix_(group, group)])
+                u[:, group] = ndtr(np.einsum("nj,ij->ni", ndtri(u[:, group]), own))
         columns = [
             np.asarray(s.law.value(c), object) for s, c in zip(self.sources, u.T, strict=True)
         ]

@@ -29,6 +29,7 @@ class FunctionTarget:
     series: tuple[str, ...] = ()
     time: Array = field(default_factory=lambda: np.empty(0))
     costly: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
     reasons: tuple[str, ...] = tuple(FAILURES.values())
 
     @property

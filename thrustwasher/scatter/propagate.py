@@ -134,7 +134,8 @@ def study_of(
     """Return the study of a target, and what is to be known of it before it starts."""
     wanted = RUNS[target.kind] if runs is None else runs
     n = rounded_runs(wanted)
-    warnings = [f"runs = {wanted}: rounded up to {n}, a power of two"] if n != wanted else []
+    warnings = list(target.warnings)
+    warnings += [f"runs = {wanted}: rounded up to {n}, a power of two"] if n != wanted else []
     costly = indices == "all" and bool(target.costly)
     scatter = target.scatter
     groups = [
@@ -171,7 +172,7 @@ def target_of(
         return of_part
     if at:
         raise ParameterError("at: is of a part's inputs; a scene has its own")
-    from ..shift.scene.scene_scatter import scene_scatter
+    from ..shift.scene.places import scene_scatter
     from .scene_target import scene_target
 
     drawn = scene_scatter(target, scatter)

@@ -70,6 +70,10 @@ class Target(Protocol):
     def reasons(self) -> tuple[str, ...]:
         """Why a run failed, by its code less one."""
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What must not be missed of it, a line each."""
+
     def touches(self, source: str) -> bool:
         """Tell if any figure but the costly ones depends on a source."""
 

@@ -64,7 +64,7 @@ def run_shift(
     made_for, scene = scene, scene.with_options(step=step, master=master)
     messages, found = _remarks(scene), _of_other_masters(made_for, scene)
     system = connected(scene, instances)
-    run = _laid_out(scene, system, messages)
+    run = laid_out(scene, system, messages)
     system.initialize(scene.start_time)
     check_instances(made_for, instances)
     before = {n: (part.instance.calls, part.instance.wall_time) for n, part in system.parts.items()}
@@ -87,7 +87,7 @@ def run_shift(
     return guarded(result, reset(instances), partial(run_shift, compiled=compiled))
 
 
-def _laid_out(scene: Scene, system: System, messages: list[str]) -> Run:
+def laid_out(scene: Scene, system: System, messages: list[str]) -> Run:
     """Return times, commands, schedule and rows of a run; say it if the step had to be adapted."""
     span = scene.stop_time - scene.start_time
     n = max(1, ceil(span / scene.step - 1e-9))  # none is longer than asked for

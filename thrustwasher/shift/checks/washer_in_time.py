@@ -171,7 +171,11 @@ def _instants(time: Array, inputs: Array, steady: Array) -> list[int]:
     columns[:, -2] = np.minimum(columns[:, -2], THIN)
     ranges = np.ptp(columns, axis=0)
     ranges[-1] = max(ranges[-1], WARMER / CLOSE)
-    columns = columns / np.where(ranges > 0.0, ranges, 1.0)
+    return between_lines(time, columns / np.where(ranges > 0.0, ranges, 1.0), CLOSE)
+
+
+def between_lines(time: Array, columns: Array, close: float) -> list[int]:
+    """Return points between which straight lines are nowhere more than ``close`` off."""
     kept, open_ = {0, len(time) - 1}, [(0, len(time) - 1)]
     while open_:
         a, b = open_.pop()
@@ -181,7 +185,7 @@ def _instants(time: Array, inputs: Array, steady: Array) -> list[int]:
         line = columns[a] + share * (columns[b] - columns[a])
         off = np.abs(columns[a + 1 : b] - line).max(axis=1)
         middle = a + 1 + int(off.argmax())
-        if off[middle - a - 1] > CLOSE:
+        if off[middle - a - 1] > close:
             kept.add(middle)
             open_ += [(a, middle), (middle, b)]
     return sorted(kept)

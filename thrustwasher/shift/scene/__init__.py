@@ -5,6 +5,8 @@
 ``scene_file``       TOML file -> ``Scene``; the built-in ones lie in ``../scenes``
 ``scene_tables``     numbers with their units; engine, vehicle, pressures, thrust bearings
 ``doubts``           what a scene says that is hardly meant
+``places``           what can scatter, by the path of its value
+``variation``        a scene with other values at some paths, and the text of its file
 ``sequence``         several shifts in one run, each as a scene
 ``connections``      which parts there are, of which models, and who passes what to whom
 ===================  ==============================================================================

@@ -1,6 +1,6 @@
 """What is simulated: the parts of a shift with their parameters, times, oil and master."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from itertools import pairwise
 from typing import Any
@@ -34,6 +34,8 @@ class Part:
     """Asked for with fidelity "auto": the rung is still to be chosen; None: it is as it stands."""
     labels: dict[str, Any] = field(default_factory=dict, compare=False)
     """Name, notes and box of its part file, as packages show them."""
+    scatter: Mapping[str, Any] = field(default_factory=dict, compare=False)
+    """What scatters by its part file or preset: a law by the parameter's name."""
     asked: str = field(default="", compare=False)
     """Name by which the rung was asked for; it may be that of one that is gone."""
 
@@ -104,6 +106,12 @@ class Scene:
     """What is doubtful in the scene itself, one line each."""
     sequence: ShiftSequence | None = None
     """Several shifts in one run; None: the one that the scene's own ramp or profiles make."""
+    scatter: Mapping[str, Any] = field(default_factory=dict, compare=False)
+    """What is known within bounds only: a law by the path of its value, as the file gives it."""
+    source: str = field(default="", compare=False)
+    """Name of a built-in scene, or the path of the file."""
+    table: Mapping[str, Any] = field(default_factory=dict, compare=False)
+    """The tables of the file and its bases, merged."""
 
     def command(self, time: float) -> float:
         """Return the shift command: a ramp between two values."""

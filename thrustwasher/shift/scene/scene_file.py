@@ -16,6 +16,7 @@ from ...model.oil import (
     SHEET,
     VISCOSITY,
     Oil,
+    law_of,
     oil_table,
     read_oil,
     too_stiff,
@@ -23,34 +24,31 @@ from ...model.oil import (
 )
 from ...model.oil_laws import ZERO
 from ...model.parameters import earlier_of, other_names_of, plainly_named
-from ...model.part_file import load_part, preset_part
+from ...model.part_file import PartFile, load_part, preset_part
+from ...model.scatter import CORRELATION
 from ...model.spec import ModelSpec
 from ...model.toml_tables import nothing_else, number, parse, quantity, read_file, read_value
 from ..key_figures.figure_list import FIGURES
 from ..masters.master import FIXED_STEPS
 from .connections import MESHES, PARTS, REQUIRED
 from .doubts import doubts
-from .scene import STEP_RANGE, Part, Published, Scene, shift_of_pressures
-from .scene_tables import BEARING_TABLES, driveline_table, vehicle_of
+from .places import lines_of, of_parts, scene_scatter
+from .scene import Part, Published, Scene, shift_of_pressures
+from .scene_tables import (
+    BEARING_TABLES,
+    NUMBERS,
+    RESERVED,
+    SHIFT,
+    driveline_table,
+    factor_of,
+    vehicle_of,
+)
 from .sequence import checked_sequence, read_sequence
 
-# Key -> (unit, least, largest); texts have no unit.
 TEXTS = ("title", "description", "base", "master", "fidelity")
-NUMBERS = {
-    "start_time": ("s", -1e6, 1e6),
-    "stop_time": ("s", -1e6, 1e6),
-    "step": ("s", *STEP_RANGE),
-    "oil_temperature": ("K", 233.15, 473.15),
-}
 ONE_OIL = 1.2  # ratio of viscosities up to which parts count as having one oil
 LEAST_TEETH = 5  # of sun and planet: fewer make no gear
 ROLE = ("starts_pressed",)  # what a scene, not a part file, says of a part
-SHIFT = {
-    "start": ("s", -1e6, 1e6),
-    "duration": ("s", 0.0, 1e3),
-    "from": ("1", 0.0, 1.0),
-    "to": ("1", 0.0, 1.0),
-}
 TABLES = (
     "shift",
     "sequence",
@@ -59,6 +57,7 @@ TABLES = (
     "engine",
     "vehicle",
     "pressure",
+    "scatter",
     *BEARING_TABLES,
     *PARTS,
 )
@@ -77,17 +76,19 @@ def _folder() -> Traversable:
 def load_scene(name_or_path: str | Path, oil: str | Mapping[str, Any] | None = None) -> Scene:
     """Return a built-in scene by name, or the scene of a TOML file; with another ``oil``."""
     name = str(name_or_path)
-    table = _read(name, {} if oil is None else {"oil": oil_table("oil", oil)})
+    table = merged_tables(name, {} if oil is None else {"oil": oil_table("oil", oil)})
     if oil is not None:
         table.pop("published", None)  # figures of the scene's own oil
-    own = name.endswith(".toml")
-    return _scene(Path(name).stem if own else name, table, own)
+    scene = scene_of(name, table)
+    if scene.scatter:
+        scene_scatter(scene)
+    return scene
 
 
-def _read(name: str, top: dict[str, Any]) -> dict[str, Any]:
+def merged_tables(name: str, top: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """Return the merged tables of a scene and its bases; ``top`` replaces what they say."""
     seen: list[str] = []
-    merged = top
+    merged = dict(top or {})
     while name or not seen:
         if name in seen:
             raise ParameterError(f"scene {name!r}: its bases go round in a circle")
@@ -118,6 +119,8 @@ def _parse(name: str) -> dict[str, Any]:
         raise ParameterError(f"scene {name!r}: master_tolerance: {FIXED_STEPS}")
     if isinstance(table.get("oil"), str):
         table["oil"] = oil_table("oil", table["oil"])
+    if isinstance(table.get("scatter"), dict):
+        table["scatter"] = dict(lines_of(table["scatter"]))
     for part, spec in PARTS.items():
         if isinstance(table.get(part), dict):
             with within(f"scene {name!r} [{part}]"):
@@ -149,11 +152,17 @@ def _overlay(base: dict[str, Any], top: dict[str, Any]) -> dict[str, Any]:
     for key, value in top.items():
         both = isinstance(value, dict) and isinstance(result.get(key), dict)
         both = both and key != "published"  # figures of one source stay together
-        result[key] = _overlay(result[key], value) if both else value
+        if both and key == "scatter":
+            result[key] = result[key] | value  # a law is given whole
+        else:
+            result[key] = _overlay(result[key], value) if both else value
     return result
 
 
-def _scene(name: str, table: dict[str, Any], own: bool) -> Scene:
+def scene_of(source: str, table: dict[str, Any]) -> Scene:
+    """Return the scene of merged tables; ``source``: its name, or the path of its file."""
+    own = source.endswith(".toml")
+    name = Path(source).stem if own else source
     where = f"scene {name!r}"
     nothing_else(where, table, [*TEXTS, *NUMBERS, *TABLES])
     for key, value in table.items():
@@ -170,9 +179,11 @@ def _scene(name: str, table: dict[str, Any], own: bool) -> Scene:
     numbers: dict[str, Any] = {"start_time": 0.0, "step": 1e-3, "oil_temperature": 297.15}
     numbers |= {k: number(where, k, table[k], NUMBERS[k]) for k in NUMBERS if k in table}
     vehicle = vehicle_of(f"{where} [vehicle]", table.get("vehicle"))
+    merged, the_oil = table, dict(table.get("oil", {}))
     table = {**table, "transmission": driveline_table(where, table, vehicle)}
-    given = read_oil(f"{where} [oil]", table.get("oil", {}))
-    parts, notes = _parts(where, table, given or Oil(), numbers["oil_temperature"])
+    factor = factor_of(f"{where} [oil]", "viscosity_scale", the_oil)
+    given = read_oil(f"{where} [oil]", the_oil)
+    parts, notes = _parts(where, table, given or Oil(), numbers["oil_temperature"], factor)
     notes += _without_what_is_not_there(f"{where} [transmission]", parts)
     if "washer" in parts and "mesh" not in parts:
         if parts["washer"].params.gear_far_face == "bulk":
@@ -189,6 +200,9 @@ def _scene(name: str, table: dict[str, Any], own: bool) -> Scene:
         vehicle=vehicle,
         sequence=None,
         notes=tuple(notes),
+        source=source,
+        table=merged,
+        scatter={**of_parts(parts), **merged.get("scatter", {})},
         warnings=tuple(_oil_warnings(given, parts, numbers["oil_temperature"], own)),
         published=_published(f"{where} [published]", table.get("published")),
         **(
@@ -206,9 +220,12 @@ def _scene(name: str, table: dict[str, Any], own: bool) -> Scene:
 
 
 def _parts(
-    where: str, table: dict[str, Any], the_oil: Oil, temperature: float
+    where: str, table: dict[str, Any], the_oil: Oil, temperature: float, factor: float
 ) -> tuple[dict[str, Part], list[str]]:
-    """Return the parts of a scene, and what is to be known of their oil."""
+    """Return the parts of a scene, and what is to be known of their oil.
+
+    The viscosity of every part's oil is multiplied by ``factor``.
+    """
     parts: dict[str, Part] = {}
     notes = []
     for key in PARTS:
@@ -226,7 +243,8 @@ def _parts(
             usual: dict[str, Any] = {}
             if key in MESHES:  # with how many gears a planet meshes, and sun or ring
                 usual = {"mates_pinion": 2, "mates_gear": parts["transmission"].params.planets}
-            parts[key], lost = _part(f"{where} [{key}]", PARTS[key], given, common, usual)
+            part, lost = _part(f"{where} [{key}]", PARTS[key], given, common, usual)
+            parts[key] = _with_viscosity(f"{where} [oil]", part, factor)
             if lost:
                 notes.append(
                     f"{key}: {', '.join(lost)} of its part or preset give way to "
@@ -235,6 +253,15 @@ def _parts(
     if the_oil.density_15:
         notes.append(the_oil.words(*_specs(parts)))
     return parts, notes
+
+
+def _with_viscosity(where: str, part: Part, factor: float) -> Part:
+    """Return a part with the viscosity of its oil multiplied by a factor."""
+    if factor == 1.0 or not law_of(part.spec):
+        return part
+    with within(where):
+        scale = factor * part.params.viscosity_scale
+        return replace(part, params=replace(part.params, viscosity_scale=scale))
 
 
 def _without_what_is_not_there(where: str, parts: dict[str, Part]) -> list[str]:
@@ -307,14 +334,6 @@ def _published(where: str, table: dict[str, Any] | None) -> Published | None:
     return Published(source=source, figures=figures)
 
 
-RESERVED = {
-    "oil_temperature": "the scene's own oil_temperature sets it for all parts",
-    "torque_age": "the choice of master sets it",
-    "ring_mesh": "a table [ring_mesh] sets it",
-    "input_course": "in a shift it is linear, as the transmission expects",
-}
-
-
 def _part(
     where: str,
     spec: ModelSpec,
@@ -330,7 +349,8 @@ def _part(
     earlier = earlier_of(spec.params)
     given = dict(table)
     with within(where):
-        values, rung, labels = _start(spec, given.pop("part", None), given.pop("preset", None))
+        start = _start(spec, given.pop("part", None), given.pop("preset", None))
+    values, rung = ({}, spec.default_fidelity) if start is None else _values(start)
     own = {k: x for k, x in values.items() if x != getattr(spec.params(), k)}
     lost = [k for k, x in common.items() if k not in given and own.get(k, x) != x]
     values = usual | values | common
@@ -343,18 +363,38 @@ def _part(
         values[key] = read_value(where, key, value, known[key])
     with within(where):
         params = spec.params(**values)
-    part = Part(spec=spec, fidelity=spec.default_fidelity, params=params, labels=labels)
+    part = Part(
+        spec=spec,
+        fidelity=spec.default_fidelity,
+        params=params,
+        labels=start.about if start and "part" in table else {},
+        scatter=_own_scatter(start, {*known} - {*given, *common}) if start else {},
+    )
     return part.asked_for(where, rung), lost
 
 
-def _start(spec: ModelSpec, file: Any, preset: Any) -> tuple[dict[str, Any], str, dict[str, Any]]:
-    """Return parameters and rung that a part file or a preset gives; what a file's FMU says."""
+def _start(spec: ModelSpec, file: Any, preset: Any) -> PartFile | None:
+    """Return the part of a file or a preset; None where neither is named."""
     if file is not None and preset is not None:
         raise ParameterError(f"preset = {preset!r} beside part = {file!r}, allowed: one of them")
     if file is None and preset is None:
-        return {}, spec.default_fidelity, {}
+        return None
     own = preset_part(spec, str(preset)) if file is None else load_part(str(file))
     if own.spec.key != spec.key:
         raise ParameterError(f"part = {file!r} is one of {own.spec.name}, allowed: {spec.name}")
-    values = {k: x for k, x in own.parameters.items() if k not in RESERVED}
-    return values, own.fidelity, own.about if file else {}
+    return own
+
+
+def _values(own: PartFile) -> tuple[dict[str, Any], str]:
+    """Return parameters and rung that a part's file or a preset gives."""
+    return {k: x for k, x in own.parameters.items() if k not in RESERVED}, own.fidelity
+
+
+def _own_scatter(own: PartFile, free: set[str]) -> dict[str, Any]:
+    """Return the scatter of a part's file or preset, of parameters that are ``free`` in the scene.
+
+    What the scene gives itself does not scatter as the part's did.
+    """
+    lines = {k: x for k, x in own.scatter.items() if k in free}
+    pairs = [p for p in own.scatter.get(CORRELATION, ()) if {*p[:2]} <= {*lines}]
+    return lines | ({CORRELATION: pairs} if pairs else {})

@@ -4,12 +4,28 @@ from dataclasses import fields
 from typing import Any
 
 from ...errors import ParameterError, within
-from ...model.toml_tables import nothing_else, quantity, read_value, unknown
+from ...model.toml_tables import nothing_else, number, quantity, read_value, unknown
 from ...transmission.bearings import BEARINGS, SHAFT
 from ...transmission.parameters import COURSES, course_fields
 from ...transmission.vehicle import Vehicle
 from .connections import PACKS
+from .scene import STEP_RANGE
 
+# Key -> (unit, least, largest).
+NUMBERS = {
+    "start_time": ("s", -1e6, 1e6),
+    "stop_time": ("s", -1e6, 1e6),
+    "step": ("s", *STEP_RANGE),
+    "oil_temperature": ("K", 233.15, 473.15),
+}
+SHIFT = {
+    "start": ("s", -1e6, 1e6),
+    "duration": ("s", 0.0, 1e3),
+    "from": ("1", 0.0, 1.0),
+    "to": ("1", 0.0, 1.0),
+}
+SCALE = ("1", 0.01, 100.0)  # a factor, 1 where none is given
+ENGINE = {"speed": "initial_engine_speed", "inertia": "input_inertia"}
 # Key of [pressure.clutch], [pressure.brake] -> parameter of the transmission, {} the pack.
 PISTON = {
     key: f"{{}}_{key}"
@@ -20,6 +36,14 @@ TURNING = {
     "outer_radius": "piston_outer_radius",
     "supply_radius": "piston_supply_radius",
     "balance_share": "balance_share",
+}
+
+# What a part of a scene cannot say for itself.
+RESERVED = {
+    "oil_temperature": "the scene's own oil_temperature sets it for all parts",
+    "torque_age": "the choice of master sets it",
+    "ring_mesh": "a table [ring_mesh] sets it",
+    "input_course": "in a shift it is linear, as the transmission expects",
 }
 
 NEEDLES = 0.004  # friction of a needle thrust bearing at its mean radius: an estimate
@@ -41,19 +65,19 @@ def driveline_table(where: str, table: dict[str, Any], vehicle: Vehicle | None) 
         more |= vehicle.driveline(bool(given.get("shaft_stiffness", 0.0)))
     if "engine" in table:
         engine = dict(table["engine"])
-        for key, name in (("speed", "initial_engine_speed"), ("inertia", "input_inertia")):
-            if key in engine:
-                more[name] = engine.pop(key)
-        more |= points_of(f"{where} [engine]", "engine_torque", "torque", engine)
-        nothing_else(f"{where} [engine]", engine, ["points", "speed", "inertia"])
+        more |= {name: engine.pop(key) for key, name in ENGINE.items() if key in engine}
+        factor = factor_of(f"{where} [engine]", "torque_scale", engine)
+        more |= points_of(f"{where} [engine]", "engine_torque", "torque", engine, factor)
+        nothing_else(f"{where} [engine]", engine, ["points", "torque_scale", *ENGINE])
     for pack, own in table.get("pressure", {}).items():
         if pack not in PACKS or not isinstance(own, dict):
             raise unknown(f"{where} [pressure]", pack, list(PACKS))
         place, own, keys = f"{where} [pressure.{pack}]", dict(own), dict(PISTON)
         keys |= TURNING if pack == "clutch" else {}
-        more |= points_of(place, f"{pack}_pressure", "pressure", own)
+        factor = factor_of(place, "scale", own)
+        more |= points_of(place, f"{pack}_pressure", "pressure", own, factor)
         more |= {name.format(pack): own.pop(key) for key, name in keys.items() if key in own}
-        nothing_else(place, own, ["points", *keys])
+        nothing_else(place, own, ["points", "scale", *keys])
         more["actuation"] = "pressure"
     for name in BEARING_TABLES:
         if name in table:
@@ -102,12 +126,25 @@ def vehicle_of(where: str, table: dict[str, Any] | None) -> Vehicle | None:
         return Vehicle(**values)
 
 
-def points_of(where: str, name: str, what: str, table: dict[str, Any]) -> dict[str, Any]:
-    """Return the parameters of a profile from the table's ``points``, pairs of time and value."""
+def factor_of(where: str, key: str, table: dict[str, Any]) -> float:
+    """Take a factor out of a table and return it; 1 without."""
+    return number(where, key, table.pop(key, 1.0), SCALE)
+
+
+def points_of(
+    where: str, name: str, what: str, table: dict[str, Any], factor: float = 1.0
+) -> dict[str, Any]:
+    """Return the parameters of a profile from the table's ``points``, pairs of time and value.
+
+    The values are multiplied by ``factor``.
+    """
     points = table.pop("points", None)
     if not isinstance(points, list) or not all(isinstance(p, list) and len(p) == 2 for p in points):
         raise ParameterError(f"{where}: points = {points!r}, allowed: pairs [time, {what}]")
     unit = COURSES[name][0]
-    found = [(quantity(where, "time", t, "s"), quantity(where, what, x, unit)) for t, x in points]
+    found = [
+        (quantity(where, "time", t, "s"), factor * quantity(where, what, x, unit))
+        for t, x in points
+    ]
     with within(where):
         return course_fields(name, found)

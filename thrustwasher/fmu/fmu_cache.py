@@ -2,21 +2,21 @@
 
 import hashlib
 import os
+import sys
 import time
 from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
 from ..native.files import code_folder
-from ._output import note
 
 KEPT = 3  # versions
 
 
 def fmu_paths(models: Iterable[str], target: str) -> dict[str, Path]:
     """Return the FMU of each model for this machine, building those that are not there yet."""
-    from ..fmu.build import build
-    from ..fmu.running.loading import prune
+    from .build import build
+    from .running.loading import prune
 
     folder = cache_folder(target)
     paths = {model: folder / f"{target}-fmi2" / f"{model}.fmu" for model in models}
@@ -24,7 +24,8 @@ def fmu_paths(models: Iterable[str], target: str) -> dict[str, Path]:
     if missing:
         began = time.perf_counter()
         build(missing, target=target, out=folder, local=True)
-        note(f"built {', '.join(missing)} in {time.perf_counter() - began:.0f} s")
+        took = f"{time.perf_counter() - began:.0f} s"
+        print(f"built {', '.join(missing)} in {took}", file=sys.stderr)
         prune(folder.parent, KEPT)
     with suppress(OSError):
         os.utime(folder)
@@ -38,11 +39,11 @@ def cache_folder(target: str) -> Path:
 
 def source_digest(target: str) -> str:
     """Return 16 hex digits over version, sources, linker and, if native, what was compiled."""
-    from ..fmu.model_kernels import package_version
-    from ..fmu.package.model_sources import TEXTS, source_folder
-    from ..fmu.shell.platform_libraries import library_identity
     from ..model.prepare import tables_of
     from ..model.registry import all_specs
+    from .model_kernels import package_version
+    from .package.model_sources import TEXTS, source_folder
+    from .shell.platform_libraries import library_identity
 
     native, texts = target == "native", (*TEXTS, ".json", ".npz")
     made_for = "python"

@@ -1,0 +1,105 @@
+"""Many runs of one scene: the loop with its washers' torque as recorded, then the washers apart.
+
+A washer takes nearly all of a run's time and hardly feeds back. The loop therefore plays the torque
+that the washers of another run have recorded; afterwards each is solved along the inputs that the
+loop has recorded, at instants between which these are all but straight, warm from one to the next.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..errors import SolveError, Status
+from ..numerics.jit import Array
+from ..shift.checks.washer_in_time import between_lines
+from ..shift.cosim.recorded import Recorded
+from ..shift.cosim.system import Stepping
+from ..shift.run import advance_of, connected, laid_out
+from ..shift.scene.scene import Part, Scene
+from ..washer.follow import Follower
+from ..washer.kernels import layout as L
+from ..washer.parameters import SPEC
+from ..washer.solve import GRIDS
+
+CLOSE = 0.02  # of an input's range: what straight lines between instants may be off
+Signals = dict[str, Array]
+Make = Callable[[str, Part], Any]
+
+
+class Loop:
+    """The instances of a scene's parts, set to other parameters from run to run.
+
+    Parameters
+    ----------
+    scene : one with these parts
+    make : returns an instance of a part; it has ``reset(parameters)``
+    played : parts whose outputs are as recorded, by name
+    """
+
+    def __init__(self, scene: Scene, make: Make, played: Mapping[str, Recorded]) -> None:
+        self.played = played
+        self.instances = {n: make(n, p) for n, p in scene.parts.items() if n not in played}
+        self._given = {n: scene.parts[n].params for n in self.instances}
+
+    def run(self, scene: Scene) -> tuple[Array, Signals]:
+        """Return times [s] and all signals of a run at a scene's values.
+
+        ParameterError, SolveError: as in ``run_shift``.
+        """
+        now: dict[str, Stepping] = dict(self.played)
+        for name, instance in self.instances.items():
+            part = scene.parts[name]
+            changed = part.params != self._given[name]
+            instance.reset(part.parameters() if changed else None)
+            self._given[name], now[name] = part.params, instance
+        system = connected(scene, now)
+        run = laid_out(scene, system, [])
+        system.initialize(scene.start_time)
+        run.recorder.keep(0)
+        advance_of(run, None)(0, len(run.time) - 1)
+        return run.time, run.recorder.signals()
+
+    def close(self) -> None:
+        """Free the instances."""
+        for instance in self.instances.values():
+            instance.close()
+
+
+def followed(part: Part, name: str, time: Array, signals: Signals, more: Sequence[int]) -> Signals:
+    """Return the outputs of a washer along its recorded inputs, by name.
+
+    Parameters
+    ----------
+    part : the washer
+    name : its name in the scene
+    time, signals : (n,) of a run, its inputs among them
+    more : points at which it is solved in any case
+
+    Returns
+    -------
+    (n,) arrays, straight between the instants that were solved; ``distress`` is that of the instant
+    before
+
+    Raises
+    ------
+    SolveError : it could not be followed; the message says from when on
+    """
+    rows = np.column_stack([signals[f"{name}.{s.name}"] for s in SPEC.inputs])
+    span = np.ptp(rows, axis=0)
+    places = sorted({*between_lines(time, rows / np.where(span > 0.0, span, 1.0), CLOSE), *more})
+    rung = "field" if part.fidelity == "map" else part.fidelity
+    follower = Follower(part.params, GRIDS[rung])
+    values, lost, before = np.empty((len(places), len(follower.out))), np.zeros(len(places)), 0
+    for k, i in enumerate(places):
+        duration = float(time[i] - time[before])
+        status = Status(follower.go(rows[before], rows[i], duration))
+        if status.is_failure:
+            raise SolveError(f"{name} at t = {time[i]:g} s: {status.advice}")
+        values[k], lost[k], before = follower.out, follower.iout[L.IO_DISTRESS], i
+    found = {
+        f"{name}.{output}": np.interp(time, time[places], column)
+        for output, column in zip(SPEC.real_outputs, values.T, strict=True)
+    }
+    last = np.searchsorted(places, np.arange(len(time)), side="right") - 1
+    return {**found, f"{name}.distress": lost[last]}

@@ -1,0 +1,119 @@
+"""A scene with other values at some paths, and the text of its file."""
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from ...errors import ParameterError
+from ...model.toml_tables import unknown
+from .places import COLUMNS, scene_places
+from .scene import Scene
+from .scene_file import merged_tables, scene_of
+
+Tables = dict[str, Any]
+OPTIONS = ("step", "master", "stop_time")  # what may be changed in a scene after it is read,
+RUNG = ("fidelity", "tolerance", "asked")  # and in its parts
+
+
+def varied_scene(scene: Scene, values: Mapping[str, Any]) -> Scene:
+    """Return the scene with other values.
+
+    Parameters
+    ----------
+    scene : as ``load_scene`` returns it, or with other options and rungs since
+    values : by path, SI units, as ``scene_places`` names them
+
+    Raises
+    ------
+    ParameterError : there is no such path, or the values do not go together
+    """
+    found = scene_of(scene.source, _with_values(scene, values))
+    options = {key: getattr(scene, key) for key in OPTIONS if _differs(scene, found, key)}
+    rungs = {
+        name: replace(part, **{key: getattr(scene.parts[name], key) for key in RUNG})
+        for name, part in found.parts.items()
+        if any(_differs(scene.parts[name], part, key) for key in RUNG)
+    }
+    if not options and not rungs:
+        return found
+    return replace(found, parts={**found.parts, **rungs}, **options).checked()
+
+
+def scene_text(scene: Scene, values: Mapping[str, Any]) -> str:
+    """Return the text of a file with the scene as its base and other values, by path.
+
+    Read back it is ``varied_scene(scene, values)``, to the bit.
+    """
+    named = scene.source.endswith(".toml")
+    base = Path(scene.source).resolve().as_posix() if named else scene.source
+    before, now = merged_tables(scene.source), _with_values(scene, values)
+    found = scene_of(scene.source, now)
+    now |= {key: getattr(scene, key) for key in OPTIONS if _differs(scene, found, key)}
+    for name, part in scene.parts.items():
+        if _differs(part, found.parts[name], "fidelity", "tolerance"):
+            rung = f"auto:{part.tolerance}" if part.tolerance else part.fidelity
+            now[name] = now[name] | {"fidelity": rung}
+    head = [f"# One draw of the scatter of scene {scene.name!r}", f"base = {json.dumps(base)}"]
+    return "\n".join([*head, *_written(_difference(before, now))]) + "\n"
+
+
+def _differs(one: Any, other: Any, *keys: str) -> bool:
+    return any(getattr(one, key) != getattr(other, key) for key in keys)
+
+
+def _with_values(scene: Scene, values: Mapping[str, Any]) -> Tables:
+    """Return the scene's tables with other values; what does not change is shared."""
+    if not scene.table:
+        raise ParameterError(f"scene {scene.name!r}: was made by hand, allowed: of load_scene")
+    tables = dict(scene.table)
+    for path, value in values.items():
+        try:
+            _put(tables, path.split("."), value)
+        except (KeyError, IndexError, TypeError, ValueError):
+            raise unknown(f"scene {scene.name!r}", path, scene_places(scene)) from None
+    return tables
+
+
+def _put(table: Tables, path: list[str], value: Any) -> None:
+    """Put a value at a path into a table, whose tables and lists on the way are copied."""
+    key, *rest = path
+    if not rest:
+        table[key] = value
+    elif rest[0] in COLUMNS and len(rest) == 2:
+        own = table[key] = dict(table[key])
+        points = own["points"] = list(own["points"])
+        pair = points[int(rest[1])] = list(points[int(rest[1])])
+        pair[COLUMNS[rest[0]]] = value
+    else:
+        table[key] = dict(table.get(key, {}))
+        _put(table[key], rest, value)
+
+
+def _difference(before: Mapping[str, Any], now: Mapping[str, Any]) -> Tables:
+    """Return what a table has that another one lacks, or has otherwise."""
+    found: Tables = {}
+    for key, value in now.items():
+        old = before.get(key)
+        if isinstance(value, Mapping) and isinstance(old, Mapping):
+            if inner := _difference(old, value):
+                found[key] = inner
+        elif key not in before or value != old or type(value) is not type(old):
+            found[key] = value
+    return found
+
+
+def _written(table: Mapping[str, Any], above: str = "") -> Iterator[str]:
+    """Yield the lines of a TOML table, its own values first."""
+    inner = {key: value for key, value in table.items() if isinstance(value, Mapping)}
+    own = {key: value for key, value in table.items() if key not in inner}
+    if own and above:
+        yield from ("", f"[{above}]")
+    yield from (f"{_key(key)} = {json.dumps(value)}" for key, value in own.items())
+    for key, value in inner.items():
+        yield from _written(value, f"{above}.{_key(key)}".removeprefix("."))
+
+
+def _key(name: str) -> str:
+    return name if name.isidentifier() and name.isascii() else json.dumps(name)

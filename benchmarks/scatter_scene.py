@@ -4,8 +4,8 @@
     python benchmarks/scatter_scene.py compare plain.npz        a study, figure beside figure
 
 ``plain`` takes some twenty minutes of one core and keeps what it has after every batch: the same
-command goes on. All parts of the default scene run at their rung ``field``; the washers of full runs
-are solved in every step.
+command goes on. All parts of the default scene run at their rung ``field``; the washers of full
+runs are solved in every step.
 """
 
 import argparse
@@ -115,9 +115,8 @@ def compare(name: str, file: Path, base: int, workers: int) -> None:
             for level, x, e in zip(LEVELS, known, noise, strict=True)
         ]
         outside += 3 - sum(inside)
-        print(
-            f"{figure:30} {pairs}  {off.max():.3f} {max(noise) / width:.3f} {'' if all(inside) else '*'}"
-        )
+        mark = "" if all(inside) else "*"
+        print(f"{figure:30} {pairs}  {off.max():.3f} {max(noise) / width:.3f} {mark}")
     print(f"{outside} quantiles apart by more than both confidences (*)")
 
 

@@ -135,13 +135,12 @@ def _inputs() -> dict[str, str]:
 
 def _progress() -> Callable[[int, int], None]:
     """Return what says how many runs there are, then how long they take, then shows them pass."""
-    show, began, first = _output.time_left("scatter:"), time.perf_counter(), -1
-    told = False
+    show, began, first, told = _output.time_left("scatter:"), 0.0, -1, False
 
     def progress(done: int, total: int) -> None:
-        nonlocal first, told
+        nonlocal began, first, told
         if first < 0:
-            first = done
+            began, first = time.perf_counter(), done
             kept = f", {done} of them done before" if done else ""
             _output.note(f"scatter: {total} runs{kept}")
         elif not told and done < total:
@@ -205,7 +204,7 @@ def _say(result: "ScatterResult", folder: Path) -> None:
 
 def _row(name: str, band: "Band") -> tuple[str, ...]:
     values = (band.nominal, *band.quantiles.values())
-    cells = (_output.shown(x, band.unit) if x == x else "-" for x in values)
+    cells = (_output.shown(x, band.unit, band.relative) if x == x else "-" for x in values)
     ranked = sorted(
         ((i.total, n) for n, i in band.indices.items() if i.total is not None), reverse=True
     )

@@ -48,6 +48,7 @@ class PartTarget:
     time: Array = field(default_factory=lambda: np.empty(0))
     costly: tuple[str, ...] = ()
     reasons: tuple[str, ...] = REASONS
+    warnings: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:

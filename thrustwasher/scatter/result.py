@@ -71,6 +71,8 @@ class Band:
     absent: int = 0
     """Base runs that did not fail and yet lack this figure."""
     unit: str
+    relative: bool = False
+    """A difference of temperatures."""
     help: str
     usual: tuple[float, float]
     outside: Probability | None = None

@@ -128,6 +128,7 @@ class Runs:
             left_out=indices[1],
             absent=absent,
             unit=figure.unit,
+            relative=figure.relative,
             help=figure.help,
             usual=(figure.low, figure.high),
             outside=outside,

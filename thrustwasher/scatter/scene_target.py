@@ -31,6 +31,7 @@ from ..processes import usable_cores
 from ..report.shift.usual import ranges
 from ..shift.checks.guard import reset
 from ..shift.checks.step_error import recorded_parts, step_error
+from ..shift.cosim.recorded import Recorded
 from ..shift.key_figures.events_and_phases import find_events, turning
 from ..shift.key_figures.figure_list import FIGURES
 from ..shift.key_figures.key_figures import key_figures
@@ -79,6 +80,9 @@ SAFETIES = ("pitting_safety", "scuffing_safety", "micropitting_safety")
 STEP = {"heat": "slip_energy"}
 # Key figure -> figure of ``report.shift.usual``, where the names differ.
 USUAL = {"least_pitting_safety": "pitting_safety", "least_scuffing_safety": "scuffing_safety"}
+
+
+Records = dict[tuple[Any, ...], dict[str, Recorded]]
 
 
 class _Failed(Exception):
@@ -163,32 +167,19 @@ class SceneTarget:
     def solve(self, rows: list[dict[str, Any]], costly: NDArray[np.bool_]) -> tuple[Array, Flags]:
         """Return what runs give (n, m) and their codes (n,): figures, outcomes, series.
 
-        Each row's answer is its own: it depends on no other row.
+        A costly row runs twice, at last with its own washers' torque; later rows of the batch with
+        the same washers run with that torque, others with that of the nominal run.
         """
         if self._loop is None:
             self._loop = self.new_loop(self.played)
         answers, codes = np.full((len(rows), len(self._nominal)), np.nan), np.zeros(len(rows), int)
-        keys = [self._key(row, bool(own)) for row, own in zip(rows, costly, strict=True)]
-        last = {key: i for i, key in enumerate(keys)}
-        runs: dict[Any, tuple[Array, Signals]] = {}
-        for i, (row, key) in enumerate(zip(rows, keys, strict=True)):
+        records: Records = {}
+        for i, row in enumerate(rows):
             try:
-                scene = self._scene(row)
-                if key not in runs:
-                    runs[key] = self._run(self._loop, scene)
-                time, signals = runs[key]
-                answers[i] = self._answer(scene, time, signals, self.played, bool(costly[i]))
+                answers[i] = self._answer(self._loop, row, bool(costly[i]), records)
             except _Failed as failed:
                 codes[i] = failed.code
-            if last[key] == i:
-                runs.pop(key, None)
         return answers, codes.astype(np.int32)
-
-    def _key(self, row: Mapping[str, Any], costly: bool) -> tuple[Any, ...]:
-        """Return the values that the loop depends on or, if costly, the washers' inputs too."""
-        return tuple(
-            x for name, x in row.items() if self.touches(name) or (costly and name in OF_WASHERS)
-        )
 
     def new_loop(self, played: Mapping[str, Any]) -> Loop:
         """Return the scene's instances, some of them played."""
@@ -199,9 +190,7 @@ class SceneTarget:
         found = np.full((len(rows), len(self._nominal)), np.nan)
         for i, row in enumerate(rows):
             with suppress(_Failed):
-                scene = self._scene(row)
-                time, signals = self._run(loop, scene)
-                found[i] = self._answer(scene, time, signals, loop.played, True)
+                found[i] = self._answer(loop, row, True, {})
         return found
 
     def keep(self, outputs: Sequence[str]) -> None:
@@ -223,43 +212,33 @@ class SceneTarget:
         self.shortcut = {f.name: float(x) for f, x in zip(self.figures, shares, strict=True)}
         worst = sorted(self.shortcut.items(), key=lambda pair: -pair[1])
         shown = ", ".join(f"{name} {100.0 * share:.2g} %" for name, share in worst[:3])
-        head = (
-            "the shift ran with the washers' torque of the nominal run, the washers were solved "
-            f"apart; compared with {FULL_RUNS} full runs this errs by at most so much of the band: "
-            f"{shown}"
+        text = (
+            "the washers are solved apart from the rest of the shift; compared with "
+            f"{FULL_RUNS} full runs this errs by at most so much of the band: {shown}"
         )
         if worst[0][1] > SHARE:
             self.played = {}
-            head = head.replace("the shift ran", "a shift that runs", 1)
-            head += f"; above {100.0 * SHARE:g} %, so that all runs are full ones"
-        self.warnings = (head,)
+            text += f"; above {100.0 * SHARE:g} %, so that all runs are full ones"
+        self.warnings = (text,)
 
-    def _scene(self, row: Mapping[str, Any]) -> Scene:
+    def _answer(self, loop: Loop, row: Mapping[str, Any], costly: bool, records: Records) -> Array:
+        """Return the row of a run; ``records``: washers that were followed, by their values."""
+        own = tuple(x for name, x in row.items() if not self.touches(name))
+        code = 1
         try:
-            return varied_scene(self.scene, row)
-        except ParameterError:
-            raise _Failed(1) from None
-
-    def _run(self, loop: Loop, scene: Scene) -> tuple[Array, Signals]:
-        try:
-            return loop.run(scene)
+            scene = varied_scene(self.scene, row)
+            code = 2
+            time, signals = loop.run(scene, records.get(own))
+            for name in loop.played if costly else ():
+                code = 3
+                start = int(np.searchsorted(time, min(scene.shift_start, time[-1])))
+                washer = followed(scene.parts[name], name, time, signals, [start])
+                code = 2
+                records[own] = recorded_parts(scene, time, signals | washer)
+                signals = loop.run(scene, records[own])[1] | washer
         except (ParameterError, SolveError):
-            raise _Failed(2) from None
-
-    def _answer(
-        self, scene: Scene, time: Array, signals: Signals, played: Mapping[str, Any], costly: bool
-    ) -> Array:
-        """Return the row of a run; ``costly``: washers that were played are followed, else NaN."""
-        if not played:
-            return self._read(scene, time, signals)
-        start = int(np.searchsorted(time, min(scene.shift_start, time[-1])))
-        for name in played if costly else ():
-            try:
-                own = followed(scene.parts[name], name, time, signals, [start])
-            except SolveError:
-                raise _Failed(3) from None
-            signals = signals | own
-        return self._read(scene, time, signals, washers=costly)
+            raise _Failed(code) from None
+        return self._read(scene, time, signals, washers=costly or not loop.played)
 
     def _read(self, scene: Scene, time: Array, signals: Signals, washers: bool = True) -> Array:
         """Return figures, outcomes and series of a run; without ``washers`` theirs are NaN."""

@@ -190,7 +190,7 @@ def _drawn(part: "PartFile", at: dict[str, str], values: dict[str, Any]) -> "Par
     return replace(part, parameters=_output.parameters_of(params), box=box, scatter={})
 
 
-def _say(result: "ScatterResult", folder: Path) -> None:
+def _say(result: "ScatterResult", folder: Path | None) -> None:
     """Print the bands, what decides them, probabilities, and where the files are."""
     failed = sum(result.failed.values())
     print(
@@ -205,7 +205,8 @@ def _say(result: "ScatterResult", folder: Path) -> None:
         print(f"  {name:<{widths[0]}}  {'  '.join(cells)}  {decided}".rstrip())
     for name, p in result.probabilities.items():
         print(f"  P({name}) = {p.value:.3g}, between {p.low:.2g} and {p.high:.2g}")
-    print(f"Report: {folder / PAGE}")
+    if folder:
+        print(f"Report: {folder / PAGE}")
 
 
 def _row(name: str, band: "Band") -> tuple[str, ...]:

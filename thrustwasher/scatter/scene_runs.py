@@ -23,7 +23,7 @@ from ..washer.parameters import SPEC
 from ..washer.solve import GRIDS
 
 CLOSE = 0.01  # of an input's range: what straight lines between instants may be off
-EVEN = 65  # further instants, even in time, where inputs change
+EVEN = 50  # further instants, even in time, where inputs change
 Signals = dict[str, Array]
 Make = Callable[[str, Part], Any]
 

@@ -10,6 +10,7 @@ from ..palette import CELSIUS
 
 NONE = "\N{EN DASH}"
 LOW, MIDDLE, HIGH = 0.05, 0.5, 0.95
+BAND = "5 .. 95 %"  # the head of a column
 LEVELS = {LOW: "5 %", MIDDLE: "50 %", HIGH: "95 %"}
 
 

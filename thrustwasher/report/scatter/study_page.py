@@ -21,8 +21,8 @@ DISTRIBUTION_TEXT = (
 )
 DECIDED_TEXT = (
     "Total Sobol' index: the share of a figure's variance that this input has to do with, alone or "
-    "with others; the indices of a figure may add up to more than 1. The line at a bar's end is the "
-    "95 % confidence interval."
+    "with others; the indices of a figure may add up to more than 1. The line at the end of a bar "
+    "is the 95 % confidence interval."
 )
 RANK_TEXT = (
     "Of figures without indices: the rank correlation of the sample (Spearman), which says how "

@@ -163,7 +163,7 @@ def decided_sections(result: Any, names: Sequence[str], words: Named = joined) -
     used = {of[0].by for of in found.values()}
     texts = [text for by, text in ((INDEX, DECIDED_TEXT), (RANK, RANK_TEXT)) if by in used]
     small = _small_sources(result)
-    texts += [f"Below 0.02 for every figure: {', '.join(small)}."] if small else []
+    texts += [f"Below {LEAST} for every figure that has indices: {', '.join(small)}."] if small else []
     matrix = tables.matrix_table(result, list(result.figures))
     tiles = [
         Plot(
@@ -184,7 +184,7 @@ def _small_sources(result: Any) -> list[str]:
     largest: dict[str, float] = {}
     for share in all_shares:
         largest[share.source] = max(largest.get(share.source, 0.0), share.value)
-    return [joined(source) for source, value in largest.items() if value < LEAST]
+    return [joined(source) for source in sorted(largest) if largest[source] < LEAST]
 
 
 def over_time_sections(result: Any) -> list[Section]:

@@ -15,6 +15,8 @@ from thrustwasher.report.scatter.scatter_tables import error_table, figure_table
 from thrustwasher.report.scatter.words import named, percent
 from thrustwasher.scatter.result import Probability
 
+MINUS = "\N{MINUS SIGN}"
+
 
 def section(page, anchor):
     return next(s for s in page.sections if s.anchor == anchor)
@@ -88,7 +90,9 @@ def test_a_figure_without_variance_has_no_index():
         "clutch locks, after the shift began",
         "heat in the clutch",
     ]
-    only = replace(found.figures["slip_energy"], indices=dict.fromkeys(["oil_temperature"], NOTHING))
+    only = replace(
+        found.figures["slip_energy"], indices=dict.fromkeys(["oil_temperature"], NOTHING)
+    )
     assert matrix_table(replace(found, figures={"slip_energy": only}), ["slip_energy"]) is None
 
 
@@ -130,7 +134,7 @@ def test_a_choice_that_decides_is_found_by_its_ranks():
 def test_the_verdict_names_what_it_rests_on():
     (text,) = verdict(study(), "the washers", ["least_washer_film_ratio"])
     assert text.startswith("The verdict on the washers rests most on transmission: thrust share")
-    assert "−1.00" in text
+    assert f"{MINUS}1.00" in text
     (text,) = verdict(study(), "the shift", ["slip_energy", "lock_after_ramp_start", "absent"])
     assert "oil temperature: it decides 99 % of the variance of “heat in the clutch”" in text
     assert verdict(study(), "the shift", ["peak_jerk"]) == []
@@ -141,7 +145,7 @@ def test_mesh_model_and_inputs_stand_side_by_side():
     lock, film = error_table(found, ["lock_after_ramp_start", "least_washer_film_ratio"]).rows
     assert lock[1] == "± 0.2 %" and film[1] == "not known"
     assert film[2].startswith("washer: cavity shear: cyclic +")
-    assert re.fullmatch(r"−\d+ % .. \+\d+ %", film[3])
+    assert re.fullmatch(rf"{MINUS}\d+ % .. \+\d+ %", film[3])
     plain = replace(found, sources=SOURCES[:2])
     assert error_table(plain, ["slip_energy"]).rows[0][2] == "none scatters"
 
@@ -182,7 +186,11 @@ def test_tiles_have_the_colours_of_the_page():
 def test_names_and_shares_are_words():
     assert named("pressure.clutch.points.3") == "pressure clutch: points, no. 4"
     assert named("oil_temperature") == "oil temperature"
-    assert (percent(0.9996), percent(1.0), percent(2e-4)) == ("above 99.9 %", "100 %", "below 0.1 %")
+    assert (percent(0.9996), percent(1.0), percent(2e-4)) == (
+        "above 99.9 %",
+        "100 %",
+        "below 0.1 %",
+    )
 
 
 def test_a_study_without_indices_or_outcomes_has_a_page():

@@ -73,11 +73,11 @@ def test_the_folder_has_page_tables_and_the_nearest_runs_as_parts(part, tmp_path
         rows = list(csv.DictReader(stream))
     assert len(rows) == 64 and {row["status"] for row in rows} == {"OK"}
     assert "<html" in (folder / "scatter.html").read_text("utf-8")[:200]
-    near = load_part(folder / "friction_power-95.toml")
-    assert near.solve().friction_power == pytest.approx(
+    near = load_part(folder / "friction_torque-95.toml")
+    assert near.solve().friction_torque == pytest.approx(
         float(
             next(r for r in rows if float(r["load [N.m]"]) == near.starts["load"])[
-                "friction_power [W]"
+                "friction_torque [N.m]"
             ]
         )
     )

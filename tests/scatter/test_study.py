@@ -11,7 +11,7 @@ from thrustwasher import ParameterError, SolveError, propagate
 from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.scatter.design import Design, make_design
 from thrustwasher.scatter.propagate import JOURNAL, study_of
-from thrustwasher.scatter.summary import Runs
+from thrustwasher.scatter.evaluation import Runs
 
 
 class Stop(Exception):

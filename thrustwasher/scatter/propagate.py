@@ -18,7 +18,7 @@ from .design import make_design, rounded_runs
 from .function_target import function_target
 from .result import SAMPLE, ScatterResult, write_columns
 from .study import Progress, Study, check_workers
-from .summary import Runs
+from .evaluation import Runs
 from .target import Target
 
 if TYPE_CHECKING:

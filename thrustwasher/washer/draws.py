@@ -369,6 +369,7 @@ def _looked_up(
 ) -> tuple[Array, NDArray[np.int32], NDArray[np.bool_]]:
     """Do the same by the map, or outside its box by the field."""
     n, names = len(params), SPEC.real_outputs[:SHOWN]
+    share = names.index("fluid_load_share")
     rows, lost = np.full((n, SHOWN), np.nan), np.zeros(n, bool)
     status = np.full(n, Status.BAD_INPUT, np.int32)
     for i, (own, point) in enumerate(zip(params, inputs.tolist(), strict=True)):
@@ -385,5 +386,6 @@ def _looked_up(
             continue
         status[i], lost[i] = found.status, found.branch == "contact"
         if not found.status.is_failure:
-            rows[i] = [getattr(found, name) for name in names]
+            rows[i] = [getattr(found, name, math.nan) for name in names]
+            rows[i, share] = found.fluid_load / (found.fluid_load + found.contact_load)
     return rows, status, lost

@@ -1,5 +1,7 @@
 """How sure a shift's figures are: what the scatter of inputs makes of them, and what decides."""
 
+from markupsafe import Markup
+
 from ..html import Section, Table
 from ..scatter import scatter_tables
 from ..scatter.decides import chances, shares, verdict
@@ -15,6 +17,7 @@ from ..scatter.words import joined
 from .shift_record import Record
 
 MOST = 6  # figures with bars
+STUDY = "scatter/scatter.html"  # beside the report
 OF_THE_SHIFT = (
     *("lock_after_ramp_start", "lock_after_half_ramp", "slip_energy", "peak_jerk"),
     *("torque_hole", "flare"),
@@ -77,8 +80,8 @@ def _study_texts(record: Record) -> list[str]:
     r = record.scatter
     return [
         f"{r.runs} base points, {r.solves} runs. {scatter_tables.share_of_failed(r)} Bands are "
-        "shaded in the plots above. The whole study on a page of its own, and indices of the "
-        f"washers' figures: thrustwasher scatter {record.name} --indices all.",
+        "shaded in the plots above.",
+        Markup('The whole study: <a href="{0}">{0}</a> beside this page.').format(STUDY),
         *(f"{text[0].upper()}{text[1:]}." for text in r.warnings),
     ]
 

@@ -1,6 +1,6 @@
 """The page of a study: bands first, then what decides them, then what all of it rests on."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ...units import format_quantity as say
@@ -26,8 +26,8 @@ DECIDED_TEXT = (
 )
 RANK_TEXT = (
     "Of figures without indices: the rank correlation of the sample (Spearman), which says how "
-    "steadily a figure rises (blue) or falls (purple) with an input. `--indices all` computes "
-    "indices of these too."
+    "steadily a figure rises (blue) or falls (purple) with an input. With --indices all "
+    "they have indices too."
 )
 OVER_TIME_TEXT = (
     "Which input decides a signal at which time. Nothing is drawn where the signal hardly scatters."
@@ -42,7 +42,6 @@ SOURCES_TEXT = (
     "What is called an estimate has no source beyond engineering practice: measure it first if it "
     "decides much. What is not listed does not scatter."
 )
-Named = Callable[[str], str]
 
 
 def scatter_page(result: Any, files: tables.Files | None = None) -> Page:
@@ -155,7 +154,7 @@ def _figure_section(result: Any) -> Section:
     return Section("figures", "Figures and their bands", tables=shown)
 
 
-def decided_sections(result: Any, names: Sequence[str], words: Named = joined) -> list[Section]:
+def decided_sections(result: Any, names: Sequence[str]) -> list[Section]:
     """Return what decides each figure: the overview of all, bars of the chosen ones."""
     found = {name: of for name in names if (of := shares(result, name))}
     if not found:
@@ -163,13 +162,15 @@ def decided_sections(result: Any, names: Sequence[str], words: Named = joined) -
     used = {of[0].by for of in found.values()}
     texts = [text for by, text in ((INDEX, DECIDED_TEXT), (RANK, RANK_TEXT)) if by in used]
     small = _small_sources(result)
-    texts += [f"Below 0.02 for every figure: {', '.join(small)}."] if small else []
+    texts += (
+        [f"Below {LEAST} for every figure that has indices: {', '.join(small)}."] if small else []
+    )
     matrix = tables.matrix_table(result, list(result.figures))
     tiles = [
         Plot(
             f"decides-{i}",
             plots.bar_figure(of, title_of(name, result.figures[name])),
-            f"decided most by {share_words(of[0], words)}",
+            f"decided most by {share_words(of[0])}",
             tiles=3,
         )
         for i, (name, of) in enumerate(found.items())
@@ -184,7 +185,7 @@ def _small_sources(result: Any) -> list[str]:
     largest: dict[str, float] = {}
     for share in all_shares:
         largest[share.source] = max(largest.get(share.source, 0.0), share.value)
-    return [joined(source) for source, value in largest.items() if value < LEAST]
+    return [joined(source) for source in sorted(largest) if largest[source] < LEAST]
 
 
 def over_time_sections(result: Any) -> list[Section]:

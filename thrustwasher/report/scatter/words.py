@@ -55,6 +55,8 @@ def scale_of(unit: str, values: Iterable[float | None], *, relative: bool = Fals
     """Return the unit for values as large as these [SI]."""
     if unit == "K" and not relative:
         return Scale("°C", 1.0, CELSIUS)
+    if unit == "s":  # times stay in seconds
+        return Scale("s")
     largest = max((abs(v) for v in values if v is not None and math.isfinite(v)), default=0.0)
     shown, size = display_unit(largest, unit)
     return Scale("" if shown == "1" else shown, size)
@@ -63,7 +65,7 @@ def scale_of(unit: str, values: Iterable[float | None], *, relative: bool = Fals
 def band_scale(band: Any) -> Scale:
     """Return the unit of a figure's values."""
     values = (band.nominal, *band.quantiles.values())
-    return scale_of(band.unit, values, relative=getattr(band, "relative", False))
+    return scale_of(band.unit, values, relative=band.relative)
 
 
 def named(name: str) -> str:

@@ -39,6 +39,7 @@ from ..shift.scene.scene import Part, Scene
 from ..shift.scene.variation import varied_scene
 from ..shift.shift_result import ShiftResult
 from ..shift.tolerance.run_to_tolerance import run_auto, with_rungs
+from ..washer.solve import solve_washer
 from .scene_figures import (
     LOST,
     WASHER_SERIES,
@@ -211,8 +212,8 @@ class SceneTarget:
             time, signals = loop.run(scene, records.get(own))
             for name in loop.played if costly else ():
                 code = 3
-                start = int(np.searchsorted(time, min(scene.shift_start, time[-1])))
-                washer = followed(scene.parts[name], name, time, signals, [start])
+                start = [_start(scene, time)]
+                washer = followed(scene.parts[name], name, time, signals, start)
                 code = 2
                 records[own] = recorded_parts(scene, time, signals | washer)
                 signals = loop.run(scene, records[own])[1] | washer
@@ -266,12 +267,27 @@ def scene_target(
         with suppress(ParameterError, SolveError):
             found = step_error(nominal, reset(instances), run_shift).errors()
             errors = {STEP.get(name, name): x for name, x in found.items()}
+        errors |= _of_mesh(nominal)
     target = SceneTarget(scene, scatter, nominal, errors)
     if outputs is not None:
         target.keep(outputs)
     if target.played and scatter.sources and target.figures:
         _compare(target)
     return target
+
+
+def _of_mesh(nominal: ShiftResult) -> dict[str, float]:
+    """Return the error of the washer's torque by its card, if there is one for the washer."""
+    found: dict[str, float] = {}
+    for name in (name for name in DIRECT if name in nominal.scene.parts):
+        part, i = nominal.scene.parts[name], _start(nominal.scene, nominal.time)
+        point: Any = {
+            s.name: float(nominal.signals[f"{name}.{s.name}"][i]) for s in part.spec.inputs
+        }
+        with suppress(ParameterError, SolveError):
+            error = solve_washer(part.params, **point, fidelity=part.fidelity).error_estimate
+            found |= {} if error is None else {"washer_torque": error}
+    return found
 
 
 def _compare(target: SceneTarget) -> None:
@@ -314,6 +330,11 @@ def _measured(target: SceneTarget, rows: list[dict[str, Any]]) -> tuple[Array, A
         error = np.nan_to_num(np.nanmax(np.abs(short - full), 0))
     one_alone = (np.isnan(short) != np.isnan(full)).any(0)  # as a lock-up that the other lacks
     return np.where(one_alone, band, error), band
+
+
+def _start(scene: Scene, time: Array) -> int:
+    """Return the point at which the shift begins."""
+    return int(np.searchsorted(time, min(scene.shift_start, float(time[-1]))))
 
 
 def _paths(scene: Scene) -> dict[str, Path]:

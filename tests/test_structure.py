@@ -50,6 +50,7 @@ PLACES = {
         "shift.checks.holding": {"transmission"},
         "shift.checks.run_doubts": {"washer"},
         "shift.scene.doubts": {"clutch", "gearmesh", "transmission"},
+        "shift.scene.places": {"transmission"},
         "shift.scene.scene": {"transmission"},
         "shift.scene.scene_file": {"sump"},
         "shift.scene.scene_tables": {"transmission"},
@@ -59,6 +60,7 @@ PLACES = {
         "shift.oscillation.chatter": {"transmission"},
         "shift.oscillation.torsion": {"clutch"},
         "report.shift.live_washer": {"washer"},
+        "scatter.scene_runs": {"washer"},
     },
 }
 

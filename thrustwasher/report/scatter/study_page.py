@@ -8,7 +8,17 @@ from ..html import Card, Page, Plot, Section
 from . import scatter_plots as plots
 from . import scatter_tables as tables
 from .decides import INDEX, LEAST, RANK, chances, column, share_words, shares, verdict
-from .words import band_scale, band_words, between, joined, named, percent, title_of, varies
+from .words import (
+    band_scale,
+    band_words,
+    between,
+    joined,
+    named,
+    percent,
+    relative_spread,
+    title_of,
+    varies,
+)
 
 MOST_FIGURES, MOST_CARDS, MOST_BANDS, MOST_OVER_TIME = 12, 6, 8, 4
 BAND_TEXT = (
@@ -77,9 +87,18 @@ def scatter_page(result: Any, files: tables.Files | None = None) -> Page:
 
 
 def main_figures(result: Any, most: int) -> list[str]:
-    """Return so many figures that scatter: first those with a usual range, in their own order."""
+    """Return so many figures that scatter, in their own order.
+
+    Those with a usual range come first, then those of washers, then those that scatter most.
+    """
     found = [name for name, band in result.figures.items() if varies(band)]
-    first = sorted(found, key=lambda name: result.figures[name].outside is None)[:most]
+    washers = washer_figures(result)
+
+    def rank(name: str) -> tuple[bool, bool, float]:
+        band = result.figures[name]
+        return band.outside is None, name not in washers, -relative_spread(band)
+
+    first = sorted(found, key=rank)[:most]
     return [name for name in found if name in first]
 
 
@@ -143,7 +162,8 @@ def _distribution_sections(result: Any, names: Sequence[str]) -> list[Section]:
         if column(result.sample, name) is not None:
             band = result.figures[name]
             figure = plots.distribution_figure(result, name, title_of(name, band))
-            tiles.append(Plot(f"spread-{i}", figure, f"{band_words(band)}, 5 .. 95 %", tiles=3))
+            caption = f"{title_of(name, band)}: {band_words(band)}"
+            tiles.append(Plot(f"spread-{i}", figure, caption, tiles=3))
     title = "What came out"
     return [Section("spread", title, texts=[DISTRIBUTION_TEXT], plots=tiles)] if tiles else []
 
@@ -170,7 +190,7 @@ def decided_sections(result: Any, names: Sequence[str]) -> list[Section]:
         Plot(
             f"decides-{i}",
             plots.bar_figure(of, title_of(name, result.figures[name])),
-            f"decided most by {share_words(of[0])}",
+            f"{title_of(name, result.figures[name])}: {share_words(of[0])}",
             tiles=3,
         )
         for i, (name, of) in enumerate(found.items())

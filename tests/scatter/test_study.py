@@ -10,8 +10,8 @@ from stand_ins import NORMAL, Swing, linear, never, picky
 from thrustwasher import ParameterError, SolveError, propagate
 from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.scatter.design import Design, make_design
-from thrustwasher.scatter.propagate import JOURNAL, study_of
 from thrustwasher.scatter.evaluation import Runs
+from thrustwasher.scatter.propagate import JOURNAL, study_of
 
 
 class Stop(Exception):

@@ -17,9 +17,10 @@ from ._options import option_name
 
 if TYPE_CHECKING:
     from ..model.part_file import PartFile
-    from ..scatter.result import Band, ScatterResult
+    from ..scatter.result import Band, Index, ScatterResult
 
 HELP = "how sure figures are: the scatter of inputs through a part or a gear shift"
+LEAST = 0.02  # a total index below decides nothing
 FOLDER, PAGE = "scatter-report", "scatter.html"
 OPTIONS = {
     "--runs N": "base points, rounded up to a power of two; default 1024, of a scene 256",
@@ -212,8 +213,13 @@ def _say(result: "ScatterResult", folder: Path | None) -> None:
 def _row(name: str, band: "Band") -> tuple[str, ...]:
     values = (band.nominal, *band.quantiles.values())
     cells = (_output.shown(x, band.unit, band.relative) if x == x else "-" for x in values)
-    ranked = sorted(
-        ((i.total, n) for n, i in band.indices.items() if i.total is not None), reverse=True
-    )
-    decided = ", ".join(f"{n} {total:.2f}" for total, n in ranked[:3] if total >= 0.01)
+    known = [(i.total, n) for n, i in band.indices.items() if _is_sure(i)]
+    decided = ", ".join(f"{n} {total:.2f}" for total, n in sorted(known, reverse=True)[:3])
     return (name, *cells, decided)
+
+
+def _is_sure(index: "Index") -> bool:
+    """Tell if an index is large enough, and larger than what is not known of it."""
+    if index.total is None or index.total_confidence is None:
+        return False
+    return index.total > max(LEAST, index.total_confidence)

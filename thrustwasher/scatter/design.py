@@ -20,6 +20,7 @@ SCRAMBLES = 8  # independent ones: their differences tell the confidence
 LEAST_RUNS, MOST_RUNS = SCRAMBLES, 2**17
 MOST_SEED = 2**32 - 1
 ROWS = 64  # of a batch, about: a second of a slow model, not too few for warm starts
+ROWS_OF_PART = 384  # a washer's draws start one another: a second of them, half the time of each
 HALF_CELL = 0.5 / 2**30  # of qmc.Sobol's 30 bits: no point is exactly 0
 
 
@@ -44,6 +45,8 @@ class Design:
     """(N, k), of the second points."""
     groups: tuple[tuple[int, ...], ...]
     """Columns of each group that is exchanged; () for a study without indices."""
+    rows: int = ROWS
+    """Runs of a batch, about."""
 
     @property
     def n(self) -> int:
@@ -63,7 +66,7 @@ class Design:
     @property
     def points_per_batch(self) -> int:
         """Whole base points that are solved together: a power of two, by the design alone."""
-        most = max(1, ROWS // self.rows_per_point)
+        most = max(1, self.rows // self.rows_per_point)
         return min(1 << (most.bit_length() - 1), self.n // SCRAMBLES)
 
     def batches(self) -> Iterator[tuple[int, Array]]:
@@ -83,7 +86,9 @@ class Design:
         return found.reshape(-1, a.shape[1])
 
 
-def make_design(n: int, k: int, groups: Sequence[tuple[int, ...]], seed: int) -> Design:
+def make_design(
+    n: int, k: int, groups: Sequence[tuple[int, ...]], seed: int, rows: int = ROWS
+) -> Design:
     """Return the design of ``n`` base points (a power of two from 8 on) of ``k`` sources.
 
     The base points are the same with and without ``groups``. ParameterError: wrong seed.
@@ -98,4 +103,4 @@ def make_design(n: int, k: int, groups: Sequence[tuple[int, ...]], seed: int) ->
         sequence = qmc.Sobol(2 * k, scramble=True, seed=np.random.default_rng(own))
         parts.append(sequence.random(n // SCRAMBLES))
     points = np.concatenate(parts) + HALF_CELL
-    return Design(a=points[:, :k], b=points[:, k:], groups=tuple(groups))
+    return Design(a=points[:, :k], b=points[:, k:], groups=tuple(groups), rows=rows)

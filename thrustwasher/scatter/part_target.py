@@ -3,7 +3,7 @@
 import hashlib
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from typing import Any, Literal
 
@@ -175,11 +175,10 @@ def part_target(
         if name not in own:
             raise ParameterError(f"inputs: {name!r}, allowed: {', '.join(own)}")
     rung = rung_named(spec, part.fidelity)
-    solver = rung
+    solver, warnings = rung, tuple[str, ...]()
     if tables_of(spec, rung) and set(scatter.names) - set(own):
         solver = spec.default_fidelity
-        told = OTHER_RUNG.format(rung, solver)
-        scatter = replace(scatter, warnings=(*scatter.warnings, told))
+        warnings = (OTHER_RUNG.format(rung, solver),)
     absent, least = spec.absent(part.params), model.sweep.least
     figures = {
         s.name: Figure(
@@ -206,6 +205,7 @@ def part_target(
         fidelity=solver,
         figures=tuple(figures[name] for name in (outputs or figures)),
         outcomes=((LOST,) if model.sweep.draws else ()) + tuple(safeties),
+        warnings=warnings,
     )
 
 

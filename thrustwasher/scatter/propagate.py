@@ -14,11 +14,11 @@ from ..model.toml_tables import read_file
 from ..storage.journal import Journal
 from ..storage.whole_files import new_folder, whole_folder
 from ..sweep.axes import find_place, places
-from .design import make_design, rounded_runs
+from .design import ROWS, ROWS_OF_PART, make_design, rounded_runs
+from .evaluation import Runs
 from .function_target import function_target
 from .result import SAMPLE, ScatterResult, write_columns
 from .study import Progress, Study, check_workers
-from .summary import Runs
 from .target import Target
 
 if TYPE_CHECKING:
@@ -144,7 +144,8 @@ def study_of(
         for group in (scatter.groups if indices else ())
         if costly or any(target.touches(scatter.names[i]) for i in group)
     ]
-    design = make_design(n, len(scatter.sources), groups, seed)
+    rows = ROWS_OF_PART if target.kind == "part" else ROWS
+    design = make_design(n, len(scatter.sources), groups, seed, rows)
     return Study(target, design, costly=costly), tuple(warnings)
 
 

@@ -127,6 +127,17 @@ class SceneTarget:
             "washers": "apart" if self.played else "in the loop",
         }
 
+    @property
+    def series_units(self) -> dict[str, str]:
+        """Units of the series."""
+        known = {
+            f"{name}.{s.name}": s.unit
+            for name, part in self.scene.parts.items()
+            for s in part.spec.outputs
+        }
+        known["vehicle.acceleration"] = "m/s2"
+        return {name: known.get(name, "") for name in self.series}
+
     def touches(self, source: str) -> bool:
         """Tell if any figure but the costly ones depends on a source."""
         alone = source in OF_WASHERS or source.partition(".")[0] in self._washers

@@ -15,11 +15,12 @@ from ..numerics.status import OK
 from .kernels import layout as L
 from .kernels.constants import combined_roughness, derive_grid, size_of_par, summits
 
-GRID = 0.1  # of ln roughness
+GRID = 0.1  # of ln scatter
 POINTS = 8  # of the grid that a table is taken from: ln P within 1e-11
 MANY = 24  # washers that differ in roughness alone: a grid of tables pays
 KEPT = 256
 SURFACE = slice(L.P_ROUGHNESS, L.P_ROUGHNESS + 4)
+TABLE1, TABLE2 = slice(L.D_TABLE1, L.D_TABLE2), slice(L.D_TABLE2, L.D_MESH)
 Key = tuple[float, ...]
 
 
@@ -42,7 +43,9 @@ class Constants:
 
     def _derived(self, own: Array) -> Array:
         """Return what the kernel derives, of the last few surfaces and geometries."""
-        key = (*_without_roughness(own), *own[SURFACE])
+        return self._kept((*_without_roughness(own), *own[SURFACE]), own)
+
+    def _kept(self, key: Key, own: Array) -> Array:
         par = self.made.get(key)
         if par is None:
             par = np.zeros(size_of_par(*self.nodes))
@@ -55,31 +58,30 @@ class Constants:
         return par
 
     def _between(self, own: Array) -> Array:
-        """Return constants with contact tables interpolated over the roughness."""
+        """Return constants with contact tables interpolated over the scatter of the summits."""
         sigma1, sigma2, shear = combined_roughness(own)
         par = np.zeros(0)
-        for sigma, table in (
-            (sigma1, slice(L.D_TABLE1, L.D_TABLE2)),
-            (sigma2, slice(L.D_TABLE2, L.D_MESH)),
-        ):
-            at = math.log(sigma) / GRID
+        for sigma, table in ((sigma1, TABLE1), (sigma2, TABLE2)):
+            _, scatter, _ = summits(own, sigma)
+            at = math.log(scatter) / GRID
             first = math.floor(at) - POINTS // 2 + 1
-            around = [self._at_grid(own, k) for k in range(first, first + POINTS)]
+            lost = sigma * sigma - scatter * scatter
+            around = [self._at_grid(own, k, lost) for k in range(first, first + POINTS)]
             par = par if len(par) else around[0].copy()
             par[table] = _lagrange(at - first) @ np.array([one[table] for one in around])
-        for sigma, mean, scatter in (
-            (sigma1, L.D_MEAN_SUMMIT1, L.D_SUMMIT_SIGMA1),
-            (sigma2, L.D_MEAN_SUMMIT2, L.D_SUMMIT_SIGMA2),
-        ):
-            par[mean], par[scatter], _ = summits(own, sigma)
         par[L.D_SIGMA1], par[L.D_SIGMA2], par[L.D_SHEAR] = sigma1, sigma2, shear
+        par[L.D_MEAN_SUMMIT1], par[L.D_SUMMIT_SIGMA1], _ = summits(own, sigma1)
+        par[L.D_MEAN_SUMMIT2], par[L.D_SUMMIT_SIGMA2], _ = summits(own, sigma2)
         return par
 
-    def _at_grid(self, own: Array, k: int) -> Array:
-        """Return the constants of a washer with three equal surfaces on the grid."""
+    def _at_grid(self, own: Array, k: int, lost: float) -> Array:
+        """Return the constants of a washer with three equal surfaces whose summits are on the grid.
+
+        ``lost`` is the variance by which the summits scatter less than the surfaces.
+        """
         equal = own.copy()
-        equal[SURFACE] = math.exp(k * GRID) / math.sqrt(2.0), 0.0, 0.0, 0.0
-        return self._derived(equal)
+        equal[SURFACE] = math.sqrt(0.5 * (math.exp(2.0 * k * GRID) + lost)), 0.0, 0.0, 0.0
+        return self._kept((*_without_roughness(own), k), equal)
 
 
 def _without_roughness(own: Array) -> Key:

@@ -55,7 +55,7 @@ def confidence_table(result: Any) -> Table:
         for level in LEVELS:
             low, high = band.confidence.get(level, (None, None))
             cells.append(f"{scale.number(low)} .. {scale.number(high)}")
-        spread = scale._replace(zero=0.0).number(band.standard_deviation)
+        spread = scale.for_differences.number(band.standard_deviation)
         title = with_unit(title_of(name, band), scale)
         rows.append((title, *cells, scale.number(band.mean), spread))
     heads = ("", *LEVELS.values(), "mean", "standard deviation")
@@ -146,7 +146,7 @@ def _off(band: Any, difference: float) -> str:
     if band.unit == "K":
         text = plain(difference, 2)
     elif not band.nominal or not math.isfinite(band.nominal):
-        return _with_sign(band_scale(band)._replace(zero=0.0).words(difference), difference)
+        return _with_sign(band_scale(band).for_differences.words(difference), difference)
     else:
         text = plain(100.0 * difference / abs(band.nominal), 2)
     return _with_sign(f"{text} {'K' if band.unit == 'K' else '%'}", difference)

@@ -1,6 +1,6 @@
 """The page of a study: bands first, then what decides them, then what all of it rests on."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ...units import format_quantity as say
@@ -8,7 +8,17 @@ from ..html import Card, Page, Plot, Section
 from . import scatter_plots as plots
 from . import scatter_tables as tables
 from .decides import INDEX, LEAST, RANK, chances, column, share_words, shares, verdict
-from .words import band_scale, band_words, between, joined, named, percent, title_of, varies
+from .words import (
+    band_scale,
+    band_words,
+    between,
+    joined,
+    named,
+    percent,
+    relative_spread,
+    title_of,
+    varies,
+)
 
 MOST_FIGURES, MOST_CARDS, MOST_BANDS, MOST_OVER_TIME = 12, 6, 8, 4
 BAND_TEXT = (
@@ -26,8 +36,8 @@ DECIDED_TEXT = (
 )
 RANK_TEXT = (
     "Of figures without indices: the rank correlation of the sample (Spearman), which says how "
-    "steadily a figure rises (blue) or falls (purple) with an input. `--indices all` computes "
-    "indices of these too."
+    "steadily a figure rises (blue) or falls (purple) with an input. With --indices all "
+    "they have indices too."
 )
 OVER_TIME_TEXT = (
     "Which input decides a signal at which time. Nothing is drawn where the signal hardly scatters."
@@ -42,7 +52,6 @@ SOURCES_TEXT = (
     "What is called an estimate has no source beyond engineering practice: measure it first if it "
     "decides much. What is not listed does not scatter."
 )
-Named = Callable[[str], str]
 
 
 def scatter_page(result: Any, files: tables.Files | None = None) -> Page:
@@ -78,9 +87,18 @@ def scatter_page(result: Any, files: tables.Files | None = None) -> Page:
 
 
 def main_figures(result: Any, most: int) -> list[str]:
-    """Return so many figures that scatter: first those with a usual range, in their own order."""
+    """Return so many figures that scatter, in their own order.
+
+    Those with a usual range come first, then those of washers, then those that scatter most.
+    """
     found = [name for name, band in result.figures.items() if varies(band)]
-    first = sorted(found, key=lambda name: result.figures[name].outside is None)[:most]
+    washers = washer_figures(result)
+
+    def rank(name: str) -> tuple[bool, bool, float]:
+        band = result.figures[name]
+        return band.outside is None, name not in washers, -relative_spread(band)
+
+    first = sorted(found, key=rank)[:most]
     return [name for name in found if name in first]
 
 
@@ -144,7 +162,8 @@ def _distribution_sections(result: Any, names: Sequence[str]) -> list[Section]:
         if column(result.sample, name) is not None:
             band = result.figures[name]
             figure = plots.distribution_figure(result, name, title_of(name, band))
-            tiles.append(Plot(f"spread-{i}", figure, f"{band_words(band)}, 5 .. 95 %", tiles=3))
+            caption = f"{title_of(name, band)}: {band_words(band)}"
+            tiles.append(Plot(f"spread-{i}", figure, caption, tiles=3))
     title = "What came out"
     return [Section("spread", title, texts=[DISTRIBUTION_TEXT], plots=tiles)] if tiles else []
 
@@ -155,7 +174,7 @@ def _figure_section(result: Any) -> Section:
     return Section("figures", "Figures and their bands", tables=shown)
 
 
-def decided_sections(result: Any, names: Sequence[str], words: Named = joined) -> list[Section]:
+def decided_sections(result: Any, names: Sequence[str]) -> list[Section]:
     """Return what decides each figure: the overview of all, bars of the chosen ones."""
     found = {name: of for name in names if (of := shares(result, name))}
     if not found:
@@ -163,13 +182,15 @@ def decided_sections(result: Any, names: Sequence[str], words: Named = joined) -
     used = {of[0].by for of in found.values()}
     texts = [text for by, text in ((INDEX, DECIDED_TEXT), (RANK, RANK_TEXT)) if by in used]
     small = _small_sources(result)
-    texts += [f"Below 0.02 for every figure: {', '.join(small)}."] if small else []
+    texts += (
+        [f"Below {LEAST} for every figure that has indices: {', '.join(small)}."] if small else []
+    )
     matrix = tables.matrix_table(result, list(result.figures))
     tiles = [
         Plot(
             f"decides-{i}",
             plots.bar_figure(of, title_of(name, result.figures[name])),
-            f"decided most by {share_words(of[0], words)}",
+            f"{title_of(name, result.figures[name])}: {share_words(of[0])}",
             tiles=3,
         )
         for i, (name, of) in enumerate(found.items())
@@ -184,7 +205,7 @@ def _small_sources(result: Any) -> list[str]:
     largest: dict[str, float] = {}
     for share in all_shares:
         largest[share.source] = max(largest.get(share.source, 0.0), share.value)
-    return [joined(source) for source, value in largest.items() if value < LEAST]
+    return [joined(source) for source in sorted(largest) if largest[source] < LEAST]
 
 
 def over_time_sections(result: Any) -> list[Section]:

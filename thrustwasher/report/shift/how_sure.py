@@ -13,7 +13,7 @@ from ..scatter.study_page import (
     over_time_sections,
     washer_figures,
 )
-from ..scatter.words import joined
+from ..scatter.words import joined, spoken
 from .shift_record import Record
 
 MOST = 6  # figures with bars
@@ -33,7 +33,7 @@ def how_sure_sections(record: Record) -> list[Section]:
     title, texts = "How sure", [*_verdicts(record), *_study_texts(record)]
     figures = scatter_tables.figure_table(result, main)
     chance = [scatter_tables.probability_table(result)] if result.probabilities else []
-    decided = decided_sections(result, chosen, lambda name: source_words(record, name))
+    decided = decided_sections(result, chosen)
     sources, errors = scatter_tables.source_table(result), scatter_tables.error_table(result, main)
     return [
         Section("how-sure", title, texts=texts, tables=[figures, *chance]),
@@ -94,4 +94,4 @@ def source_words(record: Record, name: str) -> str:
     found = record.part(part)
     field = found.spec.params.__dataclass_fields__.get(own) if found else None
     help = str(field.metadata.get("help", "")) if field else ""
-    return f"{help.split(';')[0].split(' (')[0]} ({name})" if help else joined(name)
+    return f"“{spoken(help)}” ({name})" if help else joined(name)

@@ -118,7 +118,8 @@ def _cards(record: Record) -> list[Card]:
 
     def band(name: str) -> list[str]:
         found = record.band(name)
-        return [f"{BAND}: {band_words(found)}"] if found and varies(found) else []
+        words = f"{BAND}: {band_words(found)}" if found and varies(found) else ""
+        return [words.replace(" ", "\N{NO-BREAK SPACE}")] if words else []
 
     cards = [
         Card(

@@ -240,7 +240,8 @@ class Bench:
                     continuation.remember(w, 1.0)
                 dry = dry or w.curve[L.AT_SHARE] > DRY
                 thick = top + (high + 1) * step > ENTRY_RATIO
-                rising = high == 0 or sign * (loads[high] - loads[high - 1]) > 0.0
+                highest = [loads[k] for k in sorted(loads)[-2:]]
+                rising = high == 0 or sign * (highest[1] - highest[0]) > 0.0
                 if dry and thick:
                     return None, top
                 if thick and rising and sign > 0.0:
@@ -251,14 +252,15 @@ class Bench:
                 if k != high:
                     continuation.recall(w, 1.0)
                     w.curve[L.AT_FILM] = (top + high * step) * sigma
-                k = high + 1
+                k = high + (2 if dry else 1)
             (above, middle, below), (after, here, before) = found, (loads[k] for k in found)
             bend = before - 2.0 * here + after
             even = above - middle == middle - below == 1 and bend != 0.0
             top += step * (middle + (0.5 * (before - after) / bend if even else 0.0))
             y = place.take(pt) if middle else y
             beyond = sign * (pt.load - here)
-            far = (middle - below) * max(abs(here - before), abs(here - after)) + SURE * here
+            wide = max(above - middle, middle - below)
+            far = wide * max(abs(here - before), abs(here - after)) + SURE * here
             if not 0.0 < beyond <= far:
                 self.known["fold"].add(x, np.append(y, (top, math.log(here))))
                 return bool(beyond <= 0.0), top

@@ -21,7 +21,6 @@ from ..native.load import bound
 from ..numerics.jit import Array
 from ..numerics.status import NO_BRANCH, NOT_FINITE, OK
 from .draw_constants import Constants
-from .kernel_arguments import work_array
 from .kernels import continuation
 from .kernels import layout as L
 from .kernels import step as kernel
@@ -61,10 +60,8 @@ Answer = tuple[Array, int, bool]  # outputs (SHOWN,), status, whether the film i
 class Place:
     """A place on a curve of solutions, with a heat factor of its own that serves the next draw."""
 
-    def __init__(self, name: str, par: Array, nodes: tuple[int, int]) -> None:
-        size = L.N_HEAD + size_of_work(*nodes)
-        self.work = work_array(("draws", name, nodes), size)
-        self.work[:] = 0.0
+    def __init__(self, par: Array, nodes: tuple[int, int]) -> None:
+        self.work = np.zeros(L.N_HEAD + size_of_work(*nodes))
         self.w = workspace_of(par, self.work)
         self.f = fields_of(self.w)
         self.newton = bound(newton, w=self.w)
@@ -137,9 +134,9 @@ class Bench:
     def __init__(self, par: Array, nodes: tuple[int, int], *, above: bool) -> None:
         self.par, self.fold_kind = par.copy(), LOWER if above else UPPER
         self.own, self.other = ("contact", "film") if above else ("film", "contact")
-        self.places = {name: Place(name, self.par, nodes) for name in ("film", "contact", "fold")}
+        self.places = {name: Place(self.par, nodes) for name in ("film", "contact", "fold")}
         self.known = {name: Family() for name in self.places}
-        self.plain = Place("plain", self.par, nodes)
+        self.plain = Place(self.par, nodes)
         self.state, self.inp = np.zeros(size_of_state(*nodes)), np.zeros(L.NINP + 1)
         self.inp[L.I_BRANCH] = L.CONTACT_BRANCH if above else L.ANY
         self.step = bound(

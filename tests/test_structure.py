@@ -61,6 +61,7 @@ PLACES = {
         "shift.oscillation.torsion": {"clutch"},
         "report.shift.live_washer": {"washer"},
         "scatter.scene_runs": {"washer"},
+        "scatter.scene_target": {"washer"},
     },
 }
 

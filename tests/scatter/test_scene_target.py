@@ -133,6 +133,11 @@ def test_where_the_shortcut_errs_too_much_all_runs_are_full(target, rows, monkey
     assert codes[0] == 0 and np.isfinite(answers).all()
 
 
+def test_numerical_errors_of_the_step_and_of_the_washers_mesh_are_known(target):
+    assert set(target.error()) == {"lock_time", "slip_energy", "peak_jerk", "washer_torque"}
+    assert all(0.0 < x < 0.5 for x in target.error().values())
+
+
 def test_several_shifts_are_refused():
     with pytest.raises(ParameterError, match=r"it has a \[sequence\]"):
         scene_target(load_scene("duty-cycle"))

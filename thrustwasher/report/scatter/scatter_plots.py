@@ -171,16 +171,22 @@ def decided_over_time(name: str, series: Any, title: str = "") -> Figure | None:
     if not any(map(_any, drawn.values())):
         return None
     top = max(float(np.nanmax(values)) for values in drawn.values() if _any(values))
-    figure, axis = _tile(WIDE, 2.75, left=0.45, below=0.48)
+    figure, axis = _tile(WIDE, 3.2, left=0.45, below=0.95)
     weights = {
         source: float(np.nansum(np.clip(values, 0.0, 1.0))) for source, values in drawn.items()
     }
     ranked = sorted(weights, key=lambda source: -weights[source])[: len(COLOURS)]
     for source, colour in zip(ranked, COLOURS, strict=False):
-        axis.plot(series.time, drawn[source], color=getattr(palette, colour), label=joined(source))
+        axis.plot(
+            series.time,
+            drawn[source],
+            color=getattr(palette, colour),
+            label=shortened(joined(source), 28),
+        )
     axis.set_xlim(series.time[0], series.time[-1])
     axis.set_ylim(0.0, min(max(1.05, top), 1.5))
     axis.set_xlabel("time [s]")
-    axis.legend(loc="upper right", fontsize=7.5, handlelength=1.4)
+    look = {"fontsize": 8, "handlelength": 1.4, "columnspacing": 1.0, "labelspacing": 0.25}
+    figure.legend(loc="lower left", ncols=2, borderaxespad=0.2, **look)
     _title(axis, f"{title or named(name)}: total indices", WIDE)
     return figure

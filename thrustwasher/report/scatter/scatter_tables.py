@@ -131,7 +131,7 @@ def error_table(result: Any, names: Sequence[str]) -> Table:
         rows.append(
             (title_of(name, band), _numerical(band), _by_choice(result, name), _by_inputs(band))
         )
-    heads = ("", "mesh (rung)", "choice of the model", "inputs, 5 .. 95 %")
+    heads = ("", "mesh, step or rung", "choice of the model", "inputs, 5 .. 95 %")
     return Table(heads, rows, numbers=(1, 3))
 
 

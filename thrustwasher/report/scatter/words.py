@@ -11,6 +11,7 @@ from ..palette import CELSIUS
 NONE = "\N{EN DASH}"
 LOW, MIDDLE, HIGH = 0.05, 0.5, 0.95
 BAND = "5 .. 95 %"  # the head of a column
+MOST_DIGITS = 6
 LEVELS = {LOW: "5 %", MIDDLE: "50 %", HIGH: "95 %"}
 
 
@@ -80,7 +81,7 @@ def band_scale(band: Any) -> Scale:
         return scale
     larger = max(abs(low - scale.zero), abs(high - scale.zero))
     digits = 1 + math.ceil(math.log10(larger / (high - low)))
-    return scale._replace(digits=min(max(digits, 3), 6))
+    return scale._replace(digits=max(digits, 3) if digits <= MOST_DIGITS else 3)
 
 
 def named(name: str) -> str:
@@ -155,6 +156,11 @@ def value_words(value: Any, unit: str) -> str:
 def band_words(band: Any) -> str:
     """Return the range from the 5 to the 95 % quantile."""
     return band_scale(band).span(band.quantiles.get(LOW), band.quantiles.get(HIGH))
+
+
+def sentence(text: str) -> str:
+    """Return a text as a sentence."""
+    return f"{text[:1].upper()}{text[1:].removesuffix('.')}." if text else ""
 
 
 def varies(band: Any) -> bool:

@@ -15,10 +15,10 @@ from ..storage.journal import Journal
 from ..storage.whole_files import new_folder, whole_folder
 from ..sweep.axes import find_place, places
 from .design import ROWS, ROWS_OF_PART, make_design, rounded_runs
+from .evaluation import Runs
 from .function_target import function_target
 from .result import SAMPLE, ScatterResult, write_columns
 from .study import Progress, Study, check_workers
-from .evaluation import Runs
 from .target import Target
 
 if TYPE_CHECKING:

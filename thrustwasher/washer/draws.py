@@ -10,6 +10,7 @@ What a batch returns depends on the batch alone: nothing is kept from one to the
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from ..model.parameters import as_numbers
 from ..native.load import bound
 from ..numerics.jit import Array
 from ..numerics.status import NO_BRANCH, NOT_FINITE, OK
+from . import solve as single
 from .draw_constants import Constants
 from .kernels import continuation
 from .kernels import layout as L
@@ -50,8 +52,10 @@ BESIDE, CLOSE = 0.25, 0.05  # [sigma] between places around a fold
 SURE = 1e-3  # relative distance of a load to the fold that settles the branch
 STEEP = 0.3  # relative change of the load over one sigma that makes a solution surely stable
 DRY = 0.9  # share of the load on the asperities from which no fold will come
-HIGHEST = 3  # places to look for a fold on the side of the thicker film
+GROWING = 1.08  # load from place to place where no fold is near: a longer step follows
+MOST = 40  # places to look at
 UPPER, LOWER = 1.0, -1.0  # fold that a washer meets which comes from light load, from heavy load
+THIN = {UPPER: 2.4, LOWER: 1.2}  # [sigma] where a curve without folds is looked at first
 SHOWN = L.O_STICK_MARGIN + 1  # outputs that make sense for a single point
 NOTHING = np.zeros(0)
 Answer = tuple[Array, int, bool]  # outputs (SHOWN,), status, whether the film is lost
@@ -212,7 +216,8 @@ class Bench:
         Places on the draw's own curve are solved around the supposed fold, until one between two
         others carries most (least, at the lower fold): the curve is bent one way there, so that the
         fold's load is no farther from the middle place than that is from the others. If the load
-        only grows until asperities carry it, there is no fold: None, as a load has one solution.
+        only grows from a thick film until asperities carry it, there is no fold: None, as a load
+        has one solution.
         Nothing is returned if that fails, or the load is too near to the fold's.
         """
         place, sign = self.places["fold"], self.fold_kind
@@ -224,33 +229,38 @@ class Bench:
         y = place.take(pt)
         for step, accuracy in ((BESIDE, ROUGHLY), (CLOSE, CLOSELY)):
             w.curve[L.ACCURACY] = accuracy
-            k, low, high = 0, 0, 0
-            loads: dict[int, float] = {}
-            middle: int | None = None
-            while middle is None:
-                if place.walk_to(pt, (top + k * step) * sigma) != OK:
+            loads, k, low, high, dry = dict[int, float](), 0, 0, 0, False
+            while (found := _extremum(loads, sign)) is None:
+                if len(loads) > MOST or place.walk_to(pt, (top + k * step) * sigma) != OK:
                     return None
+                growth = float(w.curve[L.AT_LOAD]) / loads.get(low, math.inf)
                 loads[k] = float(w.curve[L.AT_LOAD])
                 low, high = min(low, k), max(high, k)
-                if k == low < -HIGHEST and w.curve[L.AT_SHARE] > DRY:
+                if k == high:
+                    continuation.remember(w, 1.0)
+                dry = dry or w.curve[L.AT_SHARE] > DRY
+                thick = top + (high + 1) * step > ENTRY_RATIO
+                highest = [loads[k] for k in sorted(loads)[-2:]]
+                rising = high == 0 or sign * (highest[1] - highest[0]) > 0.0
+                if dry and thick:
                     return None, top
-                middle = next(
-                    (
-                        k
-                        for k in range(low + 1, high)
-                        if sign * loads[k] >= max(sign * loads[k - 1], sign * loads[k + 1])
-                    ),
-                    None,
-                )
-                rising = high == 0 or sign * (loads[high] - loads[high - 1]) > 0.0
-                if rising and high == HIGHEST and sign > 0.0:
+                if thick and rising and sign > 0.0:
                     return None
-                k = high + 1 if rising and high < HIGHEST else low - 1
-            before, here, after = loads[middle - 1], loads[middle], loads[middle + 1]
+                if thick or not (dry or rising):
+                    k = low - (2 if k == low < 0 and growth > GROWING else 1)
+                    continue
+                if k != high:
+                    continuation.recall(w, 1.0)
+                    w.curve[L.AT_FILM] = (top + high * step) * sigma
+                k = high + (2 if dry else 1)
+            (above, middle, below), (after, here, before) = found, (loads[k] for k in found)
             bend = before - 2.0 * here + after
-            top += step * (middle + (0.5 * (before - after) / bend if bend else 0.0))
+            even = above - middle == middle - below == 1 and bend != 0.0
+            top += step * (middle + (0.5 * (before - after) / bend if even else 0.0))
+            y = place.take(pt) if middle else y
             beyond = sign * (pt.load - here)
-            far = max(abs(here - before), abs(here - after)) + SURE * here
+            wide = max(above - middle, middle - below)
+            far = wide * max(abs(here - before), abs(here - after)) + SURE * here
             if not 0.0 < beyond <= far:
                 self.known["fold"].add(x, np.append(y, (top, math.log(here))))
                 return bool(beyond <= 0.0), top
@@ -288,7 +298,7 @@ class Bench:
         thin = self._here(place, pt)
         while place.walk_to(pt, continuation.step_down(sigma, passed[-1][0], DESCENT)) == OK:
             passed.append((float(w.curve[L.AT_FILM]), float(w.curve[L.AT_LOAD])))
-            if place.film > 0.8 * FILM_RATIO:
+            if place.film > THIN[self.fold_kind]:
                 thin = self._here(place, pt)
             if w.curve[L.AT_SHARE] > DRY:
                 self.known["fold"].add(x, thin)
@@ -303,6 +313,16 @@ class Bench:
     @staticmethod
     def _here(place: Place, pt: Point) -> Array:
         return np.append(place.take(pt), (place.film, math.log(place.w.curve[L.AT_LOAD])))
+
+
+def _extremum(loads: dict[int, float], sign: float) -> tuple[int, int, int] | None:
+    """Return three places next to each other, of which the middle one carries most (-1: least)."""
+    order = sorted(loads, reverse=True)
+    for three in zip(order, order[1:], order[2:], strict=False):
+        one, middle, two = (sign * loads[k] for k in three)
+        if middle >= max(one, two):
+            return three
+    return None
 
 
 def _shown(place: Place) -> Array:
@@ -386,3 +406,6 @@ def _looked_up(
             rows[i] = [getattr(found, name, math.nan) for name in names]
             rows[i, share] = found.fluid_load / (found.fluid_load + found.contact_load)
     return rows, status, lost
+
+
+SWEEP = replace(single.SWEEP, draws=solve_draws)

@@ -115,7 +115,7 @@ class Washer(Model):
     @property
     def sweep(self) -> Sweep:
         """What a sweep of it does otherwise."""
-        from .solve import SWEEP
+        from .draws import SWEEP
 
         return SWEEP
 

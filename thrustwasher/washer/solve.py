@@ -247,14 +247,7 @@ def doubt_of_rows(params: WasherParams, fidelity: str, points: Array) -> str:
     return ""
 
 
-def _draws(*of: Any, above: bool) -> Any:
-    from .draws import solve_draws  # it needs this module
-
-    return solve_draws(*of, above=above)
-
-
 SWEEP = Sweep(
-    draws=_draws,
     not_shown=("energy", "stored_heat"),
     doubt=doubt_of_rows,
     least={

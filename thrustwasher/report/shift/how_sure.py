@@ -7,13 +7,15 @@ from ..scatter import scatter_tables
 from ..scatter.decides import chances, shares, verdict
 from ..scatter.study_page import (
     ERROR_TEXT,
+    MOST_FIGURES,
     SOURCES_TEXT,
     decided_sections,
+    film_figures,
     main_figures,
     over_time_sections,
     washer_figures,
 )
-from ..scatter.words import joined, spoken
+from ..scatter.words import joined, sentence, spoken
 from .shift_record import Record
 
 MOST = 6  # figures with bars
@@ -29,7 +31,7 @@ def how_sure_sections(record: Record) -> list[Section]:
     result = record.scatter
     if result is None:
         return []
-    chosen, main = _chosen(record), main_figures(result, len(result.figures))
+    chosen, main = _chosen(record), main_figures(result, MOST_FIGURES)
     title, texts = "How sure", [*_verdicts(record), *_study_texts(record)]
     figures = scatter_tables.figure_table(result, main)
     chance = [scatter_tables.probability_table(result)] if result.probabilities else []
@@ -69,10 +71,10 @@ def _verdicts(record: Record) -> list[str]:
     def words(name: str) -> str:
         return source_words(record, name)
 
-    texts = verdict(result, "the washers", washer_figures(result), words)
+    texts = verdict(result, "the washers", film_figures(result), words)
     texts += verdict(result, "the shift", OF_THE_SHIFT, words)
-    said = "; ".join(chances(result))
-    return texts + ([f"{said[0].upper()}{said[1:]}."] if said else [])
+    said = sentence("; ".join(chances(result)))
+    return [*texts, said] if said else texts
 
 
 def _study_texts(record: Record) -> list[str]:
@@ -82,7 +84,7 @@ def _study_texts(record: Record) -> list[str]:
         f"{r.runs} base points, {r.solves} runs. {scatter_tables.share_of_failed(r)} Bands are "
         "shaded in the plots above.",
         Markup('The whole study: <a href="{0}">{0}</a> beside this page.').format(STUDY),
-        *(f"{text[0].upper()}{text[1:]}." for text in r.warnings),
+        *map(sentence, r.warnings),
     ]
 
 

@@ -11,6 +11,7 @@ from ..model.record import Model
 from ..model.rungs import rung_named
 from ..model.spec import REGIMES, Signal
 from ..units import UNITS, readable_units
+from .draws import draws_of
 from .view import View
 
 QUANTITY = "friction_torque"
@@ -75,6 +76,7 @@ def describe(
             for chart in rung.charts
         ],
         "safety": SAFETY,
+        "scatter": draws_of(part, point),
         **view.more,
         "python": {"params": view.params, "solve": view.solve},
         "worker": view.worker.data(spec),

@@ -1,6 +1,7 @@
 "use strict";
 /* The thrust washer: points, fields, load curve and Stribeck curve, as the Python API solves them. */
 
+const MOST_DRAWN = 64, CLEAR = 0.01, FILM_RATIO = 3, COARSE = 0.28, ROUGH = 1e-4, EXACT = 1e-6, MOST_NODES = 200; // of draws
 const GOLDEN = 0.618, MOST_LOADS = 100, FINEST = 0.1, ALONE = 0.9, STEEP = 1.1, SHALLOW = 3e-4;
 
 class Model {
@@ -14,20 +15,28 @@ class Model {
 
   /** Take parameters [numbers in their order] and a rung; return the number of a broken rule. */
   set(parameters, rung) {
-    const { kernel, L } = this, { grid, code, sizes } = this.about.rungs[rung];
-    this.mesh = this.meshes[rung] ??= {
+    const broken = this.fill((this.mesh = this.memory(rung)), parameters, rung);
+    this.grid = this.about.rungs[rung].grid;
+    return broken;
+  }
+
+  /** Return memory for a rung, one of each name. */
+  memory(rung, name = rung) {
+    const { kernel } = this, { sizes } = this.about.rungs[rung];
+    return (this.meshes[name] ??= {
       par: kernel.array(sizes.par), state: kernel.array(sizes.state),
       work: kernel.array(sizes.work), curve: kernel.array(sizes.work),
-    };
-    const { par, state } = this.mesh;
+    });
+  }
+
+  /** Fill the constants of a mesh; return the number of a broken rule, -1 if no constants follow. */
+  fill({ par, state }, parameters, rung) {
+    const { kernel, L } = this, { grid, code } = this.about.rungs[rung];
     par.view.fill(0);
     par.view.set([...parameters, code]);
     par.view[L.P_THERMAL_MODE] = L.QUASI_STEADY;
     state.view.fill(0);
-    const broken = kernel.call("broken_rule", par);
-    if (!broken && kernel.call("derive_grid", par, ...grid)) return -1;
-    this.grid = grid;
-    return broken;
+    return kernel.call("broken_rule", par) || (kernel.call("derive_grid", par, ...grid) ? -1 : 0);
   }
 
   /** Solve at (load, speed, tilt, oil, far face); `state` remembers. */
@@ -124,6 +133,36 @@ class Model {
     return { rows };
   }
 
+  /**
+   * Go over rising loads with the parameters and inputs of a draw of the scatter. Return outputs by load, `up` on the film
+   * branch to its fold, then in contact, `down` only where the contact branch is another solution; or a `broken` rule.
+   */
+  *draw(parameters, rung, point, loads) {
+    const kept = [this.mesh, this.grid], { grid } = this.about.rungs[rung], mesh = this.memory(rung, `${rung}, draws`);
+    const [broken, par] = this.constants(mesh, parameters, rung);
+    if (broken) return { broken };
+    const own = () => ([this.mesh, this.grid] = [{ ...mesh, par }, grid]), back = () => ([this.mesh, this.grid] = kept);
+    own();
+    const steps = new Draw(this, point, loads).walk();
+    for (let step = steps.next(); ; own(), step = steps.next()) {
+      back();
+      if (step.done) return step.value;
+      yield;
+    }
+  }
+
+  /** Return the number of a broken rule and the constants of a draw, made once for the same parameters. */
+  constants({ state }, parameters, rung) {
+    const known = (this.drawn ??= new Map()), key = JSON.stringify([parameters, rung]), size = this.about.rungs[rung].sizes.par;
+    if (!known.has(key)) {
+      const oldest = known.size < MOST_DRAWN ? undefined : known.keys().next().value, free = known.get(oldest)?.[1];
+      known.delete(oldest);
+      const par = free?.length === size ? free : this.kernel.array(size);
+      known.set(key, [this.fill({ par, state }, parameters, rung), par]);
+    }
+    return known.get(key);
+  }
+
   /** All solutions between two loads: the walk of Python's load_curve, point by point. */
   *curve(point, loadMin, loadMax) {
     const here = new Walker(this, point, loadMin), points = [], folds = [], places = [];
@@ -166,12 +205,12 @@ class Walker {
   constructor(washer, point, load) {
     const { kernel, L } = washer, { par, curve: work, state } = washer.mesh;
     Object.assign(this, { kernel, L, washer, work, point: [load, ...point.slice(1)], sigma: par.view[L.D_SIGMA1] });
-    // A step sets how heat leaves the bodies; what it found is not used.
+    // A step sets how heat leaves the bodies; the curve does not use what it found.
     const own = (washer.other ??= {})[washer.grid] ??= kernel.array(state.length);
     own.view.fill(0);
     const mesh = washer.mesh;
     washer.mesh = { ...mesh, work };
-    washer.step(this.point, L.ANY, own);
+    this.begun = washer.step(this.point, L.ANY, own);
     washer.mesh = mesh;
     const bulk = par.view[L.P_GEAR_FAR_FACE] === L.BULK && point[L.I_FAR_FACE];
     this.point[L.I_FAR_FACE] = bulk || point[L.I_OIL]; // as the kernels' point_of
@@ -261,6 +300,132 @@ class Walker {
     this.kernel.call("outputs_at", ...this.w, load, ...this.point.slice(1));
     const out = this.work.view.slice(L.AT_OUTPUTS, L.AT_POSITIONS), found = { load };
     this.washer.about.real_outputs.forEach((name, i) => (found[name] = out[i]));
+    return found;
+  }
+}
+
+/** A draw of the scatter: from load to load while the film is clear, along the curve where folds may be. */
+class Draw extends Walker {
+  constructor(washer, point, loads) {
+    super(washer, point, loads[0]);
+    const { temp, pressure } = washer.places(), [nR, nT] = washer.grid;
+    Object.assign(this, { loads, up: [], down: [], from: temp, to_: pressure + nR * nT, nodes: [], lost: 0, regained: 0 });
+  }
+
+  *walk() {
+    const { loads, up, down } = this;
+    yield* this.clearFilm();
+    if (up.length === loads.length) return { up, down };
+    yield* this.curveOn();
+    const { nodes, lost, regained } = this, film = lost ? nodes.slice(0, lost + 1) : nodes;
+    for (let i = up.length; i < loads.length; i += 1) {
+      const found = this.solveBetween(film, loads[i], !lost, lost);
+      if (found) up[i] = { ...found, branch: lost || found.film_ratio >= FILM_RATIO ? "film" : "contact" };
+      else if (lost) break;
+      else up[i] = null;
+      yield;
+    }
+    if (!lost || !regained) return { up, down };
+    const contact = nodes.slice(regained);
+    for (let i = 0; i < loads.length; i += 1) {
+      const found = this.solveBetween(contact, loads[i], true, -regained);
+      if (found) (up[i] ? down : up)[i] = { ...found, branch: "contact" };
+      else if (!up[i]) up[i] = null;
+      yield;
+    }
+    return { up, down };
+  }
+
+  get ratio() {
+    const { L } = this, q = this.work.view.subarray(L.AT_POSITIONS);
+    return (q[L.Z_WASHER] - this.washer.mesh.par.view[L.P_OUTER_RADIUS] * Math.hypot(q[L.TILT_X], q[L.TILT_Y])) / this.sigma;
+  }
+
+  /** Tell if the film is thick, stable and carries the load, as the kernels' ``is_clear_film``. */
+  get isClear() { return this.at(this.L.AT_SLOPE) < 0 && this.ratio >= FILM_RATIO && this.share < CLEAR; }
+
+  /** Return what is needed to come back here. */
+  here() {
+    const { L } = this, v = this.work.view;
+    return { load: this.load, film: this.film, curve: v.slice(L.AT_CURVE, L.AT_CURVE + L.ACCURACY), q: v.slice(L.AT_POSITIONS, L.N_HEAD), fields: v.slice(this.from, this.to_) };
+  }
+
+  goTo({ curve, q, fields }) {
+    const v = this.work.view;
+    v.set(curve, this.L.AT_CURVE);
+    v.set(q, this.L.AT_POSITIONS);
+    v.set(fields, this.from);
+  }
+
+  /** Solve at a load from where a polynomial through other solutions leads, over the logarithm of the load. */
+  solveFrom(others, load) {
+    const { kernel, L } = this, v = this.work.view, x = others.map((p) => Math.log(p.load)), at = Math.log(load);
+    const w = x.map((a, i) => x.reduce((f, b, j) => (i === j ? f : (f * (at - b)) / (a - b)), 1));
+    for (const [name, first] of [["q", L.AT_POSITIONS], ["fields", this.from]]) {
+      const parts = others.map((p) => p[name]);
+      for (let k = 0; k < parts[0].length; k += 1) {
+        let sum = 0;
+        for (let i = 0; i < w.length; i += 1) sum += w[i] * parts[i][k];
+        v[first + k] = sum;
+      }
+    }
+    const code = kernel.call("newton", ...this.w, ...this.point, L.MODE_LOAD, load, L.NO_FLOOR, EXACT, 12);
+    if (!code) this.note();
+    return !code;
+  }
+
+  /** Go from load to load as long as the film is clear; stand at the last such place. */
+  *clearFilm() {
+    const { loads, up, L } = this, found = [];
+    this.at(L.ACCURACY, ROUGH);
+    if (this.begun < this.washer.about.first_failure) this.note();
+    if (this.begun || !this.isClear) {
+      this.start(6);
+      while (this.load > loads[0] && this.film < 1e3 * this.sigma) this.to(1.25 * this.film);
+      return;
+    }
+    for (;;) {
+      up.push({ ...this.result(), branch: "film" });
+      found.push(this.here());
+      if (found.length > 3) found.shift();
+      if (up.length === loads.length) return;
+      yield;
+      if (!this.solveFrom(found, loads[up.length]) || !this.isClear) break;
+    }
+    this.goTo(found.at(-1));
+    this.forget();
+  }
+
+  /** Walk on to thinner films until no fold can follow: nodes, and which of them are next to folds. */
+  *curveOn() {
+    const { nodes, loads } = this, last = loads.at(-1);
+    let top = 0, rising = true;
+    nodes.push(this.here());
+    for (;;) {
+      const over = this.load >= last;
+      if (rising && (this.share > ALONE || (over && (this.lost || this.film < 0.5 * this.sigma)))) return;
+      if (nodes.length > MOST_NODES) throw new Error("the walk along the curve does not end");
+      yield;
+      this.to(this.film - Math.max(COARSE * this.sigma, 0.12 * (this.film - 2.5 * this.sigma)));
+      nodes.push(this.here());
+      const gain = this.load - nodes[top].load, noise = SHALLOW * nodes[top].load + 1e-3, now = nodes.length - 1;
+      if (rising ? gain < -noise : gain > noise) {
+        if (rising) this.lost ||= top; else this.regained ||= top;
+        if (rising && nodes[top].load > last) return; // the film is lost beyond the loads
+        rising = !rising;
+        top = now;
+      } else if (rising ? gain > 0 : gain < 0) top = now;
+    }
+  }
+
+  /** Solve at a load that lies between nodes of rising load, `on` beyond the last one; null if it does not. */
+  solveBetween(nodes, load, on) {
+    const i = nodes.findIndex((node) => node.load >= load);
+    if (i === 0 || (i < 0 && !on)) return null;
+    const near = i < 0 ? nodes.slice(-3) : nodes.slice(Math.max(0, i - 2), i + 1);
+    if (!this.solveFrom(near, load)) return null;
+    const found = this.result();
+    if (i < 0) nodes.push(this.here());
     return found;
   }
 }

@@ -1,7 +1,7 @@
 "use strict";
 /* The thrust washer: points, fields, load curve and Stribeck curve, as the Python API solves them. */
 
-const MOST_DRAWN = 64, CLEAR = 0.01, FILM_RATIO = 3, COARSE = 0.28, ROUGH = 1e-4, EXACT = 1e-6, MOST_NODES = 200; // of draws
+const MOST_DRAWN = 64, CLEAR = 0.01, FILM_RATIO = 3, COARSE = 0.28, ROUGH = 1e-4, EXACT = 2e-6, MOST_NODES = 200; // of draws
 const GOLDEN = 0.618, MOST_LOADS = 100, FINEST = 0.1, ALONE = 0.9, STEEP = 1.1, SHALLOW = 3e-4;
 
 class Model {
@@ -309,7 +309,7 @@ class Draw extends Walker {
   constructor(washer, point, loads) {
     super(washer, point, loads[0]);
     const { temp, pressure } = washer.places(), [nR, nT] = washer.grid;
-    Object.assign(this, { loads, up: [], down: [], from: temp, to_: pressure + nR * nT, nodes: [], lost: 0, regained: 0 });
+    Object.assign(this, { loads, up: [], down: [], at0: temp, at1: pressure + nR * nT, nodes: [], lost: 0, regained: 0 });
   }
 
   *walk() {
@@ -317,20 +317,18 @@ class Draw extends Walker {
     yield* this.clearFilm();
     if (up.length === loads.length) return { up, down };
     yield* this.curveOn();
-    const { nodes, lost, regained } = this, film = lost ? nodes.slice(0, lost + 1) : nodes;
+    const { nodes, lost, regained } = this, film = lost ? this.until(lost) : nodes, contact = regained ? this.beyond(regained) : [];
     for (let i = up.length; i < loads.length; i += 1) {
-      const found = this.solveBetween(film, loads[i], !lost, lost);
+      const found = this.solveAlong(film, loads[i], !lost);
       if (found) up[i] = { ...found, branch: lost || found.film_ratio >= FILM_RATIO ? "film" : "contact" };
       else if (lost) break;
       else up[i] = null;
       yield;
     }
-    if (!lost || !regained) return { up, down };
-    const contact = nodes.slice(regained);
     for (let i = 0; i < loads.length; i += 1) {
-      const found = this.solveBetween(contact, loads[i], true, -regained);
+      const found = contact.length ? this.solveAlong(contact, loads[i], true) : null;
       if (found) (up[i] ? down : up)[i] = { ...found, branch: "contact" };
-      else if (!up[i]) up[i] = null;
+      else up[i] ??= null;
       yield;
     }
     return { up, down };
@@ -347,21 +345,21 @@ class Draw extends Walker {
   /** Return what is needed to come back here. */
   here() {
     const { L } = this, v = this.work.view;
-    return { load: this.load, film: this.film, curve: v.slice(L.AT_CURVE, L.AT_CURVE + L.ACCURACY), q: v.slice(L.AT_POSITIONS, L.N_HEAD), fields: v.slice(this.from, this.to_) };
+    return { load: this.load, film: this.film, curve: v.slice(L.AT_CURVE, L.AT_CURVE + L.ACCURACY), q: v.slice(L.AT_POSITIONS, L.N_HEAD), fields: v.slice(this.at0, this.at1) };
   }
 
   goTo({ curve, q, fields }) {
     const v = this.work.view;
     v.set(curve, this.L.AT_CURVE);
     v.set(q, this.L.AT_POSITIONS);
-    v.set(fields, this.from);
+    v.set(fields, this.at0);
   }
 
   /** Solve at a load from where a polynomial through other solutions leads, over the logarithm of the load. */
   solveFrom(others, load) {
     const { kernel, L } = this, v = this.work.view, x = others.map((p) => Math.log(p.load)), at = Math.log(load);
     const w = x.map((a, i) => x.reduce((f, b, j) => (i === j ? f : (f * (at - b)) / (a - b)), 1));
-    for (const [name, first] of [["q", L.AT_POSITIONS], ["fields", this.from]]) {
+    for (const [name, first] of [["q", L.AT_POSITIONS], ["fields", this.at0]]) {
       const parts = others.map((p) => p[name]);
       for (let k = 0; k < parts[0].length; k += 1) {
         let sum = 0;
@@ -390,7 +388,8 @@ class Draw extends Walker {
       if (found.length > 3) found.shift();
       if (up.length === loads.length) return;
       yield;
-      if (!this.solveFrom(found, loads[up.length]) || !this.isClear) break;
+      const load = loads[up.length], thinner = this.load * Math.log(load / this.load) / this.at(L.AT_SLOPE) / this.sigma;
+      if (this.ratio + thinner < FILM_RATIO || !this.solveFrom(found, load) || !this.isClear) break;
     }
     this.goTo(found.at(-1));
     this.forget();
@@ -418,14 +417,70 @@ class Draw extends Walker {
     }
   }
 
-  /** Solve at a load that lies between nodes of rising load, `on` beyond the last one; null if it does not. */
-  solveBetween(nodes, load, on) {
+  /** Return the nodes up to a fold next to node k, where the load is greatest, and the fold if a load is near. */
+  until(k) {
+    const fold = this.loads.some((load) => load > this.nodes[k].load && this.isNear(k, load)) && this.foldAt(k, 1);
+    return fold ? [...this.nodes.slice(0, k + 1).filter((p) => p.film > fold.film), fold] : this.nodes.slice(0, k + 1);
+  }
+
+  /** Return the nodes from a fold next to node k on, where the load is least, and the fold if a load is near. */
+  beyond(k) {
+    const fold = this.loads.some((load) => load < this.nodes[k].load && this.isNear(k, load)) && this.foldAt(k, -1);
+    return fold ? [fold, ...this.nodes.slice(k).filter((p) => p.film < fold.film)] : this.nodes.slice(k);
+  }
+
+  /** Tell if the fold next to node k may lie beyond a load, as the kernels' ``_near``. */
+  isNear(k, load) {
+    const [[s0, w0], [s1, w1], [s2, w2]] = this.nodes.slice(k - 1, k + 2).map((p) => [p.film, p.load]);
+    const first = (w1 - w0) / (s1 - s0), bend = ((w2 - w1) / (s2 - s1) - first) / (s2 - s0), slope = first + bend * (s1 - s0);
+    return Math.abs(w1 - load) < 0.02 * load + Math.min(0.25 * load, (1.25 * slope * slope) / Math.abs(bend));
+  }
+
+  /** Return the place of greatest (`sign` 1) or least load about node k, by parabolas through three places. */
+  foldAt(k, sign) {
+    let [one, top, two] = this.nodes.slice(k - 1, k + 2);
+    for (let n = 0; n < 6; n += 1) {
+      const [p, q] = [one, two].map((o) => (top.load - o.load) / (top.film - o.film)); // slopes of the chords
+      const film = 0.5 * (top.film + one.film - (p * (two.film - one.film)) / (q - p));
+      if (!(film < one.film && film > two.film) || Math.abs(film - top.film) < 1e-3 * this.sigma) break;
+      this.goTo(top);
+      this.to(film);
+      const found = this.here(), better = sign * (found.load - top.load) > 0;
+      if (better) [one, top, two] = film > top.film ? [one, found, top] : [top, found, two];
+      else if (film > top.film) one = found;
+      else two = found;
+    }
+    return top;
+  }
+
+  /** Solve at a load between nodes of rising load, `on` beyond the last one too; null where it does not lie there. */
+  solveAlong(nodes, load, on) {
     const i = nodes.findIndex((node) => node.load >= load);
     if (i === 0 || (i < 0 && !on)) return null;
-    const near = i < 0 ? nodes.slice(-3) : nodes.slice(Math.max(0, i - 2), i + 1);
-    if (!this.solveFrom(near, load)) return null;
-    const found = this.result();
-    if (i < 0) nodes.push(this.here());
-    return found;
+    const near = i < 0 ? nodes.slice(-3) : nodes.slice(Math.max(0, i - 2), i + 1), end = near.at(-1);
+    if (i < 0) {
+      if (!this.solveFrom(near, load)) {
+        this.goTo(end);
+        this.forget();
+        this.toLoad(load);
+      }
+      nodes.push(this.here());
+    } else if (!this.solveFrom(near, load) || this.isOutside(near.at(-2), end)) this.search(near.at(-2), end, load);
+    return this.result();
+  }
+
+  isOutside(upper, lower) { return this.film > upper.film + 0.1 * (upper.film - lower.film) || this.film < lower.film - 0.1 * (upper.film - lower.film); }
+
+  /** Solve at a load between two nodes that Newton's method alone does not find. */
+  search(upper, lower, load) {
+    for (let n = 0; n < 30; n += 1) {
+      this.goTo(upper);
+      this.forget();
+      this.to(0.5 * (upper.film + lower.film));
+      if (this.load < load) upper = this.here();
+      else lower = this.here();
+      if (this.solveFrom([upper, lower], load) && !this.isOutside(upper, lower)) return;
+    }
+    throw new Error(`no solution found at ${load} N`);
   }
 }

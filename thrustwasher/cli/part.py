@@ -87,7 +87,8 @@ def _check(arguments: argparse.Namespace) -> None:
 
 def _show(arguments: argparse.Namespace, path: Path, part: PartFile, words: str) -> None:
     """Say what a part file holds; first what of it no longer fits the rest."""
-    warnings = [*kept_warnings(part), *_options.part_warnings(part)]
+    scatter = part.scattered()
+    warnings = [*kept_warnings(part), *_options.part_warnings(part), *scatter.warnings]
     _output.warn(warnings)
     if arguments.json:
         _output.print_json(
@@ -98,6 +99,10 @@ def _show(arguments: argparse.Namespace, path: Path, part: PartFile, words: str)
                 "box": part.box,
                 "fidelity": part.fidelity,
                 "parameters": _output.parameters_of(part.params),
+                "scatter": {
+                    s.place.name: {"law": s.law.words(), "source": s.reason}
+                    for s in scatter.sources
+                },
                 "warnings": warnings,
                 "oil": part.oil and part.oil.as_dict(part.spec),
             }
@@ -113,6 +118,8 @@ def _show(arguments: argparse.Namespace, path: Path, part: PartFile, words: str)
     print(f"{words}: {part.name}, {part.spec.name}, {given}{', '.join(changed)}")
     if part.oil:
         print(part.oil_words)
+    for s in scatter.sources:
+        print(f"scatter of {s.place.name}: {s.law.words()}; {s.reason or 'given'}")
 
 
 def _list(arguments: argparse.Namespace) -> None:

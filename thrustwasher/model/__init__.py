@@ -1,18 +1,21 @@
 """What a model is, and the one list of models.
 
-==============  ===============================================================================
-``spec``        what a model shows to the outside: inputs, outputs, parameters, kernel; as data
-``record``      all that the rest of the package knows of a model
-``registry``    the models and their kernels by name
-``parameters``  fields with unit, range and meaning; checks of numbers and courses over time
-``part_file``   parts of one's own and presets: TOML
-``advice``      warnings of a solution, one line each
-``idle``        parameters without effect, or kept though what they belong to was changed
-``point``       an operating point: what is given, what a part's box fixes, what is left to defaults
-``oil``         an oil by name, data sheet or points, as parameters of a model; ``oil_laws``: how
-``rungs``       names of rungs, and which one runs in the place of one that is gone
-``prepare``     from parameters to what a kernel takes: rules, constants, tables
-==============  ===============================================================================
+===============  ===============================================================================
+``spec``         what a model shows to the outside: inputs, outputs, parameters, kernel; as data
+``record``       all that the rest of the package knows of a model
+``registry``     the models and their kernels by name
+``parameters``   fields with unit, range and meaning; checks of numbers and courses over time
+``part_file``    parts of one's own and presets: TOML
+``advice``       warnings of a solution, one line each
+``idle``         parameters without effect, or kept though what they belong to was changed
+``point``        an operating point: what is given, fixed by the box, left to the defaults
+``scatter``      laws of what is known within bounds only: tables ``[scatter]``, draws, correlation
+``part_places``  what of a part can scatter
+``unread``       which parameters are not read, because of the value of another one
+``oil``          an oil by name, data sheet or points, as parameters of a model; ``oil_laws``: how
+``rungs``        names of rungs, and which one runs in the place of one that is gone
+``prepare``      from parameters to what a kernel takes: rules, constants, tables
+===============  ===============================================================================
 
 Every model has one module ``kernels.step`` with the same face, the step ABI, so that Python, the
 Python FMU and the native FMU call the same code:

@@ -42,7 +42,7 @@ from .parameters import (
     renewed_values,
     with_changes,
 )
-from .places import part_places
+from .part_places import part_places
 from .point import point_of
 from .registry import find_model
 from .rungs import rung_named

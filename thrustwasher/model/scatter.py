@@ -24,6 +24,7 @@ if TYPE_CHECKING:  # part files are read without numpy
 LAWS = ("normal", "lognormal", "uniform", "either")
 CORRELATION = "correlation"
 MUCH_CUT = 0.01  # share of the probability outside the allowed range that is worth a warning
+LARGEST_WEIGHT = 1e100  # so that their sum is a number
 LEAST_U = 2.0**-53  # quantiles at 0 and 1 would be infinite
 
 
@@ -182,11 +183,10 @@ class Scatter:
         from scipy.special import ndtr, ndtri
 
         u = np.clip(np.asarray(u, float), LEAST_U, 1.0 - LEAST_U)
-        factor = np.linalg.cholesky(self.correlation) if self.pairs else None
-        for group in self.groups if factor is not None else ():
+        for group in self.groups:
             if len(group) > 1:
-                z = ndtri(u[:, group]) @ factor[np.ix_(group, group)].T  # type: ignore[index]
-                u[:, group] = ndtr(z)
+                own = np.linalg.cholesky(self.correlation[np.ix_(group, group)])
+                u[:, group] = ndtr(np.einsum("nj,ij->ni", ndtri(u[:, group]), own))
         columns = [
             np.asarray(s.law.value(c), object) for s, c in zip(self.sources, u.T, strict=True)
         ]
@@ -378,7 +378,7 @@ def _choice(place: Place, value: Any) -> Any:
 
 def _is_weight(value: Any) -> bool:
     number = isinstance(value, int | float) and not isinstance(value, bool)
-    return number and 0.0 < value < math.inf
+    return number and 0.0 < value < LARGEST_WEIGHT
 
 
 def _pairs(where: str, given: Any, sources: Sequence[Source]) -> tuple[tuple[int, int, float], ...]:

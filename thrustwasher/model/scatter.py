@@ -322,9 +322,7 @@ def _lognormal(place: Place, given: Any) -> Law:
         )
     middle = math.log(float(place.nominal))
     text = f"lognormal, factor {factor:g}"
-    return replace(
-        _truncated(place, "lognormal", middle, math.log(factor), text), is_share=True
-    )
+    return replace(_truncated(place, "lognormal", middle, math.log(factor), text), is_share=True)
 
 
 def _truncated(place: Place, kind: str, middle: float, spread: float, text: str) -> Law:

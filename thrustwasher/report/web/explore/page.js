@@ -106,7 +106,7 @@ function ruleWords(number, values, least) {
 /** Have the worker take the parameters and solve; tell which rule they break. Nothing is solved meanwhile. */
 function setParameters() {
   setting = true;
-  view.scatter?.moved();
+  view.scatter?.moved(true);
   ask("set", { parameters: numbersOf(state.parameters), rung: state.rung }, (found, problem) => {
     if (anew) state.held = ""; // an address has no history
     setting = anew = false;

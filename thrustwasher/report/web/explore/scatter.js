@@ -1,8 +1,9 @@
 "use strict";
 /* Scatter: the model solved at draws of what is not known exactly, by two workers; quantiles of what it gives. */
 
-const DRAWS = ABOUT.scatter?.sources[0].values.length ?? 0;
-const SHARES = [0.05, 0.5, 0.95], FRAME = 80; // ms between two looks at what is there so far
+const { draws: DRAWS = 0, sources: SOURCES = [] } = ABOUT.scatter ?? {};
+const CHANGES = SOURCES.flatMap(({ changes }) => changes), SHARES = [0.05, 0.5, 0.95];
+const FRAME = 80; // ms between two looks at what is there so far
 
 /** Return quantiles of some values, linear between them as numpy.quantile; none of no values. */
 function quantiles(values) {
@@ -13,9 +14,9 @@ function quantiles(values) {
   });
 }
 
-/** Return what a draw makes of a value, within its range; `counts`: what counts where it is 0. */
+/** Return what a change makes of a value in a draw, within the value's range; `counts`: what counts where it is 0. */
 function drawn({ how, values }, k, value, { kind, min, max }, counts = 0) {
-  if (how === "set" && kind !== "real") return values[k];
+  if (kind !== "real") return values[k];
   const own = value || counts, found = { times: own * values[k], plus: own + values[k], set: values[k] }[how];
   return Math.min(Math.max(found, min), max);
 }
@@ -23,9 +24,9 @@ function drawn({ how, values }, k, value, { kind, min, max }, counts = 0) {
 /** Return parameters and inputs by name as they are in a draw. */
 function drawnValues(k) {
   const present = { ...state.parameters, ...state.inputs }, found = { ...present };
-  for (const source of ABOUT.scatter.sources) {
-    const { name, at_zero: zero } = source, counts = typeof zero === "string" ? present[zero] : zero;
-    found[name] = drawn(source, k, present[name], fields[name].about, counts);
+  for (const change of CHANGES.filter(({ name }) => Object.hasOwn(fields, name))) {
+    const { name, at_zero: zero } = change, counts = typeof zero === "string" ? present[zero] : zero;
+    found[name] = drawn(change, k, present[name], fields[name].about, counts);
   }
   return found;
 }
@@ -41,30 +42,28 @@ class Scatter {
     this.input = el("input", { type: "checkbox", role: "switch", id: "scatter", disabled: !DRAWS });
     this.input.addEventListener("change", () => {
       this.set(this.input.checked);
+      if (last) this.follow();
       settled();
     });
     this.said = el("p", { class: "folds", role: "status", id: "scatter-state" });
-    const { sources, warnings } = ABOUT.scatter ?? { sources: [], warnings: [] };
     const row = ({ name, law, reason }) => el("tr", {}, el("th", { scope: "row" }, el("code", {}, name)), el("td", {}, law), el("td", {}, reason || "the part, without a source"));
-    const list = el("details", {}, el("summary", {}, `what scatters (${sources.length})`),
+    const list = el("details", {}, el("summary", {}, `what scatters (${SOURCES.length})`),
       el("p", {}, `${of}: 5 to 95 % of ${DRAWS} draws of what stands here, the same each time, about the values that are set. This band is of inputs; the error of the mesh is another one and is said above.`),
-      el("div", { class: "wide-table", tabindex: 0 }, el("table", {}, el("thead", {}, el("tr", {}, ...["name", "law", "from"].map((text) => el("th", { scope: "col" }, text)))), el("tbody", {}, ...sources.map(row)))),
-      ...warnings.map((text) => el("p", {}, text)));
+      el("div", { class: "wide-table", tabindex: 0 }, el("table", {}, el("thead", {}, el("tr", {}, ...["name", "law", "from"].map((text) => el("th", { scope: "col" }, text)))), el("tbody", {}, ...SOURCES.map(row)))),
+      ...(ABOUT.scatter?.warnings ?? []).map((text) => el("p", {}, text)));
     const label = el("label", {}, this.input, " scatter: the band that inputs leave");
     host.append(el("div", { class: "scatter" }, label, DRAWS ? list : el("p", {}, "This part has no [scatter]: nothing is known of how its inputs scatter.")), this.said);
   }
 
   get on() { return this.input.checked; }
-  get complete() { return this.found.length === DRAWS; }
+  get complete() { return !this.stale && this.found.length === DRAWS; }
   get found() { return this.results.filter(Boolean); }
   get sound() { return this.found.filter((r) => !r.problem && !r.broken); }
 
-  /** Switch on or off. */
+  /** Switch on or off; on, `follow` solves. */
   set(on) {
     this.input.checked = on && DRAWS > 0;
-    if (this.on && last) this.follow();
-    else if (!this.on) this.cancel();
-    if (!this.on) this.said.textContent = "";
+    if (!this.on) this.cancel();
     if (last) this.show();
   }
 
@@ -77,15 +76,16 @@ class Scatter {
     this.feed(solver);
     if (this.helper?.ready) this.feed(this.helper);
     if (this.helper) return;
-    this.helper = new Solver(() => {});
+    this.helper = new Solver((problem) => (this.said.textContent = `The draws stopped: ${problem.message}.`));
     this.helper.begin((problem) => {
       this.helper.ready = !problem;
       if (!problem) this.feed(this.helper);
     });
   }
 
+  /** Give a worker a draw: from one end each, so that both keep constants of about the same draws. */
   feed(one) {
-    const k = this.queue.shift(), { known } = this;
+    const k = one === solver ? this.queue.shift() : this.queue.pop(), { known } = this;
     if (k === undefined) return;
     one.ask("draw", { given: this.given(drawnValues(k), k) }, (found, problem) => {
       if (known !== this.known) return;
@@ -118,17 +118,16 @@ class Scatter {
     this.said.textContent = `${words.join(" ")} ${DRAWS} draws in ${digits(this.took / 1000, 2)} s.`;
   }
 
-  /** The present values are others: what is shown is not of them. */
-  moved() {
-    if (!this.known || JSON.stringify(this.depends()) === this.known) return;
+  /** The present values are others, or `stopped`: the first worker has dropped its draw. */
+  moved(stopped = false) {
+    if (!this.known || (JSON.stringify(this.depends()) === this.known && (this.complete || !stopped))) return;
     this.cancel();
     this.show();
   }
 
   cancel() {
-    if (this.known && !this.complete) this.results = this.found;
     Object.assign(this, { known: "", queue: [], stale: true });
-    if (this.on) this.said.textContent = "";
+    this.said.textContent = "";
     delete document.documentElement.dataset.scattered;
   }
 }

@@ -5,8 +5,9 @@ const SCALES = { film_thickness: ["film thickness", "m", "um"], pressure: ["film
 const BRANCHES = { film: "film branch", unstable: "unstable: never stays here", contact: "contact branch" };
 const FOLDS = { film_lost: "film lost", film_regained: "film regained" };
 const LOADS = Array.from({ length: 24 }, (_, i) => 20 * 150 ** (i / 23)); // N, of the scatter: the curve's
+const LOADS_IN_WORDS = [LOADS[0], LOADS.at(-1)].map((load) => shown(load, "N", false, 3)).join(" .. ");
 const WAYS = { up: "load up", down: "load down" };
-const drawnLoad = (load, k) => ABOUT.scatter.sources.filter((s) => s.name === "load").reduce((found, s) => drawn(s, k, found, ABOUT.inputs[0]), load);
+const drawnLoad = (load, k) => CHANGES.filter((c) => c.name === "load").reduce((found, c) => drawn(c, k, found, ABOUT.inputs[0]), load);
 const SPEEDS = Array.from({ length: 36 }, (_, i) => Number((2 * 1000 ** (i / 35)).toPrecision(6)));
 
 const VIEW = {
@@ -60,6 +61,7 @@ const VIEW = {
     if (!fresh) return;
     this.askCurves();
     this.scatter.follow();
+    this.scatter.say();
   },
 
   askCurves() {
@@ -160,8 +162,14 @@ const VIEW = {
     const lines = rows.flatMap((row) => Object.keys(WAYS).filter((way) => row[way]).map((way) => el("tr", { "data-way": way },
       cell(row.load, shown(row.load, "N", false, 3)), el("td", {}, WAYS[way]), ...row[way].quantiles.map((v) => cell(v, tell(v))), cell(row[way].lost, percent(row[way].lost)))));
     this.numbers.lastChild.replaceChildren(el("table", {}, el("thead", {}, el("tr", {}, ...heads)), el("tbody", {}, ...lines)));
-    const far = ({ load }) => Math.abs(Math.log(load / last.point[0])), here = rows.toSorted((a, b) => far(a) - far(b))[0];
-    return here ? `At ${shown(here.load, "N", false, 3)}, load up: ${here.up.quantiles.map(tell).join(", ")} (5, 50, 95 % of the draws), film lost in ${percent(here.up.lost)}.` : "";
+    const load = last.point[0], i = LOADS.findIndex((f) => f >= load), [below, above] = [rows[i - 1], rows[i]];
+    if (!above || !(below ?? LOADS[0] === load)) return `The band goes over ${LOADS_IN_WORDS}.`;
+    const t = below ? Math.log(load / below.load) / Math.log(above.load / below.load) : 1, between = (way, f) => (below ? (1 - t) * f(below[way]) : 0) + t * f(above[way]);
+    const one = (way) => {
+      const [low, middle, high] = SHARES.map((_, n) => tell(between(way, (at) => at.quantiles[n])));
+      return `${WAYS[way]}: ${low} .. ${high} (5 to 95 % of the draws), median ${middle}, film lost in ${percent(between(way, (at) => at.lost))}`;
+    };
+    return `At ${shown(load, "N")}, ${Object.keys(WAYS).filter((way) => above[way] && (!below || below[way])).map(one).join("; ")}.`;
   },
 
   drawStribeck() {

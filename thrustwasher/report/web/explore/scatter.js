@@ -3,7 +3,7 @@
 
 const { draws: DRAWS = 0, sources: SOURCES = [] } = ABOUT.scatter ?? {};
 const CHANGES = SOURCES.flatMap(({ changes }) => changes), SHARES = [0.05, 0.5, 0.95];
-const FRAME = 80; // ms between two looks at what is there so far
+const FRAME = 120; // ms between two looks at what is there so far
 
 /** Return quantiles of some values, linear between them as numpy.quantile; none of no values. */
 function quantiles(values) {

@@ -1,7 +1,7 @@
 "use strict";
 /* The thrust washer: points, fields, load curve and Stribeck curve, as the Python API solves them. */
 
-const MOST_DRAWN = 64, CLEAR = 0.01, FILM_RATIO = 3, COARSE = 0.28, ROUGH = 1e-4, EXACT = 2e-6, MOST_NODES = 200; // of draws
+const MOST_DRAWN = 64, CLEAR = 0.01, FILM_RATIO = 3, COARSE = 0.28, ROUGH = 1e-4, EXACT = 2e-6, MOST_NODES = 200, REACH = 5; // of draws
 const GOLDEN = 0.618, MOST_LOADS = 100, FINEST = 0.1, ALONE = 0.9, STEEP = 1.1, SHALLOW = 3e-4;
 
 class Model {
@@ -385,7 +385,7 @@ class Draw extends Walker {
     for (;;) {
       up.push({ ...this.result(), branch: "film" });
       found.push(this.here());
-      if (found.length > 3) found.shift();
+      if (found.length > REACH) found.shift();
       if (up.length === loads.length) return;
       yield;
       const load = loads[up.length], thinner = this.load * Math.log(load / this.load) / this.at(L.AT_SLOPE) / this.sigma;

@@ -309,26 +309,33 @@ class Draw extends Walker {
   constructor(washer, point, loads) {
     super(washer, point, loads[0]);
     const { temp, pressure } = washer.places(), [nR, nT] = washer.grid;
-    Object.assign(this, { loads, up: [], down: [], at0: temp, at1: pressure + nR * nT, nodes: [], lost: 0, regained: 0 });
+    Object.assign(this, { loads, up: [], down: [], at0: temp, at1: pressure + nR * nT, nodes: [], lost: null, regained: null });
   }
 
   *walk() {
-    const { loads, up, down } = this;
+    const { loads, up, down, nodes } = this;
     yield* this.clearFilm();
     if (up.length === loads.length) return { up, down };
-    yield* this.curveOn();
-    const { nodes, lost, regained } = this, film = lost ? this.until(lost) : nodes, contact = regained ? this.beyond(regained) : [];
+    try {
+      yield* this.curveOn();
+    } catch { /* stuck: what lies beyond is solved by load, or missing */ }
+    const found = (way, load, on) => {
+      try {
+        return this.solveAlong(way, load, on);
+      } catch {
+        return null;
+      }
+    };
+    const { lost, regained } = this, film = lost === null ? nodes : this.until(lost), contact = regained === null ? [] : this.beyond(regained);
     for (let i = up.length; i < loads.length; i += 1) {
-      const found = this.solveAlong(film, loads[i], !lost);
-      if (found) up[i] = { ...found, branch: lost || found.film_ratio >= FILM_RATIO ? "film" : "contact" };
-      else if (lost) break;
-      else up[i] = null;
+      const there = found(film, loads[i], lost === null);
+      if (there) up[i] = { ...there, branch: lost !== null || there.film_ratio >= FILM_RATIO ? "film" : "contact" };
       yield;
     }
     for (let i = 0; i < loads.length; i += 1) {
-      const found = contact.length ? this.solveAlong(contact, loads[i], true) : null;
-      if (found) (up[i] ? down : up)[i] = { ...found, branch: "contact" };
-      else up[i] ??= null;
+      const there = contact.length ? found(contact, loads[i], true) : null;
+      if (there) (up[i] ? down : up)[i] = { ...there, branch: "contact" };
+      up[i] ??= null;
       yield;
     }
     return { up, down };
@@ -391,6 +398,7 @@ class Draw extends Walker {
       const load = loads[up.length], thinner = this.load * Math.log(load / this.load) / this.at(L.AT_SLOPE) / this.sigma;
       if (this.ratio + thinner < FILM_RATIO || !this.solveFrom(found, load) || !this.isClear) break;
     }
+    this.nodes.push(...found.slice(-2, -1)); // a fold may be next to the last one
     this.goTo(found.at(-1));
     this.forget();
   }
@@ -398,18 +406,18 @@ class Draw extends Walker {
   /** Walk on to thinner films until no fold can follow: nodes, and which of them are next to folds. */
   *curveOn() {
     const { nodes, loads } = this, last = loads.at(-1);
-    let top = 0, rising = true;
-    nodes.push(this.here());
+    let top = nodes.push(this.here()) - 1, rising = true;
     for (;;) {
       const over = this.load >= last;
-      if (rising && (this.share > ALONE || (over && (this.lost || this.film < 0.5 * this.sigma)))) return;
+      if (rising && (this.share > ALONE || (over && (this.lost !== null || this.film < 0.5 * this.sigma)))) return;
       if (nodes.length > MOST_NODES) throw new Error("the walk along the curve does not end");
       yield;
       this.to(this.film - Math.max(COARSE * this.sigma, 0.12 * (this.film - 2.5 * this.sigma)));
       nodes.push(this.here());
       const gain = this.load - nodes[top].load, noise = SHALLOW * nodes[top].load + 1e-3, now = nodes.length - 1;
       if (rising ? gain < -noise : gain > noise) {
-        if (rising) this.lost ||= top; else this.regained ||= top;
+        if (rising) this.lost ??= top;
+        else this.regained ??= top;
         if (rising && nodes[top].load > last) return; // the film is lost beyond the loads
         rising = !rising;
         top = now;
@@ -431,6 +439,7 @@ class Draw extends Walker {
 
   /** Tell if the fold next to node k may lie beyond a load, as the kernels' ``_near``. */
   isNear(k, load) {
+    if (k === 0) return false;
     const [[s0, w0], [s1, w1], [s2, w2]] = this.nodes.slice(k - 1, k + 2).map((p) => [p.film, p.load]);
     const first = (w1 - w0) / (s1 - s0), bend = ((w2 - w1) / (s2 - s1) - first) / (s2 - s0), slope = first + bend * (s1 - s0);
     return Math.abs(w1 - load) < 0.02 * load + Math.min(0.25 * load, (1.25 * slope * slope) / Math.abs(bend));
@@ -444,7 +453,11 @@ class Draw extends Walker {
       const film = 0.5 * (top.film + one.film - (p * (two.film - one.film)) / (q - p));
       if (!(film < one.film && film > two.film) || Math.abs(film - top.film) < 1e-3 * this.sigma) break;
       this.goTo(top);
-      this.to(film);
+      try {
+        this.to(film);
+      } catch {
+        break;
+      }
       const found = this.here(), better = sign * (found.load - top.load) > 0;
       if (better) [one, top, two] = film > top.film ? [one, found, top] : [top, found, two];
       else if (film > top.film) one = found;

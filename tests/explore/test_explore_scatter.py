@@ -68,7 +68,7 @@ def test_median_and_band_are_those_of_the_same_draws_in_python(opened):
     page = opened()
     assert page.page.locator(".band").count() == 0
     page.page.check("#scatter")
-    assert banded(page).page.locator(".band.scatter-up").count() == 1
+    assert banded(page).page.locator(".band.scatter-one").count() == 1
     rows = table(page)
     assert len(rows) == 24 and f"{DRAWS} draws in " in said(page)
     for i in (6, 17):

@@ -31,13 +31,30 @@ function drawnValues(k) {
   return found;
 }
 
+/** Return a band and its median over `x` of what `value(result, i)` is in the draws. */
+function bandOver(x, scatter, name, look, value) {
+  const { sound, on, stale } = scatter, rows = on && sound.length > 1 ? x.map((at, i) => [at, ...quantiles(sound.map((r) => value(r, i)))]) : [];
+  const looks = `${look}${stale ? " stale" : ""}`, points = rows.map(([at, low, , high]) => [at, low, high]);
+  if (!rows.length) return { bands: [], medians: [] };
+  return { bands: [{ name: `${name}: 5 to 95 % of the draws`, look: looks, points }], medians: [{ name: `${name}: median`, look: `median ${looks}`, points: rows.map(([at, , middle]) => [at, middle]) }] };
+}
+
+/** Say in which band results of the draws lie, by their names. */
+function bandWords(names, results) {
+  const one = (name) => {
+    const { unit, relative } = ABOUT.outputs[name], [low, middle, high] = quantiles(results.map((r) => r.outputs[name])).map((v) => shown(v, unit, relative, 3));
+    return `${name.replaceAll("_", " ")} ${low} .. ${high}, median ${middle}`;
+  };
+  return `5 to 95 % of the draws: ${names.map(one).join("; ")}.`;
+}
+
 /** The switch, the list of what scatters, and what the draws gave. */
 class Scatter {
   /**
    * `of`: what the band is one of; `depends()`: what the draws depend on beside themselves; `given(values, k)`: what a
    * worker needs for a draw; `lacks(result)`: tells if a part of it is missing; `show()`: shows `results`; `told()`: a sentence on all of them.
    */
-  constructor(host, { of, depends, given, lacks, show, told }) {
+  constructor(host, { of, depends, given, lacks = () => false, show, told }) {
     Object.assign(this, { depends, given, lacks, show, told, results: [], queue: [], known: "", stale: false, helper: null });
     this.input = el("input", { type: "checkbox", role: "switch", id: "scatter", disabled: !DRAWS });
     this.input.addEventListener("change", () => {
@@ -114,7 +131,7 @@ class Scatter {
     const failed = DRAWS - this.sound.length, partly = this.sound.filter(this.lacks).length;
     const words = [this.told()];
     if (failed) words.push(`${failed} of ${DRAWS} draws failed and do not count: ${[...why].slice(0, 3).join("; ")}.`);
-    if (partly) words.push(`${partly} of ${DRAWS} draws have no solution at some of the loads and do not count there.`);
+    if (partly) words.push(`${partly} of ${DRAWS} draws have no solution at some of the loads, where they do not count.`);
     this.said.textContent = `${words.join(" ")} ${DRAWS} draws in ${digits(this.took / 1000, 2)} s.`;
   }
 

@@ -6,7 +6,7 @@ const BRANCHES = { film: "film branch", unstable: "unstable: never stays here", 
 const FOLDS = { film_lost: "film lost", film_regained: "film regained" };
 const LOADS = Array.from({ length: 24 }, (_, i) => 20 * 150 ** (i / 23)); // N, of the scatter: the curve's
 const LOADS_IN_WORDS = [LOADS[0], LOADS.at(-1)].map((load) => shown(load, "N", false, 3)).join(" .. ");
-const WAYS = { up: "load up", down: "load down" };
+const WAYS = { up: "load up", down: "load down" }, LOOK = { up: "scatter-one", down: "scatter-two" };
 const drawnLoad = (load, k) => CHANGES.filter((c) => c.name === "load").reduce((found, c) => drawn(c, k, found, ABOUT.inputs[0]), load);
 const SPEEDS = Array.from({ length: 36 }, (_, i) => Number((2 * 1000 ** (i / 35)).toPrecision(6)));
 
@@ -145,7 +145,7 @@ const VIEW = {
     if (!this.scatter.on || !this.scatter.found.length) return { bands: [], medians: [], strip: null };
     const rows = this.scatterRows(), bands = [], medians = [], areas = [], { stale } = this.scatter;
     for (const [way, words] of Object.entries(WAYS)) {
-      const there = rows.filter((row) => row[way]), look = `scatter-${way}${stale ? " stale" : ""}`;
+      const there = rows.filter((row) => row[way]), look = `${LOOK[way]}${stale ? " stale" : ""}`;
       if (!there.length) continue;
       bands.push({ name: `${words}: 5 to 95 % of the draws`, look, points: there.map(({ load, [way]: { quantiles: [low, , high] } }) => [load, low, high]) });
       medians.push({ name: `median, ${words}`, look: `median ${look}`, points: there.map(({ load, [way]: { quantiles: q } }) => [load, q[1]]) });

@@ -5,11 +5,11 @@ const VIEW = {
   build(host) {
     const panel = (more = "") => host.appendChild(el("section", { class: `panel ${more}` })), x = { label: "time", unit: "s" };
     this.reset();
-    this.ramp = new Plot(panel("wide drawn"), { title: "Load over time: drag the points to draw the ramp", part: "Torque", x, y: { label: "load", unit: "N", zero: true }, height: 260, drag: (_, load, i) => this.draw(load, i) });
-    const torques = panel();
-    this.torque = new Plot(torques, { title: "Torque", part: "Torque", x, y: { label: "torque", unit: "N.m", zero: true } });
-    this.scatter = new Scatter(torques, {
-      of: "The band over the time", depends: () => [state.inputs, state.parameters, state.rung, state.extra], show: () => this.plot(),
+    const wide = panel("wide drawn");
+    this.ramp = new Plot(wide, { title: "Load over time: drag the points to draw the ramp", part: "Torque", x, y: { label: "load", unit: "N", zero: true }, height: 260, drag: (_, load, i) => this.draw(load, i) });
+    this.torque = new Plot(panel(), { title: "Torque", part: "Torque", x, y: { label: "torque", unit: "N.m", zero: true } });
+    this.scatter = new Scatter(wide, {
+      of: "The band of torque and temperature over the time", depends: () => [state.inputs, state.parameters, state.rung, state.extra], show: () => this.plot(),
       given: (values, k) => [numbersOf(values), state.rung, ABOUT.inputs.map((s) => values[s.name]), true, "", { ramp: state.extra.ramp.map((load) => this.drawnLoad(load, k)) }],
       told: () => bandWords(["friction_torque_max", "temperature_max", "energy"], this.scatter.sound),
     });

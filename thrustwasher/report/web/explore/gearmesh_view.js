@@ -18,7 +18,7 @@ const VIEW = {
     this.none = temperatures.appendChild(el("p", { class: "folds" }));
     this.warm = new Plot(temperatures, { title: "Temperatures along the path of contact", part: "Heat", x, y: { label: "temperature", unit: "K" }, height: 320 });
     this.scatter = new Scatter(temperatures, {
-      of: "The band along the path", depends: () => [state.inputs, state.parameters, state.rung], show: () => this.draw(),
+      of: "The band of flank and scuffing safety along the path", depends: () => [state.inputs, state.parameters, state.rung], show: () => this.draw(),
       given: (values) => [numbersOf(values), state.rung, ABOUT.inputs.map((s) => values[s.name])],
       told: () => bandWords(["surface_temperature", "scuffing_safety", "friction_torque"], this.scatter.sound),
     });

@@ -54,6 +54,14 @@ UPDATE = """async ([task, updates]) => {
   return taken;
 }"""
 
+# The time from switching the scatter on to all of its draws.
+SCATTER = """async () => {
+  const began = performance.now();
+  document.getElementById("scatter").click();
+  while (!document.documentElement.dataset.scattered) await new Promise((go) => setTimeout(go, 2));
+  return performance.now() - began;
+}"""
+
 
 def called(*words: str) -> float:
     """Return the seconds of wall clock of a whole command."""
@@ -120,6 +128,18 @@ def measure_explore(browser: Browser, folder: Path, model: str) -> None:
         curves = page.evaluate(UPDATE, ["curve", RUNS])
         print(f"  its load curve {statistics.median(curves) / 1e3:.2f} s")
     page.close()
+    print(f"  its scatter {scatter_time(browser, path):.2f} s")
+
+
+def scatter_time(browser: Browser, path: Path) -> float:
+    """Return the seconds that the draws of the scatter take on a page just opened, the median."""
+    taken = []
+    for _ in range(RUNS):
+        page, _ = opened(browser, path, EXPLORE)
+        page.wait_for_timeout(1000)
+        taken.append(page.evaluate(SCATTER) / 1e3)
+        page.close()
+    return statistics.median(taken)
 
 
 def draw(browser: Browser, folder: Path, images: Path) -> None:

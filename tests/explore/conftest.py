@@ -1,5 +1,7 @@
 """Pages in one browser for all tests."""
 
+from pathlib import Path
+
 import pytest
 from browser_pages import Seen
 from pages import html
@@ -52,8 +54,9 @@ class Opened(Seen):
 def opened(browser, files):
     made = []
 
-    def open_(model="washer", address="", **look):
-        made.append(Opened(browser, files(model), address, **look))
+    def open_(page="washer", address="", **look):
+        path = page if isinstance(page, Path) else files(page)
+        made.append(Opened(browser, path, address, **look))
         return made[-1]
 
     yield open_

@@ -87,6 +87,7 @@ VIEW = View(
         "heat_flux_max": ("W/m2", "largest heat flux into a face"),
         "stored_heat": ("J", "heat in the steel at the end"),
     },
+    load="ramp",
     card_point=lambda point: {**point, "load": LARGEST},
     more={"ramp": RAMP, "largest_load": LOAD.high, "points": POINTS},
     spans={

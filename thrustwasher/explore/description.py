@@ -11,6 +11,7 @@ from ..model.record import Model
 from ..model.rungs import rung_named
 from ..model.spec import REGIMES, Signal
 from ..units import UNITS, readable_units
+from .draws import draws_of
 from .view import View
 
 QUANTITY = "friction_torque"
@@ -52,6 +53,7 @@ def describe(
     rung = rung_named(spec, part.fidelity)
     rung = rung if rung in view.worker.rungs else spec.default_fidelity
     params = part.params
+    known = {s.name for s in inputs_of(model, view)} | {f.name for f in fields(spec.params)}
     return {
         "key": spec.key,
         "name": part.name if part.name != spec.name else f"My{spec.name}",
@@ -75,6 +77,7 @@ def describe(
             for chart in rung.charts
         ],
         "safety": SAFETY,
+        "scatter": draws_of(part, view.card_point(point), known, view.load),
         **view.more,
         "python": {"params": view.params, "solve": view.solve},
         "worker": view.worker.data(spec),

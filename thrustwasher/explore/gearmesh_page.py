@@ -32,6 +32,7 @@ VIEW = View(
     "safety against micropitting needs a permissible_film_ratio, endurance under thermal "
     "stress film_heat = atan and one of the two steels of its paper.",
     pictures=_pictures,
+    load="power",
     card_point=lambda point: {**point, "load": abs(point["power"] / point["speed"])},
     spans={"power": (100.0, 1e5), "speed": (1.0, 1000.0), "oil_temperature": (253.15, 423.15)},
 )

@@ -25,7 +25,7 @@ from .washer_page import VIEW as WASHER
 
 VIEWS = {"washer": WASHER, "clutch": CLUTCH, "gearmesh": GEARMESH}  # by the models' keys
 TEMPLATE = "explore.html.jinja"
-PAGE = ("../draw", "dom", "plot")  # scripts that every page has
+PAGE = ("../draw", "dom", "plot", "solver", "scatter")  # scripts that every page has
 DPI = 80
 
 

@@ -31,6 +31,7 @@ class View:
     usual: Point = field(default_factory=dict)  # their values at the start
     card_point: Callable[[Point], Point] = dict
     """From the inputs to those that the cards know."""
+    load: str = "load"  # the input, or name of the page's script, that the model's load comes from
     outputs: Mapping[str, tuple[str, str]] = field(default_factory=dict)  # in place: unit, meaning
     terms: str = ""  # what words of the results mean
     least: Mapping[str, float] = field(default_factory=dict)

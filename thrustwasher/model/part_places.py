@@ -34,7 +34,7 @@ def part_places(spec: ModelSpec, params: Any, inputs: Mapping[str, float]) -> di
         )
     former, earlier = former_values(params), earlier_of(spec.params)
     found |= {name: _parameter(name, former[name], meta) for name, meta in earlier.items()}
-    others = {f.name: _other(f.metadata) for f in fields(params)}
+    others = {f.name: other_of(f.metadata) for f in fields(params)}
     others |= {s.name: s.at_zero for s in spec.inputs}
     for name, other in others.items():
         if other and found[name].nominal == 0.0:
@@ -62,7 +62,7 @@ def _parameter(name: str, value: Any, meta: Any) -> Place:
     )
 
 
-def _other(meta: Any) -> Any:
+def other_of(meta: Any) -> Any:
     """Return what counts where a parameter is 0: a name, a function of all parameters, or None."""
     over = meta.get("overrides", ())
     return meta.get("at_zero") or (over[0] if len(over) == 1 else None)

@@ -72,6 +72,8 @@ class Law:
     """Mean [SI] of the normal law before it is truncated; of the lognormal law's logarithm."""
     spread: float = 0.0
     """Standard deviation [SI] of the normal law; of the lognormal law's logarithm."""
+    is_share: bool = False
+    """Its spread grows with the nominal value: a normal law of so many percent, a lognormal one."""
     options: tuple[Any, ...] = ()
     weights: tuple[float, ...] = ()
     """Probabilities of the options."""
@@ -291,7 +293,8 @@ def _refuse_share(place: Place, words: str) -> None:
 def _normal(place: Place, given: Any) -> Law:
     """Return the normal law about the nominal value: a share of it, or a standard deviation."""
     mean, words = float(place.nominal), f"normal = {given!r}"
-    if isinstance(given, str) and given.rstrip().endswith("%"):
+    is_share = isinstance(given, str) and given.rstrip().endswith("%")
+    if is_share:
         share = _number(given, "1", "normal", difference=True)
         _refuse_share(place, words)
         spread, text = share * abs(mean), f"{format_quantity(100.0 * share, '1')} %"
@@ -300,7 +303,8 @@ def _normal(place: Place, given: Any) -> Law:
         text = format_quantity(spread, place.unit, difference=True)
     if not spread > 0.0:
         raise ParameterError(f"{words}, allowed: a standard deviation above 0")
-    return _truncated(place, "normal", mean, spread, f"normal, standard deviation {text}")
+    text = f"normal, standard deviation {text}"
+    return replace(_truncated(place, "normal", mean, spread, text), is_share=is_share)
 
 
 def _lognormal(place: Place, given: Any) -> Law:
@@ -317,7 +321,8 @@ def _lognormal(place: Place, given: Any) -> Law:
             f"{words} of the nominal value {place.text(place.nominal)}, allowed: above 0"
         )
     middle = math.log(float(place.nominal))
-    return _truncated(place, "lognormal", middle, math.log(factor), f"lognormal, factor {factor:g}")
+    text = f"lognormal, factor {factor:g}"
+    return replace(_truncated(place, "lognormal", middle, math.log(factor), text), is_share=True)
 
 
 def _truncated(place: Place, kind: str, middle: float, spread: float, text: str) -> Law:

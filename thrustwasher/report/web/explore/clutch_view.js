@@ -5,8 +5,14 @@ const VIEW = {
   build(host) {
     const panel = (more = "") => host.appendChild(el("section", { class: `panel ${more}` })), x = { label: "time", unit: "s" };
     this.reset();
-    this.ramp = new Plot(panel("wide drawn"), { title: "Load over time: drag the points to draw the ramp", part: "Torque", x, y: { label: "load", unit: "N", zero: true }, height: 260, drag: (_, load, i) => this.draw(load, i) });
+    const wide = panel("wide drawn");
+    this.ramp = new Plot(wide, { title: "Load over time: drag the points to draw the ramp", part: "Torque", x, y: { label: "load", unit: "N", zero: true }, height: 260, drag: (_, load, i) => this.draw(load, i) });
     this.torque = new Plot(panel(), { title: "Torque", part: "Torque", x, y: { label: "torque", unit: "N.m", zero: true } });
+    this.scatter = new Scatter(wide, {
+      of: "The band of torque and temperature over the time", depends: () => [state.inputs, state.parameters, state.rung, state.extra], show: () => this.plot(),
+      given: (values, k) => [numbersOf(values), state.rung, ABOUT.inputs.map((s) => values[s.name]), true, "", { ramp: state.extra.ramp.map((load) => this.drawnLoad(load, k)) }],
+      told: () => bandWords(["friction_torque_max", "temperature_max", "energy"], this.scatter.sound),
+    });
     this.warm = new Plot(panel(), { title: "Interface temperature", part: "Heat", x, y: { label: "temperature", unit: "K" } });
     this.film = new Plot(panel(), { title: "Film ratio", part: "Film", x, y: { label: "film over roughness", unit: "1", zero: true } });
     this.heat = new Plot(panel(), { title: "Friction power", part: "Heat", x, y: { label: "power", unit: "W", zero: true } });
@@ -42,11 +48,23 @@ const VIEW = {
     });
   },
 
-  solved({ series }) {
+  drawnLoad(load, k) {
+    return CHANGES.filter((c) => c.name === "ramp").reduce((found, c) => drawn(c, k, found, { kind: "real", min: 0, max: ABOUT.largest_load }), load);
+  },
+
+  solved({ series }, fresh) {
+    this.series = series;
     this.drawRamp();
+    this.plot();
+    if (fresh) this.scatter.follow();
+  },
+
+  plot() {
+    const { series } = this, band = (name, key, look) => bandOver(series.time, this.scatter, name, look, (r, i) => r.series[key][i]);
+    const torque = band("friction", "friction_torque", "scatter-one"), warm = band("interface", "temperature", "scatter-two");
     const line = (name, key, look, f = (v) => v) => ({ name, look, points: series.time.slice(0, series[key].length).map((t, i) => [t, f(series[key][i])]) });
-    this.torque.show({ series: [line("friction", "friction_torque", ""), line("of contact", "contact_torque", "second"), line("of the oil's shear", "viscous_torque", "third"), line("capacity", "torque_capacity", "fourth")] });
-    this.warm.show({ series: [line("", "temperature", "second")] });
+    this.torque.show({ bands: torque.bands, series: [...torque.medians, line("friction", "friction_torque", ""), line("of contact", "contact_torque", "second"), line("of the oil's shear", "viscous_torque", "third"), line("capacity", "torque_capacity", "fourth")] });
+    this.warm.show({ bands: warm.bands, series: [...warm.medians, line("", "temperature", "second")] });
     this.film.show({ series: [line("", "film_ratio", "")] });
     this.heat.show({ series: [line("", "friction_power", "second")] });
   },

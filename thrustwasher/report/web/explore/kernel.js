@@ -80,7 +80,22 @@ class Kernel {
 class PointModel {
   constructor(kernel, about) {
     Object.assign(this, { kernel, about, L: about.layout });
-    for (const name of ["par", "state", "work", "out"]) this[name] = kernel.array(this.L[`N${name.toUpperCase()}`]);
+    Object.assign(this, this.memory());
+  }
+
+  memory() { return Object.fromEntries(["par", "state", "work", "out"].map((name) => [name, this.kernel.array(this.L[`N${name.toUpperCase()}`])])); }
+
+  /** Solve with parameters and inputs of a draw of the scatter; return also what is in the way. */
+  *draw(parameters, rung, ...given) {
+    yield;
+    const { par, state, work, out } = this;
+    Object.assign(this, (this.drawn ??= this.memory()));
+    try {
+      const [broken] = [this.set(parameters, rung)].flat(), found = broken ? { broken } : this.solve(...given);
+      return found.code >= this.about.first_failure ? { problem: this.about.statuses[found.code] } : found;
+    } finally {
+      Object.assign(this, { par, state, work, out });
+    }
   }
 
   /** Take parameters [numbers in their order] and a rung; return the number of a broken rule, -1 if no constants follow. */

@@ -7,9 +7,9 @@ const NOISE = 1e-12, USUAL = 100; // of an output's usual size, and that of one 
 const byId = (id) => document.getElementById(id);
 const state = { inputs: {}, parameters: {}, rung: ABOUT.rung, branch: "", asked: "", held: "", extra: {}, strange: "" };
 const BRANCHES_ASKED = ["", "film", "contact"], TRUE = ["true", "1"], FALSE = ["false", "0"];
-const fields = {}, heard = {};
+const fields = {};
 const view = VIEW;
-let worker, quiet = false, busy = false, setting = false, anew = false, waiting = null, timer = 0, broken = "", point = null, last = null, count = 0;
+let solver, quiet = false, busy = false, setting = false, anew = false, waiting = null, timer = 0, broken = "", point = null, last = null;
 
 /** A number field with its unit, its range, what is wrong with it, and a slider if asked for. */
 class Field {
@@ -87,25 +87,32 @@ class Field {
   }
 }
 
-function ask(task, given, answer) {
-  heard[task] = { id: (count += 1), answer };
-  worker.postMessage({ id: count, task, ...given });
+const ask = (task, given, answer) => solver.ask(task, given, answer);
+
+/** Return parameters as the kernels take them. */
+const numbersOf = (values) => ABOUT.parameters.map((f) => {
+  const value = values[f.name];
+  return f.kind === "enumeration" ? Object.keys(f.options).indexOf(value) + 1 : Number(value);
+});
+
+/** Say which rule some values break, by its number; `least`: the least number that it allows. */
+function ruleWords(number, values, least) {
+  if (number < 0) return "these parameters cannot be used together";
+  const own = (name, factor = 1) => (typeof values[name] === "number" ? digits(values[name] * factor, 6) : values[name]);
+  const text = ABOUT.rules[number - 1], words = least ? text.replace("allowed: more", `allowed: ${least} and more`) : text;
+  return words.replace(/{(\w+)} rad/g, (_, n) => `${own(n, 180 / Math.PI)} deg`).replace(/{(\w+)}/g, (_, n) => own(n));
 }
 
 /** Have the worker take the parameters and solve; tell which rule they break. Nothing is solved meanwhile. */
 function setParameters() {
   setting = true;
-  const numbers = ABOUT.parameters.map((f) => {
-    const value = state.parameters[f.name];
-    return f.kind === "enumeration" ? Object.keys(f.options).indexOf(value) + 1 : Number(value);
-  });
-  ask("set", { parameters: numbers, rung: state.rung }, (found, problem) => {
+  view.scatter?.moved(true);
+  ask("set", { parameters: numbersOf(state.parameters), rung: state.rung }, (found, problem) => {
     if (anew) state.held = ""; // an address has no history
     setting = anew = false;
     waiting = null;
-    const [number, least] = [found].flat(), own = (name, factor = 1) => (typeof state.parameters[name] === "number" ? digits(state.parameters[name] * factor, 6) : state.parameters[name]);
-    const words = (text) => (least ? text.replace("allowed: more", `allowed: ${least} and more`) : text).replace(/{(\w+)} rad/g, (_, n) => `${own(n, 180 / Math.PI)} deg`).replace(/{(\w+)}/g, (_, n) => own(n));
-    broken = problem ?? (number > 0 ? words(ABOUT.rules[number - 1]) : number < 0 ? "these parameters cannot be used together" : "");
+    const [number, least] = [found].flat();
+    broken = problem ?? (number ? ruleWords(number, state.parameters, least) : "");
     if (broken) failed(broken); else solve(true);
   });
 }
@@ -223,6 +230,7 @@ function settled() {
   const pairs = [...Object.entries(state.inputs), ...changes(ABOUT.given)];
   if (state.rung !== ABOUT.rung) pairs.push(["fidelity", state.rung]);
   if (state.branch) pairs.push(["branch", state.branch]);
+  if (view.scatter?.on) pairs.push(["scatter", "true"]);
   for (const [name, value] of Object.entries(state.extra)) pairs.push([name, JSON.stringify(value)]);
   const text = `#${pairs.map(([n, v]) => `${n}=${encodeURIComponent(v)}`).join("&")}`;
   if (text !== location.hash) history.replaceState(null, "", text);
@@ -268,6 +276,9 @@ function readAddress() {
       if (!BRANCHES_ASKED.includes(text)) strange.push(`branch = ${text}, allowed: film or contact`);
     } else if (name === "fidelity") {
       if (!Object.hasOwn(ABOUT.worker.rungs, text)) strange.push(`fidelity = ${text}, allowed: ${Object.keys(ABOUT.worker.rungs).join(" or ")}`);
+    } else if (name === "scatter" && view.scatter) {
+      if (![...TRUE, ...FALSE].includes(text)) strange.push(`scatter = ${text}, allowed: true or false`);
+      else if (TRUE.includes(text) && !DRAWS) strange.push(`scatter = ${text}, allowed: false, since this part has no [scatter]`);
     } else if (Object.hasOwn(state.extra, name)) {
       try {
         state.extra[name] = view.checked(name, JSON.parse(text));
@@ -280,6 +291,7 @@ function readAddress() {
   const branch = words.get("branch") ?? "", rung = words.get("fidelity") ?? ABOUT.rung;
   state.asked = BRANCHES_ASKED.includes(branch) ? branch : "";
   if (Object.hasOwn(ABOUT.worker.rungs, rung)) state.rung = byId("fidelity").value = rung;
+  view.scatter?.set(TRUE.includes(words.get("scatter")));
   state.strange = strange.length ? `The address: ${strange.join("; ")}. ` : "";
   anew = true;
   setParameters();
@@ -287,6 +299,7 @@ function readAddress() {
 
 function inputChanged() {
   if (quiet) return;
+  view.scatter?.moved();
   solve(false);
   clearTimeout(timer);
   timer = setTimeout(() => solve(true), SETTLE);
@@ -333,12 +346,9 @@ function reveal(which) {
 }
 
 function begin() {
-  const source = byId("worker").textContent, bytes = Uint8Array.from(atob(byId("module").textContent.trim()), (c) => c.charCodeAt(0));
   const still = byId("state").textContent;
-  worker = new Worker(URL.createObjectURL(new Blob([source], { type: "text/javascript" })));
-  worker.onmessage = ({ data }) => heard[data.task]?.id === data.id && heard[data.task].answer(data.result, data.problem);
-  worker.onerror = (problem) => say(`The computation stopped: ${problem.message}. ${last ? "The figures are the last ones found." : still}`, "problem");
-  ask("begin", { about: ABOUT.worker, bytes }, (_, problem) => {
+  solver = new Solver((problem) => say(`The computation stopped: ${problem.message}. ${last ? "The figures are the last ones found." : still}`, "problem"));
+  solver.begin((problem) => {
     if (problem) {
       say(`This browser cannot run the kernels: ${problem}. ${still}`, "problem");
       return;

@@ -1,7 +1,7 @@
 "use strict";
 /* A plot as SVG: lines over linear or logarithmic axes, marks, a point to drag, values under the pointer. */
 
-const LEFT = 62, RIGHT = 12, TOP = 10, BOTTOM = 44;
+const LEFT = 62, RIGHT = 12, TOP = 10, BOTTOM = 44, STRIP = 48; // of a strip above the plot
 
 function niceTicks(low, high, n) {
   const raw = (high - low) / Math.max(n, 1), power = 10 ** Math.floor(Math.log10(raw));
@@ -35,7 +35,7 @@ function headed(title, part) {
 class Plot {
   /** `x`, `y`: {label, unit, log}; `drag(x, y)`: called with data while the point is moved. */
   constructor(host, { title, part, x, y, drag, height = 300 }) {
-    Object.assign(this, { x, y, drag, height, series: [], marks: [], handles: [] });
+    Object.assign(this, { x, y, drag, height, series: [], bands: [], marks: [], handles: [] });
     const moved = { onpointerdown: (e) => this.grab(e), onpointerup: () => (this.held = null), onpointercancel: () => (this.held = null), onkeydown: (e) => this.key(e) };
     this.svg = el("svg", { role: "img", "aria-label": title, onpointermove: (e) => this.hover(e), onpointerleave: () => (this.readout.textContent = ""), ...drag && moved });
     this.legend = el("div", { class: "legend" });
@@ -44,10 +44,13 @@ class Plot {
     new ResizeObserver(() => this.render()).observe(this.svg.parentNode);
   }
 
-  /** Show `series` [{name, points, look}], `marks` [{x, y, text, look}], `handles` [{x, y, label}]. */
-  show({ series = [], marks = [], handles = [], span }) {
+  /**
+   * Show `series` [{name, points, look}], `marks` [{x, y, text, look}], `handles` [{x, y, label}], `bands`
+   * [{name, points: [[x, low, high]], look}] and a `strip` {label, areas: [{points: [[x, share]], look}]} above.
+   */
+  show({ series = [], marks = [], handles = [], bands = [], strip = null, span }) {
     const can = (m) => Number.isFinite(m.x) && Number.isFinite(m.y) && !(this.x.log && m.x <= 0) && !(this.y.log && m.y <= 0);
-    Object.assign(this, { series, marks: marks.filter(can), handles: handles.filter(can), span });
+    Object.assign(this, { series, bands, strip, marks: marks.filter(can), handles: handles.filter(can), span });
     this.render();
   }
 
@@ -69,31 +72,32 @@ class Plot {
   }
 
   render() {
-    const width = this.svg.parentNode.clientWidth || 600, { height, x, y } = this;
-    const all = [...this.series.flatMap((s) => s.points), ...[...this.marks, ...this.handles].map((m) => [m.x, m.y])];
+    const width = this.svg.parentNode.clientWidth || 600, { x, y, strip } = this, top = TOP + (strip ? STRIP : 0), height = this.height + top - TOP;
+    const all = [...this.series.flatMap((s) => s.points), ...this.bands.flatMap((b) => b.points.flatMap(([a, low, high]) => [[a, low], [a, high]])), ...[...this.marks, ...this.handles].map((m) => [m.x, m.y])];
     const xs = this.span?.x ?? this.range(x, all.map((p) => p[0])), ys = this.span?.y ?? this.range(y, all.map((p) => p[1]));
-    const sx = (this.sx = this.scale(x, xs, LEFT, width - RIGHT)), sy = (this.sy = this.scale(y, ys, height - BOTTOM, TOP));
+    const sx = (this.sx = this.scale(x, xs, LEFT, width - RIGHT)), sy = (this.sy = this.scale(y, ys, height - BOTTOM, top));
     const [xName, xFactor, xZero] = axisUnit(xs, x.unit), [yName, yFactor, yZero] = axisUnit(ys, y.unit);
     const parts = [];
     const ticks = (axis, [low, high], factor, zero, n) => (axis.log ? logTicks(low, high)
       : niceTicks((low - zero) / factor, (high - zero) / factor, n).map((v) => v * factor + zero));
     for (const v of ticks(x, xs, xFactor, xZero, width / 90)) {
-      parts.push(`<line class="grid" x1="${sx(v)}" x2="${sx(v)}" y1="${TOP}" y2="${height - BOTTOM}"/>`,
+      parts.push(`<line class="grid" x1="${sx(v)}" x2="${sx(v)}" y1="${top}" y2="${height - BOTTOM}"/>`,
         `<text class="tick" x="${sx(v)}" y="${height - BOTTOM + 16}" text-anchor="middle">${digits((v - xZero) / xFactor, 3)}</text>`);
     }
-    for (const v of ticks(y, ys, yFactor, yZero, height / 55)) {
+    for (const v of ticks(y, ys, yFactor, yZero, this.height / 55)) {
       parts.push(`<line class="grid" x1="${LEFT}" x2="${width - RIGHT}" y1="${sy(v)}" y2="${sy(v)}"/>`,
         `<text class="tick" x="${LEFT - 6}" y="${sy(v) + 4}" text-anchor="end">${digits((v - yZero) / yFactor, 3)}</text>`);
     }
-    const named = (axis, name) => escaped(`${axis.label}${name ? ` [${name}]` : ""}`);
-    parts.push(`<text class="name" x="${(LEFT + width - RIGHT) / 2}" y="${height - 8}" text-anchor="middle">${named(x, xName)}</text>`,
-      `<text class="name" transform="translate(14 ${(TOP + height - BOTTOM) / 2}) rotate(-90)" text-anchor="middle">${named(y, yName)}</text>`,
-      `<clipPath id="clip-${this.id ??= (Plot.count = (Plot.count ?? 0) + 1)}"><rect x="${LEFT}" y="${TOP}" width="${width - LEFT - RIGHT}" height="${height - TOP - BOTTOM}"/></clipPath><g clip-path="url(#clip-${this.id})">`);
+    const titled = (axis, name) => escaped(`${axis.label}${name ? ` [${name}]` : ""}`);
+    parts.push(`<text class="name" x="${(LEFT + width - RIGHT) / 2}" y="${height - 8}" text-anchor="middle">${titled(x, xName)}</text>`,
+      `<text class="name" transform="translate(14 ${(top + height - BOTTOM) / 2}) rotate(-90)" text-anchor="middle">${titled(y, yName)}</text>`,
+      `<clipPath id="clip-${this.id ??= (Plot.count = (Plot.count ?? 0) + 1)}"><rect x="${LEFT}" y="${top}" width="${width - LEFT - RIGHT}" height="${height - top - BOTTOM}"/></clipPath><g clip-path="url(#clip-${this.id})">`);
+    for (const { points, look } of this.bands) parts.push(`<path class="band ${look}" d="${this.outline(points)}"/>`);
     for (const { points, look } of this.series) {
       const good = points.filter((p) => Number.isFinite(p[1]) && (!y.log || p[1] > 0) && (!x.log || p[0] > 0));
       parts.push(`<polyline class="line ${look}" points="${good.map((p) => `${sx(p[0]).toFixed(1)},${sy(p[1]).toFixed(1)}`).join(" ")}"/>`);
     }
-    parts.push("</g>");
+    parts.push("</g>", ...(strip ? this.stripParts(strip, width) : []));
     for (const m of this.marks) {
       const room = 7 * (m.text ?? "").length + 12, words = width < 500 ? m.brief ?? m.text : m.text;
       const end = m.left || sx(m.x) > width - (words === m.text ? room : 70);
@@ -107,11 +111,26 @@ class Plot {
     this.svg.setAttribute("role", this.handles.length ? "group" : "img");
     this.svg.innerHTML = parts.join("");
     if (focused) this.svg.querySelector(`[data-i="${focused}"]`)?.focus();
-    const listed = this.series.filter((s) => s.name).map((s) => `${s.name}|${s.look}`).join();
+    const named = [...this.series, ...this.bands, ...(strip?.areas ?? [])].filter((s) => s.name), listed = named.map((s) => `${s.name}|${s.look}`).join();
     if (listed !== this.listed) {
       this.listed = listed;
-      this.legend.replaceChildren(...this.series.filter((s) => s.name).map((s) => el("span", { class: `key ${s.look}` }, s.name)));
+      this.legend.replaceChildren(...named.map((s) => el("span", { class: `key ${s.look}` }, s.name)));
     }
+  }
+
+  /** Return the outline of a band, there at its upper end and back at its lower one. */
+  outline(points) {
+    const at = (a, b) => `${this.sx(a).toFixed(1)},${this.sy(b).toFixed(1)}`;
+    const good = points.filter(([, low, high]) => Number.isFinite(high) && (!this.y.log || low > 0));
+    return good.length ? `M${[...good.map(([a, , high]) => at(a, high)), ...good.toReversed().map(([a, low]) => at(a, low))].join("L")}Z` : "";
+  }
+
+  /** Return a strip of shares, 0 to 100 %, above the plot. */
+  stripParts({ label, areas }, width) {
+    const low = TOP + STRIP - 12, high = TOP + 14, at = ([a, share]) => `${this.sx(a).toFixed(1)},${(low - share * (low - high)).toFixed(1)}`;
+    const line = (y, text) => `<line class="grid" x1="${LEFT}" x2="${width - RIGHT}" y1="${y}" y2="${y}"/><text class="tick" x="${LEFT - 6}" y="${y + 4}" text-anchor="end">${text}</text>`;
+    return [`<text class="tick" x="${LEFT}" y="${TOP + 6}">${escaped(label)}</text>`, line(low, "0"), line(high, "100 %"),
+      ...areas.filter(({ points }) => points.length).map(({ points, look }) => `<path class="share ${look}" d="M${[[points[0][0], 0], ...points, [points.at(-1)[0], 0]].map(at).join("L")}"/>`)];
   }
 
   place(event) {

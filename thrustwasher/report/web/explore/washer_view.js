@@ -4,6 +4,10 @@
 const SCALES = { film_thickness: ["film thickness", "m", "um"], pressure: ["film pressure", "Pa", "MPa"], contact_pressure: ["asperity pressure", "Pa", "MPa"], carrier_temperature: ["temperature of the carrier", "K", "degC"] };
 const BRANCHES = { film: "film branch", unstable: "unstable: never stays here", contact: "contact branch" };
 const FOLDS = { film_lost: "film lost", film_regained: "film regained" };
+const LOADS = Array.from({ length: 24 }, (_, i) => 20 * 150 ** (i / 23)); // N, of the scatter: the curve's
+const LOADS_IN_WORDS = [LOADS[0], LOADS.at(-1)].map((load) => shown(load, "N", false, 3)).join(" .. ");
+const WAYS = { up: "load up", down: "load down" }, LOOK = { up: "scatter-one", down: "scatter-two" };
+const drawnLoad = (load, k) => CHANGES.filter((c) => c.name === "load").reduce((found, c) => drawn(c, k, found, ABOUT.inputs[0]), load);
 const SPEEDS = Array.from({ length: 36 }, (_, i) => Number((2 * 1000 ** (i / 35)).toPrecision(6)));
 
 const VIEW = {
@@ -14,7 +18,11 @@ const VIEW = {
   build(host) {
     const about = (name) => ABOUT.outputs[name], names = ["friction_torque", "friction_coefficient", "temperature", "temperature_max", "film_ratio", "film_thickness"];
     const choose = el("select", { id: "curve-quantity", "aria-label": "quantity over the load" }, ...names.map((n) => el("option", { value: n }, about(n).help)));
-    choose.addEventListener("change", () => { this.quantity = choose.value; this.drawCurve(); });
+    choose.addEventListener("change", () => {
+      this.quantity = choose.value;
+      this.drawCurve();
+      this.scatter.say();
+    });
     const curve = el("section", { class: "panel wide" }, el("div", { class: "choose" }, choose)), discs = el("section", { class: "panel" }, headed("Over the washer", "Film")), other = el("section", { class: "panel" });
     const all = el("div", { class: "discs" });
     discs.append(all);
@@ -22,6 +30,12 @@ const VIEW = {
     const drag = (load) => fields.load.take(Number(Math.min(Math.max(load, ABOUT.inputs[0].min), ABOUT.inputs[0].max).toPrecision(5)), null);
     this.plot = new Plot(curve, { title: "Load curve: drag the point over the fold", part: "Branches", drag, x: { label: "load", unit: "N", log: true }, y: { label: "", unit: "N.m" }, height: 340 });
     curve.append(this.folds = el("p", { class: "folds" }));
+    this.scatter = new Scatter(curve, {
+      of: "The band over the load", show: () => this.drawCurve(), told: () => this.scatterWords(), lacks: ({ up }) => up.length < LOADS.length || up.includes(null),
+      depends: () => [{ ...state.inputs, load: 0 }, state.parameters, state.rung],
+      given: (values, k) => [numbersOf(values), state.rung, ABOUT.inputs.map((s) => values[s.name]), LOADS.map((load) => drawnLoad(load, k))],
+    });
+    this.numbers = curve.appendChild(el("details", { hidden: true, id: "scatter-numbers" }, el("summary", {}, "the band in numbers"), el("div", { class: "wide-table", tabindex: 0 })));
     this.discs = Object.entries(SCALES).map(([name, [title, unit, own]]) => {
       const [factor, offset] = ABOUT.scales[unit][own];
       return [name, new Disc(all, { name, title, tell: (v) => `${digits((v - offset) / factor, 3)} ${pretty(own)}` })];
@@ -44,7 +58,10 @@ const VIEW = {
       });
     }
     this.fields = at;
-    if (fresh) this.askCurves();
+    if (!fresh) return;
+    this.askCurves();
+    this.scatter.follow();
+    this.scatter.say();
   },
 
   askCurves() {
@@ -86,7 +103,8 @@ const VIEW = {
   drawCurve() {
     const { quantity } = this, about = ABOUT.outputs[quantity], series = [], marks = [];
     this.plot.y = { label: quantity.replaceAll("_", " "), unit: about.unit, log: about.unit !== "K" };
-    const size = (v) => (quantity === "friction_torque" ? Math.abs(v) : v);
+    const size = (v) => this.size(v), { bands, medians, strip } = this.scatterShown();
+    series.push(...medians);
     if (this.curve) {
       let run = [];
       this.curve.points.forEach((p, i, all) => {
@@ -103,7 +121,55 @@ const VIEW = {
     }
     if (this.trail.length > 1) series.push({ name: "where it has been", points: this.trail.map(([load, o]) => [load, size(o[quantity])]), look: "trail" });
     const y = size(last.outputs[quantity]);
-    this.plot.show({ series, marks, handles: [{ x: last.point[0], y, label: "load, arrow keys move it", text: `${shown(last.point[0], "N")}, ${shown(y, about.unit)}, ${BRANCHES[last.outputs.branch]}` }] });
+    this.plot.show({ series, bands, strip, marks, handles: [{ x: last.point[0], y, label: "load, arrow keys move it", text: `${shown(last.point[0], "N")}, ${shown(y, about.unit)}, ${BRANCHES[last.outputs.branch]}` }] });
+  },
+
+  size(v) { return this.quantity === "friction_torque" ? Math.abs(v) : v; },
+
+  /**
+   * Return rows of the scatter by load: quantiles of the quantity and the share of draws on branch contact, as the load
+   * goes up or down; down only where that is another solution in some draw, and one load to either side.
+   */
+  scatterRows() {
+    const { sound } = this.scatter, differs = LOADS.map((_, i) => sound.some(({ down }) => down[i]));
+    const at = (found) => ({ quantiles: quantiles(found.map((o) => this.size(o[this.quantity]))), lost: found.filter((o) => o.branch === "contact").length / found.length });
+    return sound.length < 2 ? [] : LOADS.map((load, i) => ({
+      load, up: at(sound.map(({ up }) => up[i]).filter(Boolean)),
+      down: differs[i - 1] || differs[i] || differs[i + 1] ? at(sound.map(({ up, down }) => down[i] ?? up[i]).filter(Boolean)) : null,
+    }));
+  },
+
+  /** Return the scatter as bands, medians and a strip of the plot; the two ways of the load apart. */
+  scatterShown() {
+    this.numbers.hidden = !this.scatter.on || !this.scatter.complete;
+    if (!this.scatter.on || !this.scatter.found.length) return { bands: [], medians: [], strip: null };
+    const rows = this.scatterRows(), bands = [], medians = [], areas = [], { stale } = this.scatter;
+    for (const [way, words] of Object.entries(WAYS)) {
+      const there = rows.filter((row) => row[way]), look = `${LOOK[way]}${stale ? " stale" : ""}`;
+      if (!there.length) continue;
+      bands.push({ name: `${words}: 5 to 95 % of the draws`, look, points: there.map(({ load, [way]: { quantiles: [low, , high] } }) => [load, low, high]) });
+      medians.push({ name: `median, ${words}`, look: `median ${look}`, points: there.map(({ load, [way]: { quantiles: q } }) => [load, q[1]]) });
+      areas.push({ look, points: there.map(({ load, [way]: { lost } }) => [load, lost]) });
+    }
+    return { bands, medians, strip: { label: "film lost, share of the draws", areas } };
+  },
+
+  /** Say what the band is at the load of the scatter that is nearest, and put all into a table. */
+  scatterWords() {
+    const about = ABOUT.outputs[this.quantity], rows = this.scatterRows(), tell = (v) => shown(v, about.unit, about.relative, 3);
+    const percent = (v) => `${digits(100 * v, 3)} %`, cell = (v, text) => el("td", {}, el("data", { value: v }, text));
+    const heads = ["load", "way", "5 %", "50 %", "95 %", "film lost"].map((text) => el("th", { scope: "col" }, text));
+    const lines = rows.flatMap((row) => Object.keys(WAYS).filter((way) => row[way]).map((way) => el("tr", { "data-way": way },
+      cell(row.load, shown(row.load, "N", false, 3)), el("td", {}, WAYS[way]), ...row[way].quantiles.map((v) => cell(v, tell(v))), cell(row[way].lost, percent(row[way].lost)))));
+    this.numbers.lastChild.replaceChildren(el("table", {}, el("thead", {}, el("tr", {}, ...heads)), el("tbody", {}, ...lines)));
+    const load = last.point[0], i = LOADS.findIndex((f) => f >= load), [below, above] = [rows[i - 1], rows[i]];
+    if (!above || !(below ?? LOADS[0] === load)) return `The band goes over ${LOADS_IN_WORDS}.`;
+    const t = below ? Math.log(load / below.load) / Math.log(above.load / below.load) : 1, between = (way, f) => (below ? (1 - t) * f(below[way]) : 0) + t * f(above[way]);
+    const one = (way) => {
+      const [low, middle, high] = SHARES.map((_, n) => tell(between(way, (at) => at.quantiles[n])));
+      return `${WAYS[way]}: ${low} .. ${high} (5 to 95 % of the draws), median ${middle}, film lost in ${percent(between(way, (at) => at.lost))}`;
+    };
+    return `At ${shown(load, "N")}, ${Object.keys(WAYS).filter((way) => above[way] && (!below || below[way])).map(one).join("; ")}.`;
   },
 
   drawStribeck() {

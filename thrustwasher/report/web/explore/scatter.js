@@ -1,0 +1,150 @@
+"use strict";
+/* Scatter: the model solved at draws of what is not known exactly, by two workers; quantiles of what it gives. */
+
+const { draws: DRAWS = 0, sources: SOURCES = [] } = ABOUT.scatter ?? {};
+const CHANGES = SOURCES.flatMap(({ changes }) => changes), SHARES = [0.05, 0.5, 0.95];
+const FRAME = 120; // ms between two looks at what is there so far
+
+/** Return quantiles of some values, linear between them as numpy.quantile; none of no values. */
+function quantiles(values) {
+  const sorted = values.filter(Number.isFinite).sort((a, b) => a - b), last = sorted.length - 1;
+  return SHARES.map((share) => {
+    const at = share * last, k = Math.floor(at);
+    return last < 0 ? NaN : sorted[k] + (at - k) * (sorted[Math.min(k + 1, last)] - sorted[k]);
+  });
+}
+
+/** Return what a change makes of a value in a draw, within the value's range; `counts`: what counts where it is 0. */
+function drawn({ how, values }, k, value, { kind, min, max }, counts = 0) {
+  if (kind !== "real") return values[k];
+  const own = value || counts, found = { times: own * values[k], plus: own + values[k], set: values[k] }[how];
+  return Math.min(Math.max(found, min), max);
+}
+
+/** Return parameters and inputs by name as they are in a draw. */
+function drawnValues(k) {
+  const present = { ...state.parameters, ...state.inputs }, found = { ...present };
+  for (const change of CHANGES.filter(({ name }) => Object.hasOwn(fields, name))) {
+    const { name, at_zero: zero } = change, counts = typeof zero === "string" ? present[zero] : zero;
+    found[name] = drawn(change, k, present[name], fields[name].about, counts);
+  }
+  return found;
+}
+
+/** Return a band and its median over `x` of what `value(result, i)` is in the draws. */
+function bandOver(x, scatter, name, look, value) {
+  const { sound, on, stale } = scatter, rows = on && sound.length > 1 ? x.map((at, i) => [at, ...quantiles(sound.map((r) => value(r, i)))]) : [];
+  const looks = `${look}${stale ? " stale" : ""}`, points = rows.map(([at, low, , high]) => [at, low, high]);
+  if (!rows.length) return { bands: [], medians: [] };
+  return { bands: [{ name: `${name}: 5 to 95 % of the draws`, look: looks, points }], medians: [{ name: `${name}: median`, look: `median ${looks}`, points: rows.map(([at, , middle]) => [at, middle]) }] };
+}
+
+/** Say in which band results of the draws lie, by their names. */
+function bandWords(names, results) {
+  const one = (name) => {
+    const { unit, relative } = ABOUT.outputs[name], [low, middle, high] = quantiles(results.map((r) => r.outputs[name])).map((v) => shown(v, unit, relative, 3));
+    return `${name.replaceAll("_", " ")} ${low} .. ${high}, median ${middle}`;
+  };
+  return `5 to 95 % of the draws: ${names.map(one).join("; ")}.`;
+}
+
+/** The switch, the list of what scatters, and what the draws gave. */
+class Scatter {
+  /**
+   * `of`: what the band is one of; `depends()`: what the draws depend on beside themselves; `given(values, k)`: what a
+   * worker needs for a draw; `lacks(result)`: tells if a part of it is missing; `show()`: shows `results`; `told()`: a sentence on all of them.
+   */
+  constructor(host, { of, depends, given, lacks = () => false, show, told }) {
+    Object.assign(this, { depends, given, lacks, show, told, results: [], queue: [], known: "", stale: false, helper: null });
+    this.input = el("input", { type: "checkbox", role: "switch", id: "scatter", disabled: !DRAWS });
+    this.input.addEventListener("change", () => {
+      this.set(this.input.checked);
+      if (last) this.follow();
+      settled();
+    });
+    this.said = el("p", { class: "folds", role: "status", id: "scatter-state" });
+    const row = ({ name, law, reason }) => el("tr", {}, el("th", { scope: "row" }, el("code", {}, name)), el("td", {}, law), el("td", {}, reason || "the part, without a source"));
+    const list = el("details", {}, el("summary", {}, `what scatters (${SOURCES.length})`),
+      el("p", {}, `${of}: 5 to 95 % of ${DRAWS} draws of what stands here, the same each time, about the values that are set. This band is of inputs; the error of the mesh is another one and is said above.`),
+      el("div", { class: "wide-table", tabindex: 0 }, el("table", {}, el("thead", {}, el("tr", {}, ...["name", "law", "from"].map((text) => el("th", { scope: "col" }, text)))), el("tbody", {}, ...SOURCES.map(row)))),
+      ...(ABOUT.scatter?.warnings ?? []).map((text) => el("p", {}, text)));
+    const label = el("label", {}, this.input, " scatter: the band that inputs leave");
+    host.append(el("div", { class: "scatter" }, label, DRAWS ? list : el("p", {}, "This part has no [scatter]: nothing is known of how its inputs scatter.")), this.said);
+  }
+
+  get on() { return this.input.checked; }
+  get complete() { return !this.stale && this.found.length === DRAWS; }
+  get found() { return this.results.filter(Boolean); }
+  get sound() { return this.found.filter((r) => !r.problem && !r.broken); }
+
+  /** Switch on or off; on, `follow` solves. */
+  set(on) {
+    this.input.checked = on && DRAWS > 0;
+    if (!this.on) this.cancel();
+    if (last) this.show();
+  }
+
+  /** Solve the draws about the present values, unless that has been done. */
+  follow() {
+    const known = JSON.stringify(this.depends());
+    if (!this.on || known === this.known) return;
+    Object.assign(this, { known, results: [], stale: false, began: performance.now(), queue: Array.from({ length: DRAWS }, (_, k) => k) });
+    this.said.textContent = `Solving ${DRAWS} draws …`;
+    this.feed(solver);
+    if (this.helper?.ready) this.feed(this.helper);
+    if (this.helper) return;
+    this.helper = new Solver((problem) => (this.said.textContent = `The draws stopped: ${problem.message}.`));
+    this.helper.begin((problem) => {
+      this.helper.ready = !problem;
+      if (!problem) this.feed(this.helper);
+    });
+  }
+
+  /** Give a worker a draw: from one end each, so that both keep constants of about the same draws. */
+  feed(one) {
+    const k = one === solver ? this.queue.shift() : this.queue.pop(), { known } = this;
+    if (k === undefined) return;
+    one.ask("draw", { given: this.given(drawnValues(k), k) }, (found, problem) => {
+      if (known !== this.known) return;
+      this.results[k] = found ?? { problem };
+      this.feed(one);
+      this.changed();
+    });
+  }
+
+  changed() {
+    if (this.complete) {
+      this.took = performance.now() - this.began;
+      this.show();
+      this.say();
+      document.documentElement.dataset.scattered = this.known;
+    } else this.drawing ??= setTimeout(() => {
+      this.drawing = undefined;
+      if (this.known && !this.complete) this.show();
+    }, FRAME);
+  }
+
+  /** Say what all draws gave, and which failed. */
+  say() {
+    if (!this.on || !this.complete) return;
+    const why = new Set(this.results.map((r, k) => r.problem ?? (r.broken ? ruleWords(r.broken, drawnValues(k)) : "")).filter(Boolean));
+    const failed = DRAWS - this.sound.length, partly = this.sound.filter(this.lacks).length;
+    const words = [this.told()];
+    if (failed) words.push(`${failed} of ${DRAWS} draws failed and do not count: ${[...why].slice(0, 3).join("; ")}.`);
+    if (partly) words.push(`${partly} of ${DRAWS} draws have no solution at some of the loads, where they do not count.`);
+    this.said.textContent = `${words.join(" ")} ${DRAWS} draws in ${digits(this.took / 1000, 2)} s.`;
+  }
+
+  /** The present values are others, or `stopped`: the first worker has dropped its draw. */
+  moved(stopped = false) {
+    if (!this.known || (JSON.stringify(this.depends()) === this.known && (this.complete || !stopped))) return;
+    this.cancel();
+    this.show();
+  }
+
+  cancel() {
+    Object.assign(this, { known: "", queue: [], stale: true });
+    this.said.textContent = "";
+    delete document.documentElement.dataset.scattered;
+  }
+}

@@ -32,10 +32,10 @@ import calls
 import damage
 import files
 
-from thrustwasher.fmu.fmu_cache import fmu_paths
 from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.fmu.build import build
 from thrustwasher.fmu.description.interface import interface
+from thrustwasher.fmu.fmu_cache import fmu_paths
 from thrustwasher.fmu.running.loading import description, unpack
 from thrustwasher.fmu.stepper import DirectInstance, Instance
 from thrustwasher.model.registry import find_spec

@@ -7,9 +7,9 @@ from pathlib import Path
 import needed
 from filelock import FileLock
 
-from thrustwasher.fmu.fmu_cache import fmu_paths, source_digest
 from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.fmu.build import build
+from thrustwasher.fmu.fmu_cache import fmu_paths, source_digest
 from thrustwasher.fmu.running.loading import prune
 from thrustwasher.fmu.shell.platform_libraries import tools
 from thrustwasher.model.registry import find_spec

@@ -8,6 +8,7 @@ import re
 import tomllib
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -112,9 +113,12 @@ def meant(value: float, unit: str, low: float, high: float, *, difference: bool 
     return ""
 
 
+@lru_cache(maxsize=4096)  # a scene is read again for each draw of a study
 def _scaled(digits: str, factor: float, offset: float) -> float:
     """Return ``factor * number + offset``, rounded once: "0.5 um" is 5e-07 to the bit."""
     rough = factor * float(digits) + offset
+    if (factor, offset) == (1.0, 0.0):
+        return rough
     if not math.isfinite(rough) or not 1e-200 < abs(rough) < 1e200:
         return rough
     return float(Fraction(digits) * Fraction(repr(factor)) + Fraction(repr(offset)))

@@ -17,13 +17,16 @@ def mine(tmp_path, monkeypatch):
 
 
 def test_a_new_part_has_every_parameter_on_a_line_and_is_sound(mine, capsys):
-    lines = [line for line in mine.read_text().splitlines() if line.startswith("roughness =")]
-    assert len(lines) == 1 and lines[0].startswith('roughness = "0.4 um"')
+    given, _, scatter = mine.read_text().partition("[scatter]")
+    for text, start in ((given, 'roughness = "0.4 um"'), (scatter, "roughness = { normal = ")):
+        lines = [line for line in text.splitlines() if line.startswith("roughness =")]
+        assert len(lines) == 1 and lines[0].startswith(start)
     assert load_part(mine).params == WasherParams(roughness=0.4e-6)
     capsys.readouterr()
     assert main(["part", "check", str(mine), "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert (told["name"], told["box"]["load"]) == ("Mine", [20.0, 1850.0])
+    assert told["scatter"]["tilt"] == {"law": "lognormal, factor 1.6", "source": "estimate"}
 
 
 def test_a_command_solves_the_part(mine, capsys):

@@ -12,6 +12,7 @@ import pytest
 from built import built_fmu
 
 from thrustwasher.cli import main
+from thrustwasher.errors import SolveError
 
 ROOT = Path(__file__).parents[2]
 
@@ -136,3 +137,46 @@ def test_two_shifts_are_compared_a_report_and_a_scene(msl, tmp_path, capsys):
     assert locks.startswith("clutch locks: A 2.11") and ", B 2.11" in locks
     page = (out / "compare.html").read_text("utf-8")
     assert page.count("<img") == 2 and str(out / "compare.html") in text
+
+
+SCATTERED = """
+base = "msl"
+[scatter]
+"clutch.friction_scale" = { normal = "5 %", source = "estimate" }
+"""
+
+
+@pytest.fixture
+def scattered(tmp_path):
+    """Write a scene of which one input scatters."""
+    scene = tmp_path / "scattered.toml"
+    scene.write_text(SCATTERED, encoding="utf-8")
+    return f"shift --scene {scene} --scatter 8 --out {tmp_path / 'r'}".split()
+
+
+def test_a_study_stands_in_report_and_json_and_beside_them(scattered, tmp_path, capsys):
+    assert main([*scattered, "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    study = told["scatter"]
+    assert (study["runs"], study["solves"], study["failed"]) == (8, 24, 0)
+    band = study["figures"]["lock_time"]
+    assert band["quantiles"]["0.05"] < told["lock_time"] < band["quantiles"]["0.95"]
+    report = (tmp_path / "r" / "report.html").read_text(encoding="utf-8")
+    (link,) = re.findall(r'href="([^"#]+)"', report)
+    page = (tmp_path / "r" / link).read_text(encoding="utf-8")
+    assert 'id="how-sure"' in report and "clutch: friction scale" in page
+    links = re.findall(r'href="([^"#]+)"', page)
+    assert links and all((tmp_path / "r" / link).with_name(name).is_file() for name in links)
+    assert {p.suffix for p in (tmp_path / "r").iterdir()} == {".html", ".png", ".csv", ""}
+
+
+def test_a_study_that_fails_leaves_the_shift(scattered, tmp_path, capsys, monkeypatch):
+    def fails(*_, **__):
+        raise SolveError("none of the runs has a solution")
+
+    monkeypatch.setattr("thrustwasher.scatter.propagate.propagate", fails)
+    assert main(scattered) == 3
+    assert capsys.readouterr().err.endswith("none of the runs has a solution\n")
+    report = (tmp_path / "r" / "report.html").read_text(encoding="utf-8")
+    assert "Key figures" in report and 'id="how-sure"' not in report
+    assert (tmp_path / "r" / "shift.csv").is_file()

@@ -224,6 +224,7 @@ BOTH = {"roughness": "5 %", "tilt": "5 %", "share": "5 %"}
         ({"cooling": {"either": [1, 0]}}, ["false, true"]),
         ({"shear": {"either": ["full", "liquid"], "weights": [1]}}, ["weights = [1]", "2 numbers"]),
         ({"shear": {"either": ["full", "liquid"], "weights": [1, 0]}}, ["above 0"]),
+        ({"shear": {"either": ["full", "liquid"], "weights": [1, 10**400]}}, ["2 numbers"]),
         ({"correlation": 3}, ["correlation = 3", "[name, name, number]"]),
         (BOTH | {"correlation": [["tilt", 0.3]]}, ["[name, name, number]"]),
         (BOTH | {"correlation": [["tilt", ["share"], 0.3]]}, ["[name, name, number]"]),

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import shift_stand_in
 from browser_pages import faults, opened
+from scatter_stand_in import study
 
 from thrustwasher import WasherParams, solve_washer
 from thrustwasher.report.html import render
@@ -73,6 +74,23 @@ def test_the_cursor_is_the_same_in_all_plots_and_tells_the_values_there(page):
     for name in ("transmission.engine_speed", "transmission.clutch_reaction"):
         assert value_of(page, name) == pytest.approx(RECORD.signals[name][index], rel=1e-4)
     assert page.locator("#now").text_content().startswith(f"{RECORD.time[index]:g} s, ")
+
+
+def test_a_study_shades_its_bands_and_they_go_with_their_signal(browser, tmp_path, monkeypatch):
+    monkeypatch.setattr(shift_report, "solve_moment", lambda record, time: None)
+    path = tmp_path / "report.html"
+    studied = shift_report.shift_page(replace(RECORD, scatter=study()))
+    path.write_text(render(studied), "utf-8")
+    with opened(browser, path) as page:
+        to_plots(page)
+        own = "Plots.state.panels.find((p) => p.given.title === 'Torques').plot"
+        page.wait_for_function(f"() => {own}")
+        high, low = page.evaluate(f"() => {own}.bands[0].series")
+        top = page.evaluate(f"() => {own}.data[{high}].at(-1)")
+        assert (top, page.evaluate(f"() => {own}.data[{low}].at(-1)")) == (240.0, 160.0)
+        page.locator('th[title="clutch.torque_capacity"] input').uncheck()
+        assert page.evaluate(f"() => {own}.series[{high}].show") is False
+        assert faults(page) == []
 
 
 def test_a_zoom_in_one_plot_zooms_all(page):

@@ -3,6 +3,7 @@
 import json
 import math
 
+import needed
 import numpy as np
 import pytest
 from stand_ins import NORMAL, Swing, linear, never, picky
@@ -10,8 +11,8 @@ from stand_ins import NORMAL, Swing, linear, never, picky
 from thrustwasher import ParameterError, SolveError, propagate
 from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.scatter.design import Design, make_design
+from thrustwasher.scatter.evaluation import Runs
 from thrustwasher.scatter.propagate import JOURNAL, study_of
-from thrustwasher.scatter.summary import Runs
 
 
 class Stop(Exception):
@@ -123,6 +124,15 @@ def test_the_journal_of_another_study_is_refused_and_stays(tmp_path, changed, sa
     with pytest.raises(ParameterError, match=rf"another scatter \(other .*{says}"):
         propagate(linear, **{**usual, **changed})
     assert (tmp_path / JOURNAL).read_bytes() == before
+
+
+def test_a_cluster_gives_the_numbers_of_one_process():
+    distributed = needed.package("distributed")
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=2, processes=False, dashboard_address=None
+    ) as cluster:
+        found = propagate("gearmesh", runs=16, cluster=cluster.scheduler_address)
+    assert same(found, propagate("gearmesh", runs=16, workers=1))
 
 
 def test_a_function_within_another_is_studied_here_but_not_sent():

@@ -17,9 +17,10 @@ from ._options import option_name
 
 if TYPE_CHECKING:
     from ..model.part_file import PartFile
-    from ..scatter.result import Band, ScatterResult
+    from ..scatter.result import Band, Index, ScatterResult
 
 HELP = "how sure figures are: the scatter of inputs through a part or a gear shift"
+LEAST = 0.02  # a total index below decides nothing
 FOLDER, PAGE = "scatter-report", "scatter.html"
 OPTIONS = {
     "--runs N": "base points, rounded up to a power of two; default 1024, of a scene 256",
@@ -51,6 +52,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="where several solutions exist, the branch: as loaded up from light load (below, "
         "default), or coming down (above)",
     )
+    _options.add_settings(parser, "of a part: change a parameter, e.g. --set roughness=4e-7")
+    _options.add_oil(parser)
     _options.add_workers(parser, "processes; default: one per core, 1: none")
     inputs = parser.add_argument_group("inputs of a part, if not those of its [box]")
     for name, units in _inputs().items():
@@ -96,7 +99,7 @@ def _whole(arguments: argparse.Namespace, name: str) -> int | None:
     if text is None:
         return None
     if not text.strip().isdecimal() or len(text) > 12:
-        raise ParameterError(f"--{name} {text}: allowed: a whole number")
+        raise ParameterError(f"--{name} {text}: allowed: a whole number from 0 on")
     return int(text)
 
 
@@ -110,16 +113,20 @@ def _target(arguments: argparse.Namespace) -> tuple[Any, dict[str, str] | None]:
     from ..scatter.propagate import part_or_scene
 
     given = {n: getattr(arguments, n) for n in _inputs() if getattr(arguments, n) is not None}
-    if arguments.preset is not None:
-        return _options.solvable(arguments.target, arguments.preset), given
     found = part_or_scene(arguments.target)
     if isinstance(found, PartFile):
+        if arguments.preset is not None:
+            found = _options.solvable(arguments.target, arguments.preset)
         if arguments.fidelity is not None:
             found = replace(found, fidelity=rung_named(found.spec, arguments.fidelity))
-        return found, given
-    of_a_part = (*given, *(["fidelity"] if arguments.fidelity else []))
-    if of_a_part:
-        raise ParameterError(f"{option_name(of_a_part[0])}: is for a part; a scene has its own")
+        settings = _options.read_settings(arguments.settings, found.spec)
+        found = _options.with_oil(arguments, found, settings)
+        return replace(found, parameters=found.parameters | settings), given
+    _options.refuse_unused(arguments, "a scene", (*_inputs(), "preset", "fidelity", "settings"))
+    if arguments.oil is not None:
+        from ..shift import load_scene
+
+        found = load_scene(arguments.target, arguments.oil)
     return found, None
 
 
@@ -157,7 +164,7 @@ def _write(result: "ScatterResult", target: Any, at: Any, folder: Path) -> None:
     from ..model.part_file import PartFile, part_text
     from ..report.html import render
     from ..report.scatter import scatter_page
-    from ..report.scatter.scatter_page import MOST_FIGURES, main_figures
+    from ..report.scatter.study_page import MOST_FIGURES, main_figures
     from ..shift.scene.variation import scene_text
 
     files: dict[str, dict[float, str]] = {}
@@ -184,7 +191,7 @@ def _drawn(part: "PartFile", at: dict[str, str], values: dict[str, Any]) -> "Par
     return replace(part, parameters=_output.parameters_of(params), box=box, scatter={})
 
 
-def _say(result: "ScatterResult", folder: Path) -> None:
+def _say(result: "ScatterResult", folder: Path | None) -> None:
     """Print the bands, what decides them, probabilities, and where the files are."""
     failed = sum(result.failed.values())
     print(
@@ -199,14 +206,20 @@ def _say(result: "ScatterResult", folder: Path) -> None:
         print(f"  {name:<{widths[0]}}  {'  '.join(cells)}  {decided}".rstrip())
     for name, p in result.probabilities.items():
         print(f"  P({name}) = {p.value:.3g}, between {p.low:.2g} and {p.high:.2g}")
-    print(f"Report: {folder / PAGE}")
+    if folder:
+        print(f"Report: {folder / PAGE}")
 
 
 def _row(name: str, band: "Band") -> tuple[str, ...]:
     values = (band.nominal, *band.quantiles.values())
     cells = (_output.shown(x, band.unit, band.relative) if x == x else "-" for x in values)
-    ranked = sorted(
-        ((i.total, n) for n, i in band.indices.items() if i.total is not None), reverse=True
-    )
-    decided = ", ".join(f"{n} {total:.2f}" for total, n in ranked[:3] if total >= 0.01)
+    known = [(i.total, n) for n, i in band.indices.items() if _is_sure(i)]
+    decided = ", ".join(f"{n} {total:.2f}" for total, n in sorted(known, reverse=True)[:3])
     return (name, *cells, decided)
+
+
+def _is_sure(index: "Index") -> bool:
+    """Tell if an index is large enough, and larger than what is not known of it."""
+    if index.total is None or index.total_confidence is None:
+        return False
+    return index.total > max(LEAST, index.total_confidence)

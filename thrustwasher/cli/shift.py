@@ -12,14 +12,16 @@ from typing import Any
 from ..errors import ParameterError
 from ..units import parse_quantity
 from . import _compare, _options, _output
+from . import scatter as _scatter
 from .build import chosen_platforms
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
 OF_A_RUN = (
     *("scene", "compare", "no_report", "step", "master", "master_tolerance", "fidelity"),
-    *("no_guard", "ssp", "platforms", "oil"),
+    *("no_guard", "ssp", "platforms", "oil", "scatter"),
 )
 REPORT, TABLE, FOLDER = "report.html", "shift.csv", "shift-report"
+RUNS, STUDY = "256", "scatter"  # base points of a study, its folder in that of the report
 OPTIONS = {
     "--scene NAME|FILE.toml": "a built-in scene (planetary, brake-test, msl, ...) or a TOML file; "
     "default planetary",
@@ -50,6 +52,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs=2,
         help="two shifts on one page, compare.html: each a report's folder, or a scene, which runs",
     )
+    parser.add_argument(
+        "--scatter",
+        nargs="?",
+        const=RUNS,
+        metavar="N",
+        help="then study how sure the figures are: the scene's [scatter] through N shifts "
+        f"(default {RUNS}) and as many per input, with bands in the report; stopped, the same "
+        "command goes on with the study",
+    )
     parser.add_argument("--master-tolerance", help=argparse.SUPPRESS)
     parser.add_argument(
         "--fmu", choices=["native", "python"], default="native", help="kind of FMU; default native"
@@ -77,22 +88,68 @@ def run(arguments: argparse.Namespace) -> int:
         return _export(arguments, scene)
     if arguments.platforms:
         raise ParameterError("--platforms: for a package only (--ssp FILE.ssp)")
+    runs = _scatter_runs(arguments, scene)
     folder = None if arguments.no_report else _output.check_folder(arguments.out, "--out")
 
     began = time.perf_counter()
-    result = _simulate(arguments, scene)
-    if folder:
-        with _output.whole_folder(folder) as draft:
-            _write(result, draft)
-    _output.warn(result.warnings)
+    result, study = _simulate(arguments, scene), None
+    try:
+        if runs:
+            study = _study(result.scene, runs, folder)
+    finally:  # what stops the study leaves the shift
+        if folder:
+            with _output.whole_folder(folder) as draft:
+                _write(result, study, draft)
+    _output.warn([*result.warnings, *(study.warnings if study else ())])
     if arguments.json:
         total, out = time.perf_counter() - began, str(folder) if folder else None
-        _output.print_json({**result.as_dict(), "total_time": total, "out": out})
-    elif scene.sequence:
+        told = {**result.as_dict(), "total_time": total, "out": out}
+        _output.print_json(told | ({"scatter": study.as_dict()} if study else {}))
+        return 0
+    if scene.sequence:
         _say_sequence(result)
     else:
         _say(result, folder)
+    if study:
+        _scatter._say(study, folder and folder / STUDY)
     return 0
+
+
+def _scatter_runs(arguments: argparse.Namespace, scene: Any) -> int | None:
+    """Return how many base points a study has, None without one; all that stops it is said here."""
+    text = arguments.scatter
+    if text is None:
+        return None
+    from ..scatter.design import LEAST_RUNS, MOST_RUNS, rounded_runs
+    from ..shift.scene.places import scene_scatter
+
+    number = int(text) if text.strip().isdecimal() and len(text) < 12 else 0
+    if not LEAST_RUNS <= number <= MOST_RUNS:
+        raise ParameterError(
+            f"--scatter {text}: allowed: a whole number {LEAST_RUNS} .. {MOST_RUNS}, best a power "
+            "of two"
+        )
+    if scene.sequence:
+        raise ParameterError("--scatter: of one shift, allowed: a scene without [sequence]")
+    if arguments.fmu == "python":
+        raise ParameterError("--fmu python: a study runs native FMUs; leave out it or --scatter")
+    if not scene_scatter(scene).sources:
+        raise ParameterError(
+            f"--scatter: nothing scatters in {scene.name}: add [scatter] to the scene, such as "
+            'oil_temperature = "3 K"'
+        )
+    return rounded_runs(number)
+
+
+def _study(scene: Any, runs: int, folder: Path | None) -> Any:
+    """Return the study of a scene; its page and tables go to a folder of their own."""
+    from ..scatter.propagate import propagate
+
+    out = folder and folder / STUDY
+    study = propagate(scene, runs=runs, out=out, progress=_scatter._progress())
+    if out:
+        _scatter._write(study, scene, None, out)
+    return study
 
 
 def _list(as_json: bool) -> int:
@@ -204,7 +261,7 @@ def _fmu_instances(scene: Any, target: str) -> Iterator[Callable[[str, Any], Any
         yield make
 
 
-def _write(result: Any, folder: Path) -> None:
+def _write(result: Any, study: Any, folder: Path) -> None:
     """Write page, plots and time series into a folder that is still a draft."""
     from ..report.html import render, save_plots
 
@@ -216,7 +273,7 @@ def _write(result: Any, folder: Path) -> None:
         from ..report.shift.shift_record import record_of
         from ..report.shift.shift_report import shift_page
 
-        page = shift_page(record_of(result))
+        page = shift_page(record_of(result, study))
     (folder / REPORT).write_text(render(page), encoding="utf-8")
     save_plots(page, folder)
     result.write_csv(folder / TABLE)
@@ -224,7 +281,7 @@ def _write(result: Any, folder: Path) -> None:
 
 def _export(arguments: argparse.Namespace, scene: Any) -> int:
     """Write the shift as a package that any SSP master runs, and name it."""
-    _options.refuse_unused(arguments, "--ssp", ("no_report", "no_guard"), out=FOLDER)
+    _options.refuse_unused(arguments, "--ssp", ("no_report", "no_guard", "scatter"), out=FOLDER)
     if arguments.fmu == "python":
         raise ParameterError("--fmu python: a package holds native FMUs only; leave it out")
     if arguments.master not in (None, "jacobi"):

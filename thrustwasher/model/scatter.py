@@ -24,6 +24,7 @@ if TYPE_CHECKING:  # part files are read without numpy
 LAWS = ("normal", "lognormal", "uniform", "either")
 CORRELATION = "correlation"
 MUCH_CUT = 0.01  # share of the probability outside the allowed range that is worth a warning
+LARGEST_WEIGHT = 1e100  # so that their sum is a number
 LEAST_U = 2.0**-53  # quantiles at 0 and 1 would be infinite
 
 
@@ -370,7 +371,7 @@ def _choice(place: Place, value: Any) -> Any:
 
 def _is_weight(value: Any) -> bool:
     number = isinstance(value, int | float) and not isinstance(value, bool)
-    return number and 0.0 < value < math.inf
+    return number and 0.0 < value < LARGEST_WEIGHT
 
 
 def _pairs(where: str, given: Any, sources: Sequence[Source]) -> tuple[tuple[int, int, float], ...]:

@@ -158,10 +158,11 @@ def _web(name: str) -> str:
 
 
 def save_plots(page: Page, folder: Path) -> None:
-    """Write every plot of the page into the folder: drawings as SVG, shaded maps as PNG."""
+    """Write the plots but tiles into the folder: drawings as SVG, shaded maps as PNG."""
     for section in page.sections:
         for plot in section.plots:
-            (folder / plot.name).write_bytes(plot.content)
+            if not plot.tiles:
+                (folder / plot.name).write_bytes(plot.content)
 
 
 def _drawing(figure: "Figure", prefix: str) -> str:

@@ -2,7 +2,7 @@
 
 A washer takes nearly all of a run's time and hardly feeds back. The loop therefore plays the torque
 that the washers of another run have recorded; afterwards each is solved along the inputs that the
-loop has recorded, at instants between which these are all but straight, warm from one to the next.
+loop has recorded, at some 90 instants, warm from one to the next.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -22,7 +22,8 @@ from ..washer.kernels import layout as L
 from ..washer.parameters import SPEC
 from ..washer.solve import GRIDS
 
-CLOSE = 0.02  # of an input's range: what straight lines between instants may be off
+CLOSE = 0.01  # of an input's range: what straight lines between instants may be off
+EVEN = 50  # further instants, even in time, where inputs change
 Signals = dict[str, Array]
 Make = Callable[[str, Part], Any]
 
@@ -42,16 +43,20 @@ class Loop:
         self.instances = {n: make(n, p) for n, p in scene.parts.items() if n not in played}
         self._given = {n: scene.parts[n].params for n in self.instances}
 
-    def run(self, scene: Scene) -> tuple[Array, Signals]:
+    def run(
+        self, scene: Scene, played: Mapping[str, Recorded] | None = None
+    ) -> tuple[Array, Signals]:
         """Return times [s] and all signals of a run at a scene's values.
 
-        ParameterError, SolveError: as in ``run_shift``.
+        ``played``: other records than those from the start. ParameterError, SolveError: as in
+        ``run_shift``.
         """
-        now: dict[str, Stepping] = dict(self.played)
+        now: dict[str, Stepping] = dict(self.played if played is None else played)
         for name, instance in self.instances.items():
             part = scene.parts[name]
             changed = part.params != self._given[name]
             instance.reset(part.parameters() if changed else None)
+            instance.warnings.clear()  # thousands of runs would gather them
             self._given[name], now[name] = part.params, instance
         system = connected(scene, now)
         run = laid_out(scene, system, [])
@@ -86,8 +91,7 @@ def followed(part: Part, name: str, time: Array, signals: Signals, more: Sequenc
     SolveError : it could not be followed; the message says from when on
     """
     rows = np.column_stack([signals[f"{name}.{s.name}"] for s in SPEC.inputs])
-    span = np.ptp(rows, axis=0)
-    places = sorted({*between_lines(time, rows / np.where(span > 0.0, span, 1.0), CLOSE), *more})
+    places = sorted({*_instants(time, rows), *more})
     rung = "field" if part.fidelity == "map" else part.fidelity
     follower = Follower(part.params, GRIDS[rung])
     values, lost, before = np.empty((len(places), len(follower.out))), np.zeros(len(places)), 0
@@ -103,3 +107,12 @@ def followed(part: Part, name: str, time: Array, signals: Signals, more: Sequenc
     }
     last = np.searchsorted(places, np.arange(len(time)), side="right") - 1
     return {**found, f"{name}.distress": lost[last]}
+
+
+def _instants(time: Array, rows: Array) -> set[int]:
+    """Return points at which a washer is solved along its inputs (n, 5)."""
+    span = np.ptp(rows, axis=0)
+    found = set(between_lines(time, rows / np.where(span > 0.0, span, 1.0), CLOSE))
+    even = np.linspace(0, len(time) - 1, EVEN + 1).astype(int)
+    moved = (rows[even[1:]] != rows[even[:-1]]).any(1)
+    return found | set(even[1:][moved].tolist())

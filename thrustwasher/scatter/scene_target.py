@@ -11,8 +11,8 @@ more than a tenth of a figure's band all runs are full ones; then nothing is cos
 
 import hashlib
 import json
-import math
-from collections.abc import Iterator, Mapping, Sequence
+import warnings
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, suppress
 from functools import partial
@@ -27,22 +27,31 @@ from ..fmu.fmu_cache import fmu_paths
 from ..fmu.stepper import Instance
 from ..model.scatter import Scatter
 from ..model.toml_tables import unknown
+from ..native.files import write
 from ..processes import usable_cores
-from ..report.shift.usual import ranges
 from ..shift.checks.guard import reset
 from ..shift.checks.step_error import recorded_parts, step_error
-from ..shift.key_figures.events_and_phases import find_events, turning
-from ..shift.key_figures.figure_list import FIGURES
-from ..shift.key_figures.key_figures import key_figures
+from ..shift.cosim.recorded import Recorded
 from ..shift.run import run_shift
-from ..shift.scene.connections import DIRECT, MESHES
+from ..shift.scene.connections import DIRECT
 from ..shift.scene.places import scene_scatter
 from ..shift.scene.scene import Part, Scene
 from ..shift.scene.variation import varied_scene
 from ..shift.shift_result import ShiftResult
 from ..shift.tolerance.run_to_tolerance import run_auto, with_rungs
+from ..washer.solve import solve_washer
+from .scene_figures import (
+    LOST,
+    WASHER_SERIES,
+    figures_of,
+    is_of_washers,
+    outcomes_of,
+    series_of,
+    series_values,
+    values_of,
+)
 from .scene_runs import Loop, Signals, followed
-from .target import Array, Figure, Flags
+from .target import Array, Flags
 
 FULL_RUNS = 16
 SHARE = 0.1  # of a figure's band: an error of the shortcut that is too large
@@ -55,30 +64,10 @@ REASONS = (
 )
 # Parameters of the transmission that decide on the washers alone.
 OF_WASHERS = ("transmission.thrust_share", "transmission.planet_tilt", "transmission.washer_radius")
-WASHER_SERIES = ("washer.friction_torque", "washer.film_ratio")
-SERIES = (
-    "transmission.clutch_reaction",
-    "transmission.brake_reaction",
-    "vehicle.acceleration",
-    "transmission.output_torque",
-    "transmission.engine_speed",
-    "clutch.temperature",
-    *WASHER_SERIES,
-)
-# As the shift begins: name -> signal, words, unit.
-AT_START = {
-    "washer_torque": (
-        "washer.friction_torque",
-        "washer, friction torque as the shift begins",
-        "N.m",
-    ),
-    "washer_film_ratio": ("washer.film_ratio", "washer, film ratio as the shift begins", "1"),
-}
-SAFETIES = ("pitting_safety", "scuffing_safety", "micropitting_safety")
 # Error of the communication step -> figure.
 STEP = {"heat": "slip_energy"}
-# Key figure -> figure of ``report.shift.usual``, where the names differ.
-USUAL = {"least_pitting_safety": "pitting_safety", "least_scuffing_safety": "scuffing_safety"}
+
+Records = dict[tuple[Any, ...], dict[str, Recorded]]
 
 
 class _Failed(Exception):
@@ -111,11 +100,8 @@ class SceneTarget:
         self.played = recorded_parts(scene, nominal.time, nominal.signals)
         self.shortcut: dict[str, float] = {}
         self.time = np.linspace(scene.start_time, scene.stop_time, N_TIME)
-        self._meshes = [n for n in MESHES if n in scene.parts and _safeties(scene.parts[n])]
-        self.figures = tuple(_figures(nominal))
-        known = {*nominal.signals, *(["vehicle.acceleration"] if scene.vehicle else [])}
-        left = "transmission.output_torque" if scene.vehicle else ""
-        self.series = tuple(n for n in SERIES if n in known and n != left)
+        self.figures, self.outcomes = figures_of(nominal), outcomes_of(scene)
+        self.series = series_of(nominal)
         self._nominal = self._read(scene, nominal.time, nominal.signals)
 
     def __getstate__(self) -> dict[str, Any]:
@@ -123,15 +109,9 @@ class SceneTarget:
         return self.__dict__ | {"_loop": None}
 
     @property
-    def outcomes(self) -> tuple[str, ...]:
-        """What a run says yes or no to."""
-        lost = ("film_lost",) if self._washers else ()
-        return (*lost, *(f"{n}_safety_below_1" for n in self._meshes), "no_lock_up")
-
-    @property
     def costly(self) -> tuple[str, ...]:
         """The washers' figures; {} where runs are full."""
-        return tuple(f.name for f in self.figures if _of_washers(f.name)) if self.played else ()
+        return tuple(f.name for f in self.figures if is_of_washers(f.name)) if self.played else ()
 
     @property
     def identity(self) -> dict[str, str]:
@@ -146,6 +126,17 @@ class SceneTarget:
             "series": ", ".join(self.series),
             "washers": "apart" if self.played else "in the loop",
         }
+
+    @property
+    def series_units(self) -> dict[str, str]:
+        """Units of the series."""
+        known = {
+            f"{name}.{s.name}": s.unit
+            for name, part in self.scene.parts.items()
+            for s in part.spec.outputs
+        }
+        known["vehicle.acceleration"] = "m/s2"
+        return {name: known.get(name, "") for name in self.series}
 
     def touches(self, source: str) -> bool:
         """Tell if any figure but the costly ones depends on a source."""
@@ -163,32 +154,24 @@ class SceneTarget:
     def solve(self, rows: list[dict[str, Any]], costly: NDArray[np.bool_]) -> tuple[Array, Flags]:
         """Return what runs give (n, m) and their codes (n,): figures, outcomes, series.
 
-        Each row's answer is its own: it depends on no other row.
+        A costly row runs twice, at last with its own washers' torque; later rows of the batch with
+        the same washers run with that torque, others with that of the nominal run.
         """
         if self._loop is None:
             self._loop = self.new_loop(self.played)
         answers, codes = np.full((len(rows), len(self._nominal)), np.nan), np.zeros(len(rows), int)
-        keys = [self._key(row, bool(own)) for row, own in zip(rows, costly, strict=True)]
-        last = {key: i for i, key in enumerate(keys)}
-        runs: dict[Any, tuple[Array, Signals]] = {}
-        for i, (row, key) in enumerate(zip(rows, keys, strict=True)):
+        records: Records = {}
+        for i, row in enumerate(rows):
             try:
-                scene = self._scene(row)
-                if key not in runs:
-                    runs[key] = self._run(self._loop, scene)
-                time, signals = runs[key]
-                answers[i] = self._answer(scene, time, signals, self.played, bool(costly[i]))
+                answers[i] = self._answer(self._loop, row, bool(costly[i]), records)
             except _Failed as failed:
                 codes[i] = failed.code
-            if last[key] == i:
-                runs.pop(key, None)
         return answers, codes.astype(np.int32)
 
-    def _key(self, row: Mapping[str, Any], costly: bool) -> tuple[Any, ...]:
-        """Return the values that the loop depends on or, if costly, the washers' inputs too."""
-        return tuple(
-            x for name, x in row.items() if self.touches(name) or (costly and name in OF_WASHERS)
-        )
+    @property
+    def folder(self) -> Path:
+        """Where its FMUs lie, by all that they are made of."""
+        return next(iter(self._paths.values())).parents[1]
 
     def new_loop(self, played: Mapping[str, Any]) -> Loop:
         """Return the scene's instances, some of them played."""
@@ -199,9 +182,7 @@ class SceneTarget:
         found = np.full((len(rows), len(self._nominal)), np.nan)
         for i, row in enumerate(rows):
             with suppress(_Failed):
-                scene = self._scene(row)
-                time, signals = self._run(loop, scene)
-                found[i] = self._answer(scene, time, signals, loop.played, True)
+                found[i] = self._answer(loop, row, True, {})
         return found
 
     def keep(self, outputs: Sequence[str]) -> None:
@@ -223,71 +204,42 @@ class SceneTarget:
         self.shortcut = {f.name: float(x) for f, x in zip(self.figures, shares, strict=True)}
         worst = sorted(self.shortcut.items(), key=lambda pair: -pair[1])
         shown = ", ".join(f"{name} {100.0 * share:.2g} %" for name, share in worst[:3])
-        head = (
-            "the shift ran with the washers' torque of the nominal run, the washers were solved "
-            f"apart; compared with {FULL_RUNS} full runs this errs by at most so much of the band: "
-            f"{shown}"
+        text = (
+            "the washers are solved apart from the rest of the shift; compared with "
+            f"{FULL_RUNS} full runs this errs by at most so much of the band: {shown}"
         )
         if worst[0][1] > SHARE:
             self.played = {}
-            head = head.replace("the shift ran", "a shift that runs", 1)
-            head += f"; above {100.0 * SHARE:g} %, so that all runs are full ones"
-        self.warnings = (head,)
+            text += f"; above {100.0 * SHARE:g} %, so that all runs are full ones"
+        self.warnings = (text,)
 
-    def _scene(self, row: Mapping[str, Any]) -> Scene:
+    def _answer(self, loop: Loop, row: Mapping[str, Any], costly: bool, records: Records) -> Array:
+        """Return the row of a run; ``records``: washers that were followed, by their values."""
+        own = tuple(x for name, x in row.items() if not self.touches(name))
+        code = 1
         try:
-            return varied_scene(self.scene, row)
-        except ParameterError:
-            raise _Failed(1) from None
-
-    def _run(self, loop: Loop, scene: Scene) -> tuple[Array, Signals]:
-        try:
-            return loop.run(scene)
+            scene = varied_scene(self.scene, row)
+            code = 2
+            time, signals = loop.run(scene, records.get(own))
+            for name in loop.played if costly else ():
+                code = 3
+                start = [_start(scene, time)]
+                washer = followed(scene.parts[name], name, time, signals, start)
+                code = 2
+                records[own] = recorded_parts(scene, time, signals | washer)
+                signals = loop.run(scene, records[own])[1] | washer
         except (ParameterError, SolveError):
-            raise _Failed(2) from None
-
-    def _answer(
-        self, scene: Scene, time: Array, signals: Signals, played: Mapping[str, Any], costly: bool
-    ) -> Array:
-        """Return the row of a run; ``costly``: washers that were played are followed, else NaN."""
-        if not played:
-            return self._read(scene, time, signals)
-        start = int(np.searchsorted(time, min(scene.shift_start, time[-1])))
-        for name in played if costly else ():
-            try:
-                own = followed(scene.parts[name], name, time, signals, [start])
-            except SolveError:
-                raise _Failed(3) from None
-            signals = signals | own
-        return self._read(scene, time, signals, washers=costly)
+            raise _Failed(code) from None
+        return self._read(scene, time, signals, washers=costly or not loop.played)
 
     def _read(self, scene: Scene, time: Array, signals: Signals, washers: bool = True) -> Array:
-        """Return figures, outcomes and series of a run; without ``washers`` theirs are NaN."""
-        events = find_events(scene, time, signals)
-        found = {f.name: f.value for f in key_figures(scene, time, signals, events)}
-        found |= {
-            name: float(np.interp(scene.shift_start, time, signals[signal]))
-            for name, (signal, *_) in AT_START.items()
-            if signal in signals
-        }
-        there = [f.name for f in self.figures if washers or not _of_washers(f.name)]
-        row = [found.get(f.name) if f.name in there else None for f in self.figures]
-        if self._washers:
-            lost = bool(((signals["washer.distress"] > 0.5) & turning(signals)).any())
-            row.append(float(lost) if washers else None)
-        row += [float(_unsafe(scene.parts[n], n, signals)) for n in self._meshes]
-        row.append(float(found["lock_time"] is None))
-        values = [np.array([math.nan if x is None else x for x in row])]
-        for name in self.series:
-            if name in WASHER_SERIES and not washers:
-                values.append(np.full(N_TIME, np.nan))
-            elif name == "vehicle.acceleration":
-                assert scene.vehicle is not None
-                felt = scene.vehicle.reach * signals["transmission.output_acceleration"]
-                values.append(np.interp(self.time, time, felt))
-            else:
-                values.append(np.interp(self.time, time, signals[name]))
-        return np.concatenate(values)
+        names = tuple(f.name for f in self.figures)
+        row = values_of(scene, time, signals, names, self.outcomes)
+        series = series_values(scene, time, signals, self.series, self.time)
+        if not washers:
+            row[[n == LOST or is_of_washers(n) for n in (*names, *self.outcomes)]] = np.nan
+            series[[n in WASHER_SERIES for n in self.series]] = np.nan
+        return np.concatenate((row, series.ravel()))
 
 
 def scene_target(
@@ -322,28 +274,56 @@ def scene_target(
         scene = with_rungs(scene, maps)
         instances = {name: make(name, part) for name, part in scene.parts.items()}
         nominal = run_shift(scene, instances)
-        try:
-            step = step_error(nominal, reset(instances), run_shift).errors()
-        except (ParameterError, SolveError):
-            step = {}
-    target = SceneTarget(scene, scatter, nominal, {STEP.get(n, n): x for n, x in step.items()})
+        errors = {}
+        with suppress(ParameterError, SolveError):
+            found = step_error(nominal, reset(instances), run_shift).errors()
+            errors = {STEP.get(name, name): x for name, x in found.items()}
+        errors |= _of_mesh(nominal)
+    target = SceneTarget(scene, scatter, nominal, errors)
     if outputs is not None:
         target.keep(outputs)
-    if target.played and scatter.sources:
+    if target.played and scatter.sources and target.figures:
         _compare(target)
     return target
 
 
+def _of_mesh(nominal: ShiftResult) -> dict[str, float]:
+    """Return the error of the washer's torque by its card, if there is one for the washer."""
+    found: dict[str, float] = {}
+    for name in (name for name in DIRECT if name in nominal.scene.parts):
+        part, i = nominal.scene.parts[name], _start(nominal.scene, nominal.time)
+        point: Any = {
+            s.name: float(nominal.signals[f"{name}.{s.name}"][i]) for s in part.spec.inputs
+        }
+        with suppress(ParameterError, SolveError):
+            error = solve_washer(part.params, **point, fidelity=part.fidelity).error_estimate
+            found |= {} if error is None else {"washer_torque": error}
+    return found
+
+
 def _compare(target: SceneTarget) -> None:
-    """Find what the shortcut errs by; where that is too much let all runs be full ones."""
+    """Let the target know what the shortcut errs by; it is measured once per scene and scatter."""
     from scipy.stats import qmc  # late: it takes a third of a second
 
     points = qmc.Sobol(len(target.scatter.sources), seed=np.random.default_rng(0))
     rows = target.scatter.values(points.random(FULL_RUNS))
-    n = min(usable_cores(), FULL_RUNS)
+    own = json.dumps([target.identity, rows]).encode()
+    file = target.folder / f"shortcut-{hashlib.sha256(own).hexdigest()[:16]}.json"
+    try:
+        error, band = json.loads(file.read_text("utf-8"))
+    except (OSError, ValueError):
+        error, band = (x.tolist() for x in _measured(target, rows))
+        with suppress(OSError):
+            write(file, json.dumps([error, band]).encode())
+    target.learn(np.array(error), np.array(band))
+
+
+def _measured(target: SceneTarget, rows: list[dict[str, Any]]) -> tuple[Array, Array]:
+    """Return the largest error of the shortcut and the band, of each figure (m,), by full runs."""
+    n = min(usable_cores(), len(rows))
     parts = [slice(i, None, n) for i in range(n)]
     loops = [(target.new_loop(target.played), target.new_loop({})) for _ in parts]
-    both = np.empty((2, FULL_RUNS, len(target.nominal())))
+    both = np.empty((2, len(rows), len(target.nominal())))
 
     def run(part: slice, own: tuple[Loop, Loop]) -> None:
         for k, loop in enumerate(own):
@@ -354,11 +334,18 @@ def _compare(target: SceneTarget) -> None:
     for pair in loops:
         for loop in pair:
             loop.close()
-    n_figures = len(target.figures)
-    short, full = both[:, :, :n_figures]
-    band = np.nanmax(full, 0) - np.nanmin(full, 0)
-    error = np.nanmax(np.abs(short - full), 0)
-    target.learn(error, band)
+    short, full = both[:, :, : len(target.figures)]
+    with warnings.catch_warnings():  # a figure may be absent in all of these runs
+        warnings.simplefilter("ignore", RuntimeWarning)
+        band = np.nan_to_num(np.nanmax(full, 0) - np.nanmin(full, 0))
+        error = np.nan_to_num(np.nanmax(np.abs(short - full), 0))
+    one_alone = (np.isnan(short) != np.isnan(full)).any(0)  # as a lock-up that the other lacks
+    return np.where(one_alone, band, error), band
+
+
+def _start(scene: Scene, time: Array) -> int:
+    """Return the point at which the shift begins."""
+    return int(np.searchsorted(time, min(scene.shift_start, float(time[-1]))))
 
 
 def _paths(scene: Scene) -> dict[str, Path]:
@@ -367,41 +354,3 @@ def _paths(scene: Scene) -> dict[str, Path]:
 
 def _instance(paths: Mapping[str, Path], name: str, part: Part) -> Instance:
     return Instance(paths[part.spec.name], parameters=part.parameters(), name=name)
-
-
-def _of_washers(figure: str) -> bool:
-    """Tell if a figure depends on what washers do, or on what decides on them alone."""
-    reading = FIGURES[figure].reading.split() if figure in FIGURES else []
-    signal = reading[1] if reading else ""
-    return (
-        figure in AT_START
-        or figure == "washer_distress_time"
-        or signal.startswith("washer.")
-        or signal == "transmission.washer_load"
-    )
-
-
-def _figures(nominal: ShiftResult) -> Iterator[Figure]:
-    """Yield the figures that the nominal run has; a swing of the shaft is not looked for."""
-    pack, usual = nominal.scene.engaging, ranges()
-    for f in nominal.key_figures:
-        if f.value is None or f.name.startswith("judder_"):
-            continue
-        key = USUAL.get(f.name, f.name)
-        known = usual.get(key) or usual.get(key.replace(f"_{pack}_", "_{pack}_"))
-        low, high = known.range if known else (-math.inf, math.inf)
-        scale = known.scale if known else 1.0
-        yield Figure(f.name, f.unit, f.text, low * scale, high * scale, f.difference)
-    for name, (signal, words, unit) in AT_START.items():
-        if signal in nominal.signals:
-            yield Figure(name, unit, words)
-
-
-def _safeties(part: Part) -> list[str]:
-    """Return the safeties that a mesh has a value of."""
-    outputs = {s.name for s in part.spec.outputs} - part.spec.absent(part.params)
-    return [name for name in SAFETIES if name in outputs]
-
-
-def _unsafe(part: Part, name: str, signals: Signals) -> bool:
-    return any(bool((signals[f"{name}.{s}"] < 1.0).any()) for s in _safeties(part))

@@ -60,6 +60,8 @@ class Family:
 def spread(rows: Array) -> Array:
     """Return what varies among rows (n, m), on scales (n, k) on which it varies by about one."""
     varied = rows[:, (rows != rows[:1]).any(axis=0)]
+    if not varied.size:
+        return varied
     positive = (varied > 0.0).all(axis=0)
     scaled = np.where(positive, np.log(np.where(positive, varied, 1.0)), varied)
     found: Array = scaled - scaled.mean(axis=0)

@@ -145,8 +145,10 @@ def verdict(
         what += f" (± {100.0 * first.half:.0f} %)" if first.half < math.inf else ""
     else:
         what = f"its rank correlation with “{title}” is {signed(first.value)}"
+    is_sure = first.half < 0.5 * abs(first.value)
+    doubt = "" if is_sure else " These runs are too few to be sure of it."
     then = f"; then {' and '.join(share_words(s, words) for s in others)}" if others else ""
-    return [f"The verdict on {of} rests most on {words(first.source)}: {what}{then}."]
+    return [f"The verdict on {of} rests most on {words(first.source)}: {what}{then}.{doubt}"]
 
 
 def chances(result: Any, names: Sequence[str] = ()) -> list[str]:

@@ -10,11 +10,24 @@ from matplotlib.figure import Figure
 from .. import palette
 from ..style import styled
 from .decides import LEAST, RANK, Share, column
-from .words import HIGH, LOW, MIDDLE, Scale, band_scale, joined, named, scale_of, with_unit
+from .words import (
+    HIGH,
+    LOW,
+    MIDDLE,
+    Scale,
+    band_scale,
+    joined,
+    named,
+    scale_of,
+    shortened,
+    with_unit,
+)
 
 WIDE, NARROW = 4.6, 3.3  # inch of a tile, two and three in a row
 BARS = 6  # at most
 COLOURS = ("BLUE", "RED", "GREEN", "ORANGE", "PURPLE", "SKY")
+PER_INCH = 12.0  # letters of a title
+PLAIN = Scale("")
 LETTERS = 46  # of a name above a bar
 DRAWN = 0.01  # of the greatest spread: below it indices over time say nothing
 LOST = "film_lost"
@@ -29,10 +42,9 @@ def _tile(
     return figure, axis
 
 
-def _title(axis: Axes, text: str, width: float) -> None:
+def _title(axis: Axes, text: str, width: float, scale: Scale = PLAIN) -> None:
     """Write a title from the left edge of the tile, shortened to its width."""
-    most = int(14.5 * width)
-    words = text if len(text) <= most else f"{text[: most - 1].rstrip()}…"
+    words = with_unit(text, scale, int(PER_INCH * width))
     axis.figure.text(0.06 / width, 0.985, words, va="top", fontsize=10, fontweight="bold")
 
 
@@ -76,7 +88,7 @@ def band_figure(name: str, series: Any, scale: Scale | None = None, title: str =
         axis.yaxis.set_major_formatter("{x:g}")
     axis.set_xlim(time[0], time[-1])
     axis.set_xlabel("time [s]")
-    _title(axis, with_unit(title or named(name), scale), WIDE)
+    _title(axis, title or named(name), WIDE, scale)
     axis.legend(loc="best", handlelength=1.6)
     return figure
 
@@ -114,7 +126,7 @@ def distribution_figure(result: Any, name: str, title: str) -> Figure:
     axis.spines["left"].set_visible(False)
     if len(groups) > 1 and all(len(group) for group in groups):
         axis.legend(loc="best", handlelength=1.0)
-    _title(axis, with_unit(title, scale), NARROW)
+    _title(axis, title, NARROW, scale)
     return figure
 
 
@@ -132,8 +144,7 @@ def bar_figure(found: Sequence[Share], title: str) -> Figure:
         half = min(share.half, 10.0)
         bar: Any = {"ecolor": palette.BLACK, "error_kw": {"elinewidth": 1.0, "capsize": 2.0}}
         axis.barh(row, size, 0.34, xerr=half, color=colour, alpha=0.85, **bar)
-        words = joined(share.source)
-        words = words if len(words) <= LETTERS else f"{words[: LETTERS - 1]}…"
+        words = shortened(joined(share.source), LETTERS)
         axis.text(0.0, row - 0.24, words, ha="left", va="bottom", fontsize=8.5)
     axis.set_ylim(len(shown) - 0.6, -0.85)
     axis.set_xlim(0.0, max(1.0, *(min(abs(s.value) + s.half, 1.5) for s in shown)))
@@ -153,20 +164,29 @@ def decided_over_time(name: str, series: Any, title: str = "") -> Figure | None:
     low, high = series.quantiles[LOW], series.quantiles[HIGH]
     spread = np.nan_to_num(np.asarray(high) - np.asarray(low))
     seen = spread > DRAWN * spread.max()
-    if not seen.any():
-        return None
-    figure, axis = _tile(WIDE, 2.75, left=0.45, below=0.48)
-    weights = {
-        source: float(np.nansum(np.where(seen, np.clip(values, 0.0, 1.0), 0.0)))
+    drawn = {
+        source: np.where(seen, np.asarray(values, float), np.nan)
         for source, values in series.indices.items()
+    }
+    if not any(map(_any, drawn.values())):
+        return None
+    top = max(float(np.nanmax(values)) for values in drawn.values() if _any(values))
+    figure, axis = _tile(WIDE, 3.2, left=0.45, below=0.95)
+    weights = {
+        source: float(np.nansum(np.clip(values, 0.0, 1.0))) for source, values in drawn.items()
     }
     ranked = sorted(weights, key=lambda source: -weights[source])[: len(COLOURS)]
     for source, colour in zip(ranked, COLOURS, strict=False):
-        values = np.where(seen, np.asarray(series.indices[source], float), np.nan)
-        axis.plot(series.time, values, color=getattr(palette, colour), label=joined(source))
+        axis.plot(
+            series.time,
+            drawn[source],
+            color=getattr(palette, colour),
+            label=shortened(joined(source), 28),
+        )
     axis.set_xlim(series.time[0], series.time[-1])
-    axis.set_ylim(0.0, 1.05)
+    axis.set_ylim(0.0, min(max(1.05, top), 1.5))
     axis.set_xlabel("time [s]")
-    axis.legend(loc="upper right", fontsize=7.5, handlelength=1.4)
+    look = {"fontsize": 8, "handlelength": 1.4, "columnspacing": 1.0, "labelspacing": 0.25}
+    figure.legend(loc="lower left", ncols=2, borderaxespad=0.2, **look)
     _title(axis, f"{title or named(name)}: total indices", WIDE)
     return figure

@@ -55,7 +55,7 @@ def confidence_table(result: Any) -> Table:
         for level in LEVELS:
             low, high = band.confidence.get(level, (None, None))
             cells.append(f"{scale.number(low)} .. {scale.number(high)}")
-        spread = scale._replace(zero=0.0).number(band.standard_deviation)
+        spread = scale.for_differences.number(band.standard_deviation)
         title = with_unit(title_of(name, band), scale)
         rows.append((title, *cells, scale.number(band.mean), spread))
     heads = ("", *LEVELS.values(), "mean", "standard deviation")
@@ -131,7 +131,7 @@ def error_table(result: Any, names: Sequence[str]) -> Table:
         rows.append(
             (title_of(name, band), _numerical(band), _by_choice(result, name), _by_inputs(band))
         )
-    heads = ("", "mesh (rung)", "choice of the model", "inputs, 5 .. 95 %")
+    heads = ("", "mesh, step or rung", "choice of the model", "inputs, 5 .. 95 %")
     return Table(heads, rows, numbers=(1, 3))
 
 
@@ -146,7 +146,7 @@ def _off(band: Any, difference: float) -> str:
     if band.unit == "K":
         text = plain(difference, 2)
     elif not band.nominal or not math.isfinite(band.nominal):
-        return _with_sign(band_scale(band)._replace(zero=0.0).words(difference), difference)
+        return _with_sign(band_scale(band).for_differences.words(difference), difference)
     else:
         text = plain(100.0 * difference / abs(band.nominal), 2)
     return _with_sign(f"{text} {'K' if band.unit == 'K' else '%'}", difference)

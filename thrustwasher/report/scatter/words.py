@@ -10,21 +10,27 @@ from ..palette import CELSIUS
 
 NONE = "\N{EN DASH}"
 LOW, MIDDLE, HIGH = 0.05, 0.5, 0.95
+BAND = "5 .. 95 %"  # the head of a column
+MOST_DIGITS = 6
 LEVELS = {LOW: "5 %", MIDDLE: "50 %", HIGH: "95 %"}
 
 
 class Scale(NamedTuple):
-    """The unit in which a figure's values are shown: its name, its size and zero [SI]."""
+    """The unit in which a figure's values are shown: its name, its size and zero [SI].
+
+    ``digits`` are as many as tell the values apart.
+    """
 
     unit: str
     size: float = 1.0
     zero: float = 0.0
+    digits: int = 3
 
-    def number(self, value: float | None, digits: int = 3) -> str:
+    def number(self, value: float | None) -> str:
         """Return a value without its unit."""
         if value is None or not math.isfinite(value):
             return NONE
-        return plain((value - self.zero) / self.size, digits)
+        return plain((value - self.zero) / self.size, self.digits)
 
     def words(self, value: float | None) -> str:
         """Return a value with its unit."""
@@ -37,6 +43,11 @@ class Scale(NamedTuple):
         if high is None or not math.isfinite(high):
             return self._with_unit(f"{self.number(low)} or more")
         return self._with_unit(f"{self.number(low)} .. {self.number(high)}")
+
+    @property
+    def for_differences(self) -> "Scale":
+        """The same for differences of values."""
+        return self._replace(zero=0.0, digits=3)
 
     def _with_unit(self, text: str) -> str:
         return f"{text} {self.unit}".strip()
@@ -54,6 +65,8 @@ def scale_of(unit: str, values: Iterable[float | None], *, relative: bool = Fals
     """Return the unit for values as large as these [SI]."""
     if unit == "K" and not relative:
         return Scale("°C", 1.0, CELSIUS)
+    if unit == "s":  # times stay in seconds
+        return Scale("s")
     largest = max((abs(v) for v in values if v is not None and math.isfinite(v)), default=0.0)
     shown, size = display_unit(largest, unit)
     return Scale("" if shown == "1" else shown, size)
@@ -62,7 +75,13 @@ def scale_of(unit: str, values: Iterable[float | None], *, relative: bool = Fals
 def band_scale(band: Any) -> Scale:
     """Return the unit of a figure's values."""
     values = (band.nominal, *band.quantiles.values())
-    return scale_of(band.unit, values, relative=getattr(band, "relative", False))
+    scale = scale_of(band.unit, values, relative=band.relative)
+    low, high = (band.quantiles.get(level) for level in (LOW, HIGH))
+    if not varies(band) or low == high:
+        return scale
+    larger = max(abs(low - scale.zero), abs(high - scale.zero))
+    digits = 1 + math.ceil(math.log10(larger / (high - low)))
+    return scale._replace(digits=max(digits, 3) if digits <= MOST_DIGITS else 3)
 
 
 def named(name: str) -> str:
@@ -89,9 +108,15 @@ def title_of(name: str, band: Any) -> str:
     return spoken(band.help) or named(name)
 
 
-def with_unit(title: str, scale: Scale) -> str:
-    """Return a title with the unit of what it names."""
-    return f"{title} [{scale.unit}]" if scale.unit else title
+def with_unit(title: str, scale: Scale, most: int = 1000) -> str:
+    """Return a title with the unit of what it names, both in so many letters."""
+    unit = f" [{scale.unit}]" if scale.unit else ""
+    return shortened(title, most - len(unit)) + unit
+
+
+def shortened(text: str, most: int) -> str:
+    """Return a text, its end replaced by dots where it is too long."""
+    return text if len(text) <= most else f"{text[: most - 1].rstrip()}…"
 
 
 def percent(share: float) -> str:
@@ -133,8 +158,20 @@ def band_words(band: Any) -> str:
     return band_scale(band).span(band.quantiles.get(LOW), band.quantiles.get(HIGH))
 
 
+def sentence(text: str) -> str:
+    """Return a text as a sentence."""
+    return f"{text[:1].upper()}{text[1:].removesuffix('.')}." if text else ""
+
+
 def varies(band: Any) -> bool:
     """Return whether a figure is there and scatters."""
     low, high = band.quantiles.get(LOW), band.quantiles.get(HIGH)
     known = low is not None and high is not None and math.isfinite(low) and math.isfinite(high)
     return known and (high > low or band.standard_deviation > 0.0)
+
+
+def relative_spread(band: Any) -> float:
+    """Return the range from 5 to 95 % over the median's size; of temperatures over 100 K."""
+    size = 100.0 if band.unit == "K" else abs(band.quantiles[MIDDLE])
+    spread = band.quantiles[HIGH] - band.quantiles[LOW]
+    return float(spread / size) if size else math.inf

@@ -2,6 +2,7 @@
 
 =================  =======================================================================
 ``heat_split``     made, stored, given to the oil: the heat of a part
+``how_sure``       what the scatter of inputs makes of it, and what the verdict rests on
 ``overview_plot``  plots of the page as one still picture
 ``section_texts``  what stands above the tables
 ``shift_data``     the run for the page's scripts; ``panels.toml``: what stands together

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from .. import palette
 from ..style import decade_ticks, label, note_at_right, styled, time_figure
-from .shift_data import panels, set_aside, signal_of
+from .shift_data import bands_of, panels, set_aside, signal_of
 from .shift_record import Record
 
 SHOWN = ("Speeds", "Torques", "Film ratios")
@@ -49,6 +49,10 @@ def _draw_signals(axis: Axes, record: Record, panel: Mapping[str, Any]) -> None:
         shown, unit = (values - found["zero"]) / found["scale"], found["unit"]
         look = {"color": getattr(palette, colour.upper()), "label": re.sub("[._]", " ", words)}
         axis.plot(record.time, np.maximum(shown, floor), **look)
+        if (band := bands_of(record).get(name)) is not None:
+            ends = ((values - found["zero"]) / found["scale"] for values in band[1:])
+            low, high = (np.maximum(end, floor) for end in ends)
+            axis.fill_between(band[0], low, high, color=look["color"], alpha=0.2, lw=0.0)
     if panel.get("logarithmic"):
         axis.set_yscale("log")
         low, high = axis.get_ylim()

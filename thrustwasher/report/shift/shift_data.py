@@ -14,6 +14,7 @@ import numpy as np
 
 from ...errors import ParameterError
 from ...units import UNITS, pretty_unit
+from ..scatter.words import HIGH, LOW
 from . import shift_tables, summary
 from .shift_record import PACKS, Array, Record
 from .worst_moments import Moment
@@ -74,6 +75,7 @@ def run_data(
     places: dict[bytes, int] = {}  # what one part gives another takes: such signals share a row
     row_of = [places.setdefault(row.tobytes(), len(places)) for row in rows]
     kept, packed = _packed_to_fit(rows[np.unique(row_of, return_index=True)[1]], record, room)
+    bands = {name: _band(rows) for name, rows in bands_of(record).items()}
     events = [(e.time, e.text) for e in record.events]
     if swing := record.judder:
         events.append((swing.start, "the swing's growth is judged from here"))
@@ -98,12 +100,24 @@ def run_data(
             if name not in moving and np.isfinite(values[0])
         ],
         "shifts": 1,
+        **({"bands": bands} if bands else {}),
         "slip": slip_of(record),
         "aside": set_aside(record),
         "inputs": [s.name for s in part.spec.inputs] if (part := record.part("washer")) else [],
         "moments": {words: _moment(m) for words, m in moments.items() if m is not None},
         "settings": shift_tables.settings(record),
     }
+
+
+def bands_of(record: Record) -> dict[str, tuple[Array, Array, Array]]:
+    """Return time, 5 and 95 % quantile [SI] of each signal that a study has and that scatters."""
+    series = record.scatter.series if record.scatter else {}
+    found = {n: (s.time, s.quantiles[LOW], s.quantiles[HIGH]) for n, s in series.items()}
+    return {n: b for n, b in found.items() if np.isfinite(b[1]).any() and np.any(b[2] > b[1])}
+
+
+def _band(rows: tuple[Array, ...]) -> list[list[float | None]]:
+    return [[float(f"{x:.4g}") if np.isfinite(x) else None for x in row] for row in rows]
 
 
 def set_aside(record: Record) -> list[str]:

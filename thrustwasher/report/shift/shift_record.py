@@ -113,6 +113,8 @@ class Record:
     """How they were checked after the run, and what was run again; None: they were not."""
     reach: float | None = None
     """Way of the vehicle per angle of the output [m/rad]; None: there is no vehicle."""
+    scatter: Any = None
+    """What the scatter of inputs makes of it (``scatter.result.ScatterResult``), if studied."""
 
     @property
     def figures(self) -> dict[str, float | None]:
@@ -122,6 +124,11 @@ class Record:
     def figure(self, name: str) -> KeyFigure | None:
         """Return the key figure of that name, or None."""
         return next((figure for figure in self.key_figures if figure.name == name), None)
+
+    def band(self, name: str) -> Any:
+        """Return what a study says of a figure, also as the least of its kind; None: nothing."""
+        known = self.scatter.figures if self.scatter else {}
+        return known.get(name) or known.get(f"least_{name}")
 
     @property
     def releasing(self) -> str:
@@ -167,8 +174,8 @@ class Record:
         return next((part for part in self.parts if part.name == name), None)
 
 
-def record_of(result: Any) -> Record:
-    """Return the result of a shift as plain data."""
+def record_of(result: Any, scatter: Any = None) -> Record:
+    """Return the result of a shift, and of a study of its scene, as plain data."""
     scene = result.scene
     return Record(
         name=scene.name,
@@ -183,5 +190,6 @@ def record_of(result: Any) -> Record:
         source=scene.published.source if scene.published else "",
         parts=[Part(n, part.spec, part.parameters()) for n, part in scene.parts.items()],
         reach=scene.vehicle.reach if scene.vehicle else None,
+        scatter=scatter,
         **{name: getattr(result, name) for name in OF_THE_RESULT},
     )

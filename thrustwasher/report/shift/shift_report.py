@@ -5,7 +5,9 @@ from typing import Any
 
 from ...units import format_quantity as say
 from ..html import Card, Page, Plot, Section
+from ..scatter.words import BAND, band_words, varies
 from . import shift_tables
+from .how_sure import how_sure_sections
 from .live_washer import live_washer
 from .overview_plot import overview_figure
 from .section_texts import USUAL_TEXT, cost_texts, rung_texts, simulated_texts, temperature_texts
@@ -57,6 +59,7 @@ def shift_page(record: Record) -> Page:
         *_judder_sections(record),
         *([Section("washer", "The thrust washer", ["discs"], tables=[washer])] if washer else []),
         Section("energy", "Energy", ["flow"], [ENERGY_TEXT, HEAT_TEXT], tables=heat),
+        *how_sure_sections(record),
         Section("key-figures", "Key figures", tables=[shift_tables.key_table(record)]),
         *rung_sections(record),
         Section("cost", "Time spent", texts=cost_texts(record), tables=[cost]),
@@ -112,10 +115,18 @@ def _cards(record: Record) -> list[Card]:
     hidden = ("lock_after_ramp_start",) if record.alone else OF_A_LONE_PACK
     names = [n.format(pack=f"peak_{record.engaging}") for n in CARDS if n not in hidden]
     usual = beside(record)
+
+    def band(name: str) -> list[str]:
+        found = record.band(name)
+        words = f"{BAND}: {band_words(found)}" if found and varies(found) else ""
+        return [words.replace(" ", "\N{NO-BREAK SPACE}")] if words else []
+
     cards = [
-        Card(f.text, usual[name][0].value_words(f.value), usual[name][0].note(f.value))
-        if name in usual
-        else Card(f.text, f.words(f.value, 4))
+        Card(
+            f.text,
+            usual[name][0].value_words(f.value) if name in usual else f.words(f.value, 4),
+            "; ".join([*([usual[name][0].note(f.value)] if name in usual else []), *band(name)]),
+        )
         for name in names
         if (f := record.figure(name)) is not None and f.value is not None
     ]

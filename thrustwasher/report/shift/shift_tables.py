@@ -11,8 +11,9 @@ from ...units import display_unit
 from ...units import format_quantity as say
 from ..html import Table
 from ..palette import RPM
+from ..scatter.words import BAND, band_words, varies
 from .heat_split import heat_splits
-from .shift_record import Part, Record
+from .shift_record import KeyFigure, Part, Record
 
 SAID_TWICE = ("slip_energy_per_area",)  # the pack's own heat per area is the same
 
@@ -90,12 +91,21 @@ def heat_table(record: Record) -> Table:
 
 
 def key_table(record: Record) -> Table:
-    """Return the key figures with the time they belong to; those that say something new."""
+    """Return the key figures with the time they belong to; those that say something new.
+
+    With a study of scatter also their bands.
+    """
+
+    def band(f: KeyFigure) -> str:
+        found = record.band(f.name)
+        return band_words(found) if found and varies(found) else ""
+
     return Table.of(
         (f for f in record.key_figures if f.value and f.name not in SAID_TWICE),
         {
             "": lambda f: str(f.text),
             "value": lambda f: f.words(f.value, 6 if f.unit == "s" else 5),
+            **({BAND: band} if record.scatter else {}),
             "at time [s]": lambda f: "" if f.time is None else f"{f.time:.4g}",
         },
     )

@@ -3,13 +3,14 @@
 import math
 from collections.abc import Callable
 from functools import cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...model.toml_tables import table_beside
 from ..html import Table
 from ..palette import CELSIUS
+from ..scatter.words import BAND, HIGH, LOW, probability, varies
 from .shift_record import Record
 from .worst_moments import FILM_SPEED
 
@@ -46,6 +47,13 @@ class Usual(NamedTuple):
     def note(self, value: float) -> str:
         """Return the range, and on which side of it the value lies."""
         return f"usual: {self.range_words()} {MARKS[self.place(value)]}".strip()
+
+    def study_words(self, band: Any) -> tuple[str, str]:
+        """Return the band of a study and the probability of a value outside the range."""
+        if band is None or not varies(band):
+            return "", ""
+        low, high = (f"{band.quantiles[level] / self.scale:.3g}" for level in (LOW, HIGH))
+        return self._with_unit(f"{low} .. {high}"), probability(band.outside)
 
     def _with_unit(self, words: str) -> str:
         return f"{words} {self.unit}".strip().replace(" ", "\N{NO-BREAK SPACE}")
@@ -133,9 +141,22 @@ def beside(record: Record) -> dict[str, tuple[Usual, float]]:
 
 
 def usual_table(record: Record) -> Table:
-    """Return every figure beside what is usual; one outside is marked, not blamed."""
+    """Return every figure beside what is usual; one outside is marked, not blamed.
+
+    With a study of scatter also its band, and how probably it is outside.
+    """
+    found, studied = beside(record), record.scatter is not None
     rows = [
-        (u.text, u.value_words(v), u.range_words(), MARKS[u.place(v)], u.basis)
-        for u, v in beside(record).values()
+        (
+            u.text,
+            u.value_words(v),
+            *(u.study_words(record.band(name)) if studied else ()),
+            u.range_words(),
+            MARKS[u.place(v)],
+            u.basis,
+        )
+        for name, (u, v) in found.items()
     ]
-    return Table(("", "this run", "usual", "", "what the range rests on"), rows, numbers=(1,))
+    more = (BAND, "P(outside usual)") if studied else ()
+    heads = ("", "this run", *more, "usual", "", "what the range rests on")
+    return Table(heads, rows, numbers=range(1, 2 + len(more)))

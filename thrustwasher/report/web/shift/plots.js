@@ -127,6 +127,37 @@ const Plots = (() => {
     });
   }
 
+  /* The ends of a signal's band, 5 and 95 %, at the page's times; none where it is not known. */
+  function bandOf(panel, run, signal) {
+    const band = run.bands?.[signal.name];
+    if (!band) return undefined;
+    const [time, ...ends] = band, own = run.signals.get(signal.name);
+    let i = 0;
+    const places = Array.from(state.time, (t) => {
+      while (i < time.length - 2 && time[i + 1] <= t) i++;
+      return t < time[0] || t > time[time.length - 1] ? undefined : [i, (t - time[i]) / (time[i + 1] - time[i])];
+    });
+    return ends.map((values) => places.map((place) => {
+      if (!place || values[place[0]] === null || values[place[0] + 1] === null) return null;
+      const value = values[place[0]] + place[1] * (values[place[0] + 1] - values[place[0]]);
+      return panel.given.logarithmic ? Math.max(value, panel.given.floor) : (value - own.zero) / own.scale;
+    }));
+  }
+
+  /* Lines of a panel: each signal of each run, behind them the ends of the bands. */
+  function linesOf(panel) {
+    const lines = panel.shown.flatMap((signal) => state.runs.map((run, k) => ({ signal, k, values: drawn(panel, run, signal) })));
+    const ends = panel.shown.flatMap((signal) => state.runs.flatMap((run, k) =>
+      (bandOf(panel, run, signal) ?? []).map((values) => ({ signal, k, values, end: true }))));
+    return [...lines, ...ends];
+  }
+
+  /* A colour of the page that lets others through. */
+  function pale(name) {
+    const full = colour(name);
+    return full.length === 4 ? `${full}3` : `${full}33`;
+  }
+
   /* What draws on a plot with the colours of now; `dots`: pixels of the screen. */
   function drawing(name, work) {
     return (u) => {
@@ -186,8 +217,11 @@ const Plots = (() => {
     return { stroke: () => colour("soft"), grid, ticks: { ...grid, size: 5 }, font: "12px system-ui, sans-serif", ...given };
   }
 
-  function options(panel) {
-    const lines = panel.shown.flatMap((signal) => state.runs.map((run, k) => ({ signal, k })));
+  function options(panel, lines) {
+    const start = lines.findIndex((line) => line.end);
+    const bands = lines.filter((line) => line.end).filter((_, i) => i % 2 === 0).map(({ signal }, i) => ({
+      series: [start + 2 * i + 2, start + 2 * i + 1], fill: () => pale(panel.colours[signal.name]),
+    }));
     return {
       width: Math.max(200, panel.chart.clientWidth), height: HEIGHT, legend: { show: false },
       cursor: {
@@ -196,8 +230,9 @@ const Plots = (() => {
       },
       scales: { x: { time: false }, y: panel.given.logarithmic ? { distr: 3 } : {} },
       axes: [axis({ size: 34, values: (u, ticks) => ticks.map((t) => number(t)) }), axis({ size: 66 })],
-      series: [{}, ...lines.map(({ signal, k }) => ({
-        label: signal.name, stroke: () => colour(panel.colours[signal.name]), width: 1.6,
+      bands,
+      series: [{}, ...lines.map(({ signal, k, end }) => ({
+        label: signal.name, stroke: end ? undefined : () => colour(panel.colours[signal.name]), width: end ? 0 : 1.6,
         dash: DASHES[k], points: { show: false }, show: !panel.off?.has(signal.name),
       }))],
       hooks: {
@@ -221,8 +256,8 @@ const Plots = (() => {
     panel.chart.hidden = !panel.shown.length;
     if (!panel.shown.length) return;
     panel.limits = panel.shown.filter((s) => s.limit).map((s) => [(s.limit - s.zero) / s.scale, `limit ${number(s.limit, s)}`]);
-    const values = panel.shown.flatMap((signal) => state.runs.map((run) => drawn(panel, run, signal)));
-    panel.plot = new uPlot(options(panel), [state.time, ...values], panel.chart);
+    const lines = linesOf(panel);
+    panel.plot = new uPlot(options(panel, lines), [state.time, ...lines.map((line) => line.values)], panel.chart);
     panel.view = undefined;
     listen(panel.plot);
   }

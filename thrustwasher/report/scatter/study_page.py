@@ -1,6 +1,7 @@
 """The page of a study: bands first, then what decides them, then what all of it rests on."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from ...units import format_quantity as say
@@ -8,9 +9,20 @@ from ..html import Card, Page, Plot, Section
 from . import scatter_plots as plots
 from . import scatter_tables as tables
 from .decides import INDEX, LEAST, RANK, chances, column, share_words, shares, verdict
-from .words import band_scale, band_words, between, joined, named, percent, title_of, varies
+from .words import (
+    band_scale,
+    band_words,
+    between,
+    joined,
+    named,
+    percent,
+    relative_spread,
+    sentence,
+    title_of,
+    varies,
+)
 
-MOST_FIGURES, MOST_CARDS, MOST_BANDS, MOST_OVER_TIME = 12, 6, 8, 4
+MOST_FIGURES, MOST_CARDS, MOST_BANDS, MOST_OVER_TIME = 12, 8, 8, 4
 BAND_TEXT = (
     "Shaded: 90 % of all runs are inside, instant by instant. Dashed: the nominal values of all "
     "inputs, which need not be the middle."
@@ -21,13 +33,13 @@ DISTRIBUTION_TEXT = (
 )
 DECIDED_TEXT = (
     "Total Sobol' index: the share of a figure's variance that this input has to do with, alone or "
-    "with others; the indices of a figure may add up to more than 1. The line at a bar's end is the "
-    "95 % confidence interval."
+    "with others; the indices of a figure may add up to more than 1. The line at the end of a bar "
+    "is the 95 % confidence interval."
 )
 RANK_TEXT = (
     "Of figures without indices: the rank correlation of the sample (Spearman), which says how "
-    "steadily a figure rises (blue) or falls (purple) with an input. `--indices all` computes "
-    "indices of these too."
+    "steadily a figure rises (blue) or falls (purple) with an input. With --indices all "
+    "they have indices too."
 )
 OVER_TIME_TEXT = (
     "Which input decides a signal at which time. Nothing is drawn where the signal hardly scatters."
@@ -42,7 +54,6 @@ SOURCES_TEXT = (
     "What is called an estimate has no source beyond engineering practice: measure it first if it "
     "decides much. What is not listed does not scatter."
 )
-Named = Callable[[str], str]
 
 
 def scatter_page(result: Any, files: tables.Files | None = None) -> Page:
@@ -59,12 +70,12 @@ def scatter_page(result: Any, files: tables.Files | None = None) -> Page:
         title=f"How sure: {result.target}",
         subtitle=_subtitle(result),
         summary=[*_verdicts(result, chosen), *_chance_text(result)],
-        warnings=list(result.warnings),
+        warnings=list(map(sentence, result.warnings)),
         cards=_cards(result, chosen),
         sections=[
             *band_sections(result),
             *_distribution_sections(result, chosen),
-            _figure_section(result),
+            _figure_section(result, chosen),
             *decided_sections(result, chosen),
             *over_time_sections(result),
             source_section(result),
@@ -78,9 +89,18 @@ def scatter_page(result: Any, files: tables.Files | None = None) -> Page:
 
 
 def main_figures(result: Any, most: int) -> list[str]:
-    """Return so many figures that scatter: first those with a usual range, in their own order."""
+    """Return so many figures that scatter, in their own order.
+
+    Those with a usual range come first, then those of washers, then those that scatter most.
+    """
     found = [name for name, band in result.figures.items() if varies(band)]
-    first = sorted(found, key=lambda name: result.figures[name].outside is None)[:most]
+    washers = washer_figures(result)
+
+    def rank(name: str) -> tuple[bool, bool, float]:
+        band = result.figures[name]
+        return band.outside is None, name not in washers, -relative_spread(band)
+
+    first = sorted(found, key=rank)[:most]
     return [name for name in found if name in first]
 
 
@@ -92,13 +112,19 @@ def _subtitle(result: Any) -> str:
 
 def _verdicts(result: Any, names: Sequence[str]) -> list[str]:
     """Return what decides most, of the washers where there are some."""
-    washers = washer_figures(result)
-    return verdict(result, "the washers", washers) if washers else _first_decided(result, names)
+    films = film_figures(result)
+    return verdict(result, "the washers", films) if films else _first_decided(result, names)
 
 
 def washer_figures(result: Any) -> list[str]:
     """Return the figures of a scene that say how its washers fare."""
     return [name for name in result.figures if result.kind == "scene" and "washer" in name]
+
+
+def film_figures(result: Any) -> list[str]:
+    """Return the figures that the verdict on a scene's washers is made of: their film ratios."""
+    washers = washer_figures(result)
+    return [name for name in washers if name.endswith("film_ratio")] or washers
 
 
 def _first_decided(result: Any, names: Sequence[str]) -> list[str]:
@@ -112,8 +138,8 @@ def _first_decided(result: Any, names: Sequence[str]) -> list[str]:
 
 
 def _chance_text(result: Any) -> list[str]:
-    said = "; ".join(chances(result))
-    return [f"{said[0].upper()}{said[1:]}."] if said else []
+    said = sentence("; ".join(chances(result)))
+    return [said] if said else []
 
 
 def _cards(result: Any, names: Sequence[str]) -> list[Card]:
@@ -121,7 +147,9 @@ def _cards(result: Any, names: Sequence[str]) -> list[Card]:
         Card(f"probability: {named(name)}", percent(p.value), f"95 % confidence: {between(p)}")
         for name, p in result.probabilities.items()
     ]
-    for name in names[: max(MOST_CARDS - len(cards), 3)]:
+    washers = [name for name in names if name in washer_figures(result)][:2]
+    others = [name for name in names if name not in washers]
+    for name in [*washers, *others][: max(MOST_CARDS - len(cards), 4)]:
         band = result.figures[name]
         note = f"5 .. 95 %; nominal {band_scale(band).words(band.nominal)}"
         cards.append(Card(title_of(name, band), band_words(band), note))
@@ -144,18 +172,23 @@ def _distribution_sections(result: Any, names: Sequence[str]) -> list[Section]:
         if column(result.sample, name) is not None:
             band = result.figures[name]
             figure = plots.distribution_figure(result, name, title_of(name, band))
-            tiles.append(Plot(f"spread-{i}", figure, f"{band_words(band)}, 5 .. 95 %", tiles=3))
+            caption = f"{title_of(name, band)}: {band_words(band)}"
+            tiles.append(Plot(f"spread-{i}", figure, caption, tiles=3))
     title = "What came out"
     return [Section("spread", title, texts=[DISTRIBUTION_TEXT], plots=tiles)] if tiles else []
 
 
-def _figure_section(result: Any) -> Section:
+def _figure_section(result: Any, names: Sequence[str]) -> Section:
     chance = [tables.probability_table(result)] if result.probabilities else []
-    shown = [tables.figure_table(result), *chance, tables.confidence_table(result)]
+    shown = [tables.figure_table(result, names), *chance]
+    if len(names) < len(result.figures):
+        title = f"All {len(result.figures)} figures"
+        shown.append(replace(tables.figure_table(result), title=title, folded=True))
+    shown.append(tables.confidence_table(result))
     return Section("figures", "Figures and their bands", tables=shown)
 
 
-def decided_sections(result: Any, names: Sequence[str], words: Named = joined) -> list[Section]:
+def decided_sections(result: Any, names: Sequence[str]) -> list[Section]:
     """Return what decides each figure: the overview of all, bars of the chosen ones."""
     found = {name: of for name in names if (of := shares(result, name))}
     if not found:
@@ -163,18 +196,24 @@ def decided_sections(result: Any, names: Sequence[str], words: Named = joined) -
     used = {of[0].by for of in found.values()}
     texts = [text for by, text in ((INDEX, DECIDED_TEXT), (RANK, RANK_TEXT)) if by in used]
     small = _small_sources(result)
-    texts += [f"Below 0.02 for every figure: {', '.join(small)}."] if small else []
-    matrix = tables.matrix_table(result, list(result.figures))
+    texts += (
+        [f"Below {LEAST} for every figure that has indices: {', '.join(small)}."] if small else []
+    )
+    matrix = tables.matrix_table(result, names)
     tiles = [
         Plot(
             f"decides-{i}",
             plots.bar_figure(of, title_of(name, result.figures[name])),
-            f"decided most by {share_words(of[0], words)}",
+            f"{title_of(name, result.figures[name])}: {share_words(of[0])}",
             tiles=3,
         )
         for i, (name, of) in enumerate(found.items())
     ]
     shown = [matrix] if matrix else []
+    whole = tables.matrix_table(result, list(result.figures))
+    if matrix and whole and len(matrix.rows) < len(whole.rows):
+        title = f"Total indices of all {len(whole.rows)} figures"
+        shown.append(replace(whole, title=title, folded=True))
     return [Section("decides", "What decides it", texts=texts, plots=tiles, tables=shown)]
 
 
@@ -184,7 +223,7 @@ def _small_sources(result: Any) -> list[str]:
     largest: dict[str, float] = {}
     for share in all_shares:
         largest[share.source] = max(largest.get(share.source, 0.0), share.value)
-    return [joined(source) for source, value in largest.items() if value < LEAST]
+    return [joined(source) for source in sorted(largest) if largest[source] < LEAST]
 
 
 def over_time_sections(result: Any) -> list[Section]:

@@ -194,6 +194,7 @@ class Runs:
                     nominal=nominal[where],
                     quantiles=dict(zip(LEVELS, at[:, where], strict=True)),
                     indices=indices,
+                    unit=getattr(self.target, "series_units", {}).get(name, ""),
                 ),
             )
 

@@ -1,0 +1,132 @@
+"""Bands of a scene by the study's shortcut against plain full runs.
+
+    nice python benchmarks/scatter_scene.py plain plain.npz     1024 independent draws, full runs
+    python benchmarks/scatter_scene.py compare plain.npz        a study, figure beside figure
+
+``plain`` takes some twenty minutes of one core and keeps what it has after every batch: the same
+command goes on. All parts of the default scene run at their rung ``field``; the washers of full
+runs are solved in every step.
+"""
+
+import argparse
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from thrustwasher.processes import runner, usable_cores
+from thrustwasher.scatter.propagate import propagate
+from thrustwasher.scatter.scene_target import SceneTarget, scene_target
+from thrustwasher.shift import load_scene
+
+LEVELS = (0.05, 0.5, 0.95)
+BATCH = 16
+
+
+def main() -> None:
+    """Read the command line."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("what", choices=("plain", "compare"))
+    parser.add_argument("file", type=Path)
+    parser.add_argument("--scene", default="planetary")
+    parser.add_argument("--runs", type=int, default=1024, help="plain full runs")
+    parser.add_argument("--base", type=int, default=256, help="base points of the study")
+    parser.add_argument("--indices", action="store_true", help="of the study, for its time")
+    parser.add_argument("--workers", type=int, default=usable_cores())
+    given = parser.parse_args()
+    if given.what == "plain":
+        plain(given.scene, given.file, given.runs, given.workers)
+    else:
+        compare(given.scene, given.file, given.base, given.workers, given.indices)
+
+
+class _Full:
+    """Full runs of some draws, in a worker."""
+
+    def __init__(self, target: SceneTarget) -> None:
+        self.target = target
+
+    def __call__(self, rows: list[dict[str, Any]]) -> Any:
+        return self.target.solve(rows, np.ones(len(rows), bool))
+
+
+def plain(name: str, file: Path, runs: int, workers: int) -> None:
+    """Run independent draws in full and keep figures, outcomes and series."""
+    target = scene_target(load_scene(name))
+    target.played = {}
+    uniforms = np.random.default_rng(2027).random((runs, len(target.scatter.sources)))
+    rows = target.scatter.values(uniforms)
+    answers = np.full((runs, len(target.nominal())), np.nan)
+    codes, done, spent = np.full(runs, -1), 0, 0.0
+    if file.exists():
+        with np.load(file) as kept:
+            answers, codes, spent = kept["answers"], kept["codes"], float(kept["seconds"])
+        done = int((codes >= 0).sum())
+    batches = [rows[i : i + BATCH] for i in range(done, runs, BATCH)]
+    with runner(workers) as run:
+        begin = time.perf_counter()
+        for found, flags in run(_Full(target), batches, 1):
+            span = slice(done, done + len(flags))
+            answers[span], codes[span], done = found, flags, done + len(flags)
+            np.savez(
+                file,
+                answers=answers,
+                codes=codes,
+                uniforms=uniforms,
+                names=target.scatter.names,
+                figures=[f.name for f in target.figures],
+                outcomes=target.outcomes,
+                series=target.series,
+                time=target.time,
+                nominal=target.nominal(),
+                seconds=spent + time.perf_counter() - begin,
+                note=f"{workers} workers; rungs: {target.identity['rungs']}; washers in the loop",
+            )
+            print(f"{done} of {runs}", flush=True)
+
+
+def compare(name: str, file: Path, base: int, workers: int, indices: bool) -> None:
+    """Print quantiles of a study beside those of the plain runs."""
+    with np.load(file) as kept:
+        sound = kept["codes"] == 0
+        answers, figures = kept["answers"][sound], kept["figures"].tolist()
+        print(f"plain: {sound.sum()} runs, {kept['seconds']:.0f} s; {kept['note']}")
+    begin = time.perf_counter()
+    found = propagate(load_scene(name), runs=base, workers=workers, indices=indices)
+    print(f"study: {found.solves} runs, {time.perf_counter() - begin:.0f} s, failed {found.failed}")
+    print(*found.warnings, sep="\n")
+    print(f"{'figure':30} {'5 %':>21} {'50 %':>21} {'95 %':>21}  off/band, noise of plain/band")
+    outside = 0
+    for i, figure in enumerate(figures):
+        band = found.figures.get(figure)
+        if band is None:
+            continue
+        values = answers[np.isfinite(answers[:, i]), i]
+        known = np.quantile(values, LEVELS)
+        width = known[2] - known[0]
+        if not width > 1e-9 * abs(known[1]):
+            continue
+        own = [band.quantiles[level] for level in LEVELS]
+        noise = _noise(values)
+        off = np.abs(np.subtract(own, known)) / width
+        pairs = " ".join(f"{a:10.4g} {b:10.4g}" for a, b in zip(known, own, strict=True))
+        inside = [
+            band.confidence[level][0] - 2.0 * e <= x <= band.confidence[level][1] + 2.0 * e
+            for level, x, e in zip(LEVELS, known, noise, strict=True)
+        ]
+        outside += 3 - sum(inside)
+        mark = "" if all(inside) else "*"
+        print(f"{figure:30} {pairs}  {off.max():.3f} {max(noise) / width:.3f} {mark}")
+    print(f"{outside} quantiles apart by more than both confidences (*)")
+
+
+def _noise(values: Any) -> list[float]:
+    """Return standard errors of the quantiles, by drawing the sample again."""
+    rng = np.random.default_rng(0)
+    again = rng.choice(values, (200, len(values)))
+    return np.quantile(again, LEVELS, axis=1).std(1).tolist()
+
+
+if __name__ == "__main__":
+    main()

@@ -32,12 +32,13 @@ def main() -> None:
     parser.add_argument("--scene", default="planetary")
     parser.add_argument("--runs", type=int, default=1024, help="plain full runs")
     parser.add_argument("--base", type=int, default=256, help="base points of the study")
+    parser.add_argument("--indices", action="store_true", help="of the study, for its time")
     parser.add_argument("--workers", type=int, default=usable_cores())
     given = parser.parse_args()
     if given.what == "plain":
         plain(given.scene, given.file, given.runs, given.workers)
     else:
-        compare(given.scene, given.file, given.base, given.workers)
+        compare(given.scene, given.file, given.base, given.workers, given.indices)
 
 
 class _Full:
@@ -85,14 +86,14 @@ def plain(name: str, file: Path, runs: int, workers: int) -> None:
             print(f"{done} of {runs}", flush=True)
 
 
-def compare(name: str, file: Path, base: int, workers: int) -> None:
+def compare(name: str, file: Path, base: int, workers: int, indices: bool) -> None:
     """Print quantiles of a study beside those of the plain runs."""
     with np.load(file) as kept:
         sound = kept["codes"] == 0
         answers, figures = kept["answers"][sound], kept["figures"].tolist()
         print(f"plain: {sound.sum()} runs, {kept['seconds']:.0f} s; {kept['note']}")
     begin = time.perf_counter()
-    found = propagate(load_scene(name), runs=base, workers=workers)
+    found = propagate(load_scene(name), runs=base, workers=workers, indices=indices)
     print(f"study: {found.solves} runs, {time.perf_counter() - begin:.0f} s, failed {found.failed}")
     print(*found.warnings, sep="\n")
     print(f"{'figure':30} {'5 %':>21} {'50 %':>21} {'95 %':>21}  off/band, noise of plain/band")

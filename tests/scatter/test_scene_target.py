@@ -115,6 +115,14 @@ def test_values_that_do_not_go_together_are_a_named_failure(target):
     assert np.isnan(answers[0]).all() and np.isfinite(answers[1, 0])
 
 
+def test_a_run_without_end_is_a_named_failure_and_leaves_no_trace(target, rows):
+    wild = {"engine.torque_scale": 90.0, "pressure.clutch.scale": 0.02}
+    alone, _ = target.solve(rows[:1], np.array([False]))
+    answers, codes = target.solve([wild, rows[0]], np.zeros(2, bool))
+    assert target.reasons[codes[0] - 1] == "the shift could not be run" and codes[1] == 0
+    assert np.array_equal(answers[1], alone[0], equal_nan=True)
+
+
 def test_some_outputs_can_be_asked_for(target):
     some = scene_target(target.scene, replace(target.scatter, sources=()), ["lock_time"])
     assert [f.name for f in some.figures] == ["lock_time"] and some.series == ()

@@ -60,6 +60,15 @@ def test_every_place_holds_its_nominal_value():
             assert varied_scene(scene, {path: place.nominal}).parts == scene.parts, path
 
 
+def test_a_law_of_an_earlier_form_scatters_by_its_own_names():
+    scene = load_scene("planetary-sun")
+    varied = varied_scene(scene, {"washer.friction_constant": 0.5})
+    slope = varied.parts["washer"].params.friction_reference
+    assert scene_places(scene)["washer.friction_constant"].nominal == pytest.approx(0.48)
+    assert slope == pytest.approx(scene.parts["washer"].params.friction_reference + 0.02)
+    assert "washer.friction_constant" not in scene_places(load_scene("planetary"))
+
+
 def test_factors_of_one_change_no_bit():
     plain = load_scene("planetary")
     one = varied_scene(plain, dict.fromkeys((*FACTORS, "oil.viscosity_scale"), 1.0))

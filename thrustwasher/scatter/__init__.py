@@ -8,6 +8,7 @@
 ``part_target``      a part that is studied
 ``propagate``        a whole study, from a part, a scene or a function to its result
 ``result``           what a study leaves: bands, indices, probabilities, files
+``scene_figures``    what a study reads from a run of a scene
 ``scene_runs``       many runs of one scene: the loop, then its washers apart
 ``scene_target``     a gear shift that is studied
 ``study``            the runs: in batches, on many cores or a cluster, resumable

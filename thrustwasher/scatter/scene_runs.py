@@ -56,6 +56,7 @@ class Loop:
             part = scene.parts[name]
             changed = part.params != self._given[name]
             instance.reset(part.parameters() if changed else None)
+            instance.warnings.clear()  # thousands of runs would gather them
             self._given[name], now[name] = part.params, instance
         system = connected(scene, now)
         run = laid_out(scene, system, [])

@@ -7,6 +7,9 @@
 ``solve``             one operating point
 ``washer_result``     what a solve returns, and the error to expect of it
 ``load_curve``        all solutions over load, with the folds: continuation in the film
+``draws``             many washers side by side: scattered parameters, on a branch by its history
+``draw_constants``    what the kernels take of many washers
+``neighbours``        what solved draws say about the next one
 ``follow``            inputs are given over time, friction and heat follow
 ``map``               solutions on both branches, charted for look-up
 ``kernels``           compiled code

@@ -52,6 +52,7 @@ BESIDE, CLOSE = 0.25, 0.05  # [sigma] between places around a fold
 SURE = 1e-3  # relative distance of a load to the fold that settles the branch
 STEEP = 0.3  # relative change of the load over one sigma that makes a solution surely stable
 DRY = 0.9  # share of the load on the asperities from which no fold will come
+GROWING = 1.08  # load from place to place where no fold is near: a longer step follows
 MOST = 40  # places to look at
 UPPER, LOWER = 1.0, -1.0  # fold that a washer meets which comes from light load, from heavy load
 THIN = {UPPER: 2.4, LOWER: 1.2}  # [sigma] where a curve without folds is looked at first
@@ -229,33 +230,37 @@ class Bench:
         for step, accuracy in ((BESIDE, ROUGHLY), (CLOSE, CLOSELY)):
             w.curve[L.ACCURACY] = accuracy
             loads, k, low, high, dry = dict[int, float](), 0, 0, 0, False
-            while (middle := _extremum(loads, low, high, sign)) is None:
+            while (found := _extremum(loads, sign)) is None:
                 if len(loads) > MOST or place.walk_to(pt, (top + k * step) * sigma) != OK:
                     return None
+                growth = float(w.curve[L.AT_LOAD]) / loads.get(low, math.inf)
                 loads[k] = float(w.curve[L.AT_LOAD])
                 low, high = min(low, k), max(high, k)
                 if k == high:
                     continuation.remember(w, 1.0)
                 dry = dry or w.curve[L.AT_SHARE] > DRY
                 thick = top + (high + 1) * step > ENTRY_RATIO
-                rising = high == 0 or sign * (loads[high] - loads[high - 1]) > 0.0
+                highest = [loads[k] for k in sorted(loads)[-2:]]
+                rising = high == 0 or sign * (highest[1] - highest[0]) > 0.0
                 if dry and thick:
                     return None, top
                 if thick and rising and sign > 0.0:
                     return None
                 if thick or not (dry or rising):
-                    k = low - 1
+                    k = low - (2 if k == low < 0 and growth > GROWING else 1)
                     continue
                 if k != high:
                     continuation.recall(w, 1.0)
                     w.curve[L.AT_FILM] = (top + high * step) * sigma
-                k = high + 1
-            before, here, after = loads[middle - 1], loads[middle], loads[middle + 1]
+                k = high + (2 if dry else 1)
+            (above, middle, below), (after, here, before) = found, (loads[k] for k in found)
             bend = before - 2.0 * here + after
-            top += step * (middle + (0.5 * (before - after) / bend if bend else 0.0))
+            even = above - middle == middle - below == 1 and bend != 0.0
+            top += step * (middle + (0.5 * (before - after) / bend if even else 0.0))
             y = place.take(pt) if middle else y
             beyond = sign * (pt.load - here)
-            far = max(abs(here - before), abs(here - after)) + SURE * here
+            wide = max(above - middle, middle - below)
+            far = wide * max(abs(here - before), abs(here - after)) + SURE * here
             if not 0.0 < beyond <= far:
                 self.known["fold"].add(x, np.append(y, (top, math.log(here))))
                 return bool(beyond <= 0.0), top
@@ -310,11 +315,13 @@ class Bench:
         return np.append(place.take(pt), (place.film, math.log(place.w.curve[L.AT_LOAD])))
 
 
-def _extremum(loads: dict[int, float], low: int, high: int, sign: float) -> int | None:
-    """Return a place that carries no less (``sign`` -1: no more) than both beside it, if any."""
-    for k in range(low + 1, high):
-        if sign * loads[k] >= max(sign * loads[k - 1], sign * loads[k + 1]):
-            return k
+def _extremum(loads: dict[int, float], sign: float) -> tuple[int, int, int] | None:
+    """Return three places next to each other, of which the middle one carries most (-1: least)."""
+    order = sorted(loads, reverse=True)
+    for three in zip(order, order[1:], order[2:], strict=False):
+        one, middle, two = (sign * loads[k] for k in three)
+        if middle >= max(one, two):
+            return three
     return None
 
 

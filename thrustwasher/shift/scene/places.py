@@ -6,6 +6,7 @@ from typing import Any
 
 from ...model.oil import NUMBERS as OIL
 from ...model.oil import SHEET
+from ...model.parameters import earlier_of
 from ...model.part_file import PartFile
 from ...model.scatter import CORRELATION, LAWS, Place, Scatter, read_scatter
 from ...model.toml_tables import quantity
@@ -96,7 +97,7 @@ def scene_places(scene: Scene) -> dict[str, Place]:
         if pack in (own := given.get("pressure", {})):
             found += _of_profile(f"pressure.{pack}", "scale", f"{pack}_pressure", own[pack])
     for name, part in scene.parts.items():
-        own = _of_part(part)
+        own = _of_part(part, given.get(name, {}))
         if name == "transmission":
             moved = _moved(given)
             found += [replace(own[k], name=path) for path, k in moved.items()]
@@ -110,11 +111,16 @@ def _place(name: str, nominal: float, rule: tuple[str, float, float]) -> Place:
     return Place(name=name, nominal=nominal, unit=rule[0], low=rule[1], high=rule[2])
 
 
-def _of_part(part: Part) -> dict[str, Place]:
-    """Return the parameters of a part that a scene may give, by their own names."""
+def _of_part(part: Part, table: Mapping[str, Any]) -> dict[str, Place]:
+    """Return the parameters of a part that a scene may give, by their own names.
+
+    Those of an earlier form are among them where the part's ``table`` is of that form.
+    """
     own = {f.name: getattr(part.params, f.name) for f in fields(part.params)}
     file = PartFile(spec=part.spec, name=part.spec.name, parameters=own, fidelity=part.fidelity)
-    return {k: p for k, p in file.places().items() if k in own and k not in RESERVED}
+    earlier = {*earlier_of(part.spec.params)}
+    known = {*own, *(earlier if earlier & {*table} else ())} - {*RESERVED}
+    return {k: p for k, p in file.places().items() if k in known}
 
 
 def _of_vehicle(scene: Scene) -> list[Place]:

@@ -99,7 +99,7 @@ def _whole(arguments: argparse.Namespace, name: str) -> int | None:
     if text is None:
         return None
     if not text.strip().isdecimal() or len(text) > 12:
-        raise ParameterError(f"--{name} {text}: allowed: a whole number")
+        raise ParameterError(f"--{name} {text}: allowed: a whole number from 0 on")
     return int(text)
 
 

@@ -10,6 +10,7 @@ from ..errors import ParameterError, SolveError, suggestion
 from ..model.part_file import PartFile, find_part
 from ..model.point import point_of
 from ..model.registry import find_model, models_with_points
+from ..model.scatter import Scatter
 from ..model.toml_tables import read_file
 from ..storage.journal import Journal
 from ..storage.whole_files import new_folder, whole_folder
@@ -169,7 +170,7 @@ def target_of(
 
         inputs = inputs_of(target, at or {})
         drawn = target.scattered(scatter, inputs)
-        _refuse_nothing(drawn, "part file")
+        _refuse_nothing(drawn, "part file", 'load = "5 %"')
         of_part: Target = part_target(target, drawn, inputs, reached, outputs)
         return of_part
     if at:
@@ -178,7 +179,7 @@ def target_of(
     from .scene_target import scene_target
 
     drawn = scene_scatter(target, scatter)
-    _refuse_nothing(drawn, "scene")
+    _refuse_nothing(drawn, "scene", 'oil_temperature = "3 K"')
     of_scene: Target = scene_target(target, drawn, outputs)
     return of_scene
 
@@ -190,11 +191,11 @@ def inputs_of(part: PartFile, at: Mapping[str, Any]) -> dict[str, float]:
     return find_model(part.spec.key).place(point_of(part, given).values)
 
 
-def _refuse_nothing(scatter: Any, what: str) -> None:
+def _refuse_nothing(scatter: Scatter, what: str, example: str) -> None:
     if not scatter.sources:
         raise ParameterError(
-            f'nothing scatters: add [scatter] to the {what}, such as roughness = "10 %", or give '
-            "scatter"
+            f"nothing scatters: add [scatter] to the {what}, such as {example}; in Python "
+            "scatter = {name: law, ...}"
         )
 
 

@@ -258,7 +258,8 @@ def _nearest_sections(
     found = tables.nearest_tables(result, names, files)
     text = "The base runs nearest to the 5, 50 and 95 % quantile of a figure, with their inputs."
     if files:
-        text += " Each is a file beside this page: thrustwasher shift --scene FILE runs it."
+        runs = "shift --scene FILE runs" if result.kind == "scene" else "MODEL --part FILE solves"
+        text += f" Each is a file beside this page: thrustwasher {runs} it."
     title = "Runs that stand for the band"
     return [Section("nearest", title, texts=[text], tables=found)] if found else []
 

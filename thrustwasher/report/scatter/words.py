@@ -139,7 +139,8 @@ def probability(p: Any) -> str:
 
 def between(p: Any) -> str:
     """Return the confidence interval of a probability."""
-    return f"{100.0 * p.low:.2g} .. {100.0 * p.high:.3g} %"
+    low, high = (plain(100.0 * x, 2 if x < 0.95 else 3) for x in (p.low, p.high))
+    return f"{low} .. {high} %"
 
 
 def value_words(value: Any, unit: str) -> str:

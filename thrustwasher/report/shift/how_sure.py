@@ -34,11 +34,10 @@ def how_sure_sections(record: Record) -> list[Section]:
     chosen, main = _chosen(record), main_figures(result, MOST_FIGURES)
     title, texts = "How sure", [*_verdicts(record), *_study_texts(record)]
     figures = scatter_tables.figure_table(result, main)
-    chance = [scatter_tables.probability_table(result)] if result.probabilities else []
     decided = decided_sections(result, chosen)
     sources, errors = scatter_tables.source_table(result), scatter_tables.error_table(result, main)
     return [
-        Section("how-sure", title, texts=texts, tables=[figures, *chance]),
+        Section("how-sure", title, texts=texts, tables=[figures]),
         *decided,
         *over_time_sections(result),
         Section(
@@ -57,7 +56,8 @@ def _failed(record: Record) -> list[Table]:
 def _chosen(record: Record) -> list[str]:
     """Return the figures that get bars: of the shift, then of the washers."""
     result = record.scatter
-    found = [n for n in (*OF_THE_SHIFT, *washer_figures(result)) if n in result.figures]
+    washers = [*film_figures(result), "washer_torque", *washer_figures(result)]
+    found = [n for n in (*OF_THE_SHIFT, *washers) if n in result.figures]
     decided = [name for name in dict.fromkeys(found) if shares(result, name)]
     shift = [name for name in decided if name in OF_THE_SHIFT][: MOST // 2]
     washers = [name for name in decided if name not in OF_THE_SHIFT]

@@ -118,8 +118,10 @@ def _cards(record: Record) -> list[Card]:
 
     def band(name: str) -> list[str]:
         found = record.band(name)
-        words = f"{BAND}: {band_words(found)}" if found and varies(found) else ""
-        return [words.replace(" ", "\N{NO-BREAK SPACE}")] if words else []
+        if not found or not varies(found):
+            return []
+        words = usual[name][0].study_words(found)[0] if name in usual else band_words(found)
+        return [f"{BAND}: {words}".replace(" ", "\N{NO-BREAK SPACE}")]
 
     cards = [
         Card(

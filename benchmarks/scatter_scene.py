@@ -2,6 +2,7 @@
 
     nice python benchmarks/scatter_scene.py plain plain.npz     1024 independent draws, full runs
     python benchmarks/scatter_scene.py compare plain.npz        a study, figure beside figure
+    python benchmarks/scatter_scene.py paired plain.npz         the shortcut at some of these draws
 
 ``plain`` takes some twenty minutes of one core and keeps what it has after every batch: the same
 command goes on. All parts of the default scene run at their rung ``field``; the washers of full
@@ -27,7 +28,7 @@ BATCH = 16
 def main() -> None:
     """Read the command line."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("what", choices=("plain", "compare"))
+    parser.add_argument("what", choices=("plain", "compare", "paired"))
     parser.add_argument("file", type=Path)
     parser.add_argument("--scene", default="planetary")
     parser.add_argument("--runs", type=int, default=1024, help="plain full runs")
@@ -37,6 +38,8 @@ def main() -> None:
     given = parser.parse_args()
     if given.what == "plain":
         plain(given.scene, given.file, given.runs, given.workers)
+    elif given.what == "paired":
+        paired(given.scene, given.file, given.base)
     else:
         compare(given.scene, given.file, given.base, given.workers, given.indices)
 
@@ -119,6 +122,27 @@ def compare(name: str, file: Path, base: int, workers: int, indices: bool) -> No
         mark = "" if all(inside) else "*"
         print(f"{figure:30} {pairs}  {off.max():.3f} {max(noise) / width:.3f} {mark}")
     print(f"{outside} quantiles apart by more than both confidences (*)")
+
+
+def paired(name: str, file: Path, draws: int) -> None:
+    """Print how far the shortcut is from full runs at the same draws, over the band."""
+    target = scene_target(load_scene(name))
+    with np.load(file) as kept:
+        draws = min(draws, int((kept["codes"] >= 0).sum()))
+        full, uniforms = kept["answers"][:draws], kept["uniforms"][:draws]
+    begin = time.process_time()
+    own, _ = target.solve(target.scatter.values(uniforms), np.ones(draws, bool))
+    print(f"{draws} draws, {(time.process_time() - begin) / draws:.2f} s of one core each")
+    print(f"{'figure':30} {'largest':>9} {'rms':>9} {'quantiles':>9}  over the band")
+    for i, figure in enumerate(target.figures):
+        there = np.isfinite(own[:, i]) & np.isfinite(full[:, i])
+        a, b = own[there, i], full[there, i]
+        known = np.quantile(b, LEVELS)
+        width = known[2] - known[0]
+        if width > 1e-9 * abs(known[1]):
+            off, moved = np.abs(a - b) / width, np.abs(np.quantile(a, LEVELS) - known) / width
+            rms = float(np.sqrt((off**2).mean()))
+            print(f"{figure.name:30} {off.max():9.4f} {rms:9.4f} {moved.max():9.4f}")
 
 
 def _noise(values: Any) -> list[float]:

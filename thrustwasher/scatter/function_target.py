@@ -1,5 +1,6 @@
 """A Python function that is studied: numbers in by name, one number or several by name out."""
 
+import hashlib
 import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -34,8 +35,16 @@ class FunctionTarget:
 
     @property
     def identity(self) -> dict[str, str]:
-        """The function by its name: what it does cannot be compared."""
-        return {"function": self.name, "figures": ", ".join(f.name for f in self.figures)}
+        """The function by its name and code; what that calls cannot be compared."""
+        code, own = getattr(self.function, "__code__", None), b""
+        if code:  # not by the text of code within it, which has an address
+            plain = [c for c in code.co_consts if isinstance(c, str | int | float)]
+            own = code.co_code + repr(plain).encode()
+        digest = hashlib.sha256(own).hexdigest()[:16]
+        return {
+            "function": f"{self.name} {digest}",
+            "figures": ", ".join(f.name for f in self.figures),
+        }
 
     def touches(self, source: str) -> bool:
         """Any source may matter."""

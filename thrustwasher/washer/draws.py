@@ -46,10 +46,10 @@ from .solve import GRIDS, check_far_face, solve_washer
 from .washer_result import INPUTS
 
 TOLERANCE = 1e-7  # of a solution: torque within 1e-6 of that of a single solve
-ROUGHLY, CLOSELY = 3e-4, 1e-5  # of places on the curve around a fold
+ROUGHLY, CLOSELY = 1e-3, 1e-5  # of places on the curve around a fold
 CHORDS, AFRESH = 12.0, 8.0  # iterations with another draw's heat factor, then with its own
 BESIDE, CLOSE = 0.25, 0.05  # [sigma] between places around a fold
-SURE = 1e-3  # relative distance of a load to the fold that settles the branch
+SURE = 5.0  # times the accuracy: distance of a load to the fold that settles the branch
 STEEP = 0.3  # relative change of the load over one sigma that makes a solution surely stable
 DRY = 0.9  # share of the load on the asperities from which no fold will come
 GROWING = 1.08  # load from place to place where no fold is near: a longer step follows
@@ -251,6 +251,8 @@ class Bench:
                     continue
                 if k != high:
                     continuation.recall(w, 1.0)
+                    forget_factor(w)  # it and the tangent are those of the other end
+                    place.f.small[L.TANGENT : L.TANGENT + 4] = 0.0
                     w.curve[L.AT_FILM] = (top + high * step) * sigma
                 k = high + (2 if dry else 1)
             (above, middle, below), (after, here, before) = found, (loads[k] for k in found)
@@ -260,7 +262,7 @@ class Bench:
             y = place.take(pt) if middle else y
             beyond = sign * (pt.load - here)
             wide = max(above - middle, middle - below)
-            far = wide * max(abs(here - before), abs(here - after)) + SURE * here
+            far = wide * max(abs(here - before), abs(here - after)) + SURE * accuracy * here
             if not 0.0 < beyond <= far:
                 self.known["fold"].add(x, np.append(y, (top, math.log(here))))
                 return bool(beyond <= 0.0), top

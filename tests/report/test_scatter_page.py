@@ -100,10 +100,7 @@ def test_small_sources_leave_the_matrix_and_are_named():
     found = study()
     assert matrix_table(found, ["slip_energy"]).heads == ("", "oil temperature")
     texts = section(scatter_page(found), "decides").texts
-    assert texts[-1] == (
-        "Below 0.02 for every figure that has indices: transmission: thrust share, washer: cavity "
-        "shear."
-    )
+    assert texts[-1] == "Below 0.02 for every figure that has indices: washer: cavity shear."
 
 
 def test_a_cell_is_as_dark_as_its_index():
@@ -136,7 +133,7 @@ def test_the_verdict_names_what_it_rests_on():
     assert text.startswith("The verdict on the washers rests most on transmission: thrust share")
     assert f"{MINUS}1.00" in text
     (text,) = verdict(study(), "the shift", ["slip_energy", "lock_after_ramp_start", "absent"])
-    assert "oil temperature: it decides 99 % of the variance of “heat in the clutch”" in text
+    assert "oil temperature: alone or with others it makes 99 % of the variance of “heat" in text
     assert verdict(study(), "the shift", ["peak_jerk"]) == []
 
 

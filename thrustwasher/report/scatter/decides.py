@@ -141,7 +141,8 @@ def verdict(
     title = title_of(name, result.figures[name])
     others = [s for s in shares(result, name)[1:3] if s.weight >= 0.1]
     if first.by == INDEX:
-        what = f"it decides {percent(min(first.value, 1.0))} of the variance of “{title}”"
+        share = percent(min(first.value, 1.0))
+        what = f"alone or with others it makes {share} of the variance of “{title}”"
         what += f" (± {100.0 * first.half:.0f} %)" if first.half < math.inf else ""
     else:
         what = f"its rank correlation with “{title}” is {signed(first.value)}"

@@ -23,6 +23,7 @@ from .words import (
 )
 
 MOST_FIGURES, MOST_CARDS, MOST_BANDS, MOST_OVER_TIME = 12, 8, 8, 4
+MUCH = 0.1  # square of a rank correlation that makes a source worth naming
 BAND_TEXT = (
     "Shaded: 90 % of all runs are inside, instant by instant. Dashed: the nominal values of all "
     "inputs, which need not be the middle."
@@ -218,12 +219,10 @@ def decided_sections(result: Any, names: Sequence[str]) -> list[Section]:
 
 
 def _small_sources(result: Any) -> list[str]:
-    """Return the sources that decide nothing of any figure with indices."""
-    all_shares = [s for name in result.figures for s in shares(result, name) if s.by == INDEX]
-    largest: dict[str, float] = {}
-    for share in all_shares:
-        largest[share.source] = max(largest.get(share.source, 0.0), share.value)
-    return [joined(source) for source in sorted(largest) if largest[source] < LEAST]
+    """Return the sources that decide nothing of a figure with indices, and little of the others."""
+    found = [share for name in result.figures for share in shares(result, name)]
+    counts = {s.source for s in found if s.weight >= (LEAST if s.by == INDEX else MUCH)}
+    return [joined(source) for source in sorted({s.source for s in found} - counts)]
 
 
 def over_time_sections(result: Any) -> list[Section]:

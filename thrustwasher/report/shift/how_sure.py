@@ -72,7 +72,7 @@ def _verdicts(record: Record) -> list[str]:
         return source_words(record, name)
 
     texts = verdict(result, "the washers", film_figures(result), words)
-    texts += verdict(result, "the shift", OF_THE_SHIFT, words)
+    texts += verdict(result, "the shift", OF_THE_SHIFT[:4], words)
     said = sentence("; ".join(chances(result)))
     return [*texts, said] if said else texts
 

@@ -71,7 +71,7 @@ class Scatter {
       el("p", {}, `${of}: 5 to 95 % of ${DRAWS} draws of what stands here, the same each time, about the values that are set. This band is of inputs; the error of the mesh is another one and is said above.`),
       el("div", { class: "wide-table", tabindex: 0 }, el("table", {}, el("thead", {}, el("tr", {}, ...["name", "law", "from"].map((text) => el("th", { scope: "col" }, text)))), el("tbody", {}, ...SOURCES.map(row)))),
       ...(ABOUT.scatter?.warnings ?? []).map((text) => el("p", {}, text)));
-    const label = el("label", {}, this.input, " scatter: the band that inputs leave");
+    const label = el("label", { for: "scatter" }, this.input, " scatter: the band that inputs leave");
     host.append(el("div", { class: "scatter" }, label, DRAWS ? list : el("p", {}, "This part has no [scatter]: nothing is known of how its inputs scatter.")), this.said);
   }
 

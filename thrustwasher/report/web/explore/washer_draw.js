@@ -10,7 +10,7 @@ class Draw extends Walker {
   constructor(washer, point, loads) {
     super(washer, point, loads[0]);
     const { temp, pressure } = washer.places(), [nR, nT] = washer.grid;
-    Object.assign(this, { loads, up: [], down: [], at0: temp, at1: pressure + nR * nT, nodes: [], lost: null, regained: null });
+    Object.assign(this, { loads, up: [], down: [], at0: temp, at1: pressure + nR * nT, nodes: [], lost: null, regained: null, ended: null });
   }
 
   *walk() {
@@ -115,7 +115,7 @@ class Draw extends Walker {
     let top = nodes.push(this.here()) - 1, rising = true;
     for (;;) {
       const over = this.load >= last;
-      if (rising && (this.share > ALONE || (over && (this.lost !== null || this.film < 0.5 * this.sigma)))) return;
+      if (rising && (this.share > ALONE || this.film < 0 || (over && (this.lost !== null || this.film < 0.5 * this.sigma)))) return;
       if (nodes.length > MOST_NODES) throw new Error("the walk along the curve does not end");
       yield;
       this.to(this.film - Math.max(COARSE * this.sigma, 0.12 * (this.film - 2.5 * this.sigma)));
@@ -175,17 +175,28 @@ class Draw extends Walker {
   /** Solve at a load between nodes of rising load, `on` beyond the last one too; null where it does not lie there. */
   solveAlong(nodes, load, on) {
     const i = nodes.findIndex((node) => node.load >= load);
-    if (i === 0 || (i < 0 && !on)) return null;
+    if (i === 0 || (i < 0 && (!on || this.ended === nodes))) return null;
     const near = i < 0 ? nodes.slice(-3) : nodes.slice(Math.max(0, i - 2), i + 1), end = near.at(-1);
     if (i < 0) {
-      if (!this.solveFrom(near, load)) {
-        this.goTo(end);
-        this.forget();
-        this.toLoad(load);
+      if (!this.solveFrom(near, load) && !this.climb(end, load)) {
+        this.ended = nodes; // nor is there a solution at higher loads
+        return null;
       }
       nodes.push(this.here());
     } else if (!this.solveFrom(near, load) || this.isOutside(near.at(-2), end)) this.search(near.at(-2), end, load);
     return this.result();
+  }
+
+  /** Solve at a load above a solution in 2, 4 or 8 steps; tell if that goes. */
+  climb(from, load) {
+    return [2, 4, 8].some((steps) => {
+      const before = [from];
+      for (let n = 1; n <= steps; n += 1) {
+        if (!this.solveFrom(before.slice(-2), from.load * (load / from.load) ** (n / steps))) return false;
+        before.push(this.here());
+      }
+      return true;
+    });
   }
 
   isOutside(upper, lower) { return this.film > upper.film + 0.1 * (upper.film - lower.film) || this.film < lower.film - 0.1 * (upper.film - lower.film); }

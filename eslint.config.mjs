@@ -8,7 +8,7 @@ const here = ["performance", "MessageChannel", "postMessage", "navigator", "loca
   "ResizeObserver", "getSelection"];
 // explore: what one script declares and another one uses
 const joined = ["ABOUT", "Disc", "Kernel", "Model", "Plot", "PointModel", "VIEW", "allowed", "ask", "axisUnit", "digits", "el", "escaped", "headed",
-  "CHANGES", "DRAWS", "bandOver", "bandWords", "SHARES", "Scatter", "Solver", "drawn", "quantiles", "numbersOf", "ruleWords", "settled", "solver",
+  "ALONE", "SHALLOW", "Draw", "Walker", "CHANGES", "DRAWS", "bandOver", "bandWords", "SHARES", "Scatter", "Solver", "drawn", "quantiles", "numbersOf", "ruleWords", "settled", "solver",
   "fields", "inputChanged", "last", "pixelsOf", "pretty", "readQuantity", "shown", "state"];
 const shared = ["el", "Disc", "pixelsOf", "uPlot", "Runs", "colour", "number", "Plots", "Controls", "Flow", "Live", "Discs", "Slip"];
 

@@ -52,7 +52,7 @@ def answers(model, tasks, *, params=None, rung=None):
     module = wasm_file(spec.kernel)
     numbers = as_numbers(params or spec.params())
     given = {
-        "scripts": [str(WEB / f"{stem}.js") for stem in ("kernel", view.worker.script)],
+        "scripts": [str(WEB / f"{stem}.js") for stem in view.worker.scripts],
         "about": about(model)["worker"],
         "module": str(module),
         "tasks": [["set", numbers, rung or spec.default_fidelity], *tasks],

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from browser_pages import faults
 
-from thrustwasher import solve_washer
+from thrustwasher import engage_clutch, solve_gearmesh, solve_washer
 from thrustwasher.explore.draws import DRAWS, fixed_points
 from thrustwasher.explore.page import page as page_of
 from thrustwasher.model.part_file import find_part
@@ -153,3 +153,49 @@ def test_the_band_bars_no_access_and_is_not_too_wide(opened, look):
     assert faults(page) == []
     assert page.evaluate("document.documentElement.scrollWidth") <= page.viewport_size["width"]
     assert page.get_by_role("switch", name="scatter").is_checked()
+
+
+def gearmesh_draws():
+    """Return the hottest flank and the safety against scuffing of all draws at the start."""
+    gears, power, speed = find_part("gearmesh"), 7500.0, 180.0
+    known = gears.scattered(inputs={"load": power / speed, "oil_temperature": 299.85})
+    for row in known.values(fixed_points(len(known.sources))):
+        params, drawn = gears.varied(row)
+        oil = drawn["oil_temperature"]
+        got = solve_gearmesh(params, power=drawn["load"] * speed, speed=speed, oil_temperature=oil)
+        yield got.surface_temperature, got.scuffing_safety
+
+
+def clutch_draws():
+    """Return the largest torque and the highest temperature of all draws of the start."""
+    clutch, time = find_part("clutch"), np.linspace(0.0, 0.5, 249)
+    known = clutch.scattered(inputs={"load": 5000.0, "oil_temperature": 353.15, "speed": 100.0})
+    for row in known.values(fixed_points(len(known.sources))):
+        params, drawn = clutch.varied(row)
+        got = engage_clutch(
+            params,
+            time=time,
+            load=drawn["load"] * np.minimum(time / 0.125, 1.0),
+            speed=100.0 * (1.0 - time / 0.5),
+            oil_temperature=drawn["oil_temperature"],
+        )
+        yield abs(got.friction_torque).max(), got.temperature.max()
+
+
+OTHERS = {
+    "gearmesh": (gearmesh_draws, ("surface_temperature", "scuffing_safety")),
+    "clutch": (clutch_draws, ("friction_torque_max", "temperature_max")),
+}
+
+
+@pytest.mark.parametrize("model", OTHERS)
+def test_the_other_pages_have_bands_over_the_same_draws_as_python(opened, model):
+    draws, names = OTHERS[model]
+    page = opened(model)
+    page.page.check("#scatter")
+    assert banded(page).page.locator(".band").count() == 2
+    found = page.page.evaluate(
+        "(names) => VIEW.scatter.sound.map((r) => names.map((name) => r.outputs[name]))", names
+    )
+    np.testing.assert_allclose(found, list(draws()), rtol=SAME)
+    assert said(page).startswith("5 to 95 % of the draws: ")

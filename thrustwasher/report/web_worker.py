@@ -17,9 +17,15 @@ class WebWorker:
     """What solves a model in a browser."""
 
     script: str  # stem of a file in ``report/web/explore``
+    more: Sequence[str] = ()  # stems of further ones
     calls: Sequence[str]  # kernels that it calls
     layout: Mapping[str, float]  # numbers of the kernels' layout
     rungs: Mapping[str, Mapping[str, Any]]  # that can be chosen, with what it needs of each
+
+    @property
+    def scripts(self) -> tuple[str, ...]:
+        """Stems of the scripts that solve."""
+        return ("kernel", self.script, *self.more)
 
     def data(self, spec: ModelSpec) -> dict[str, Any]:
         """Return what the scripts read, as JSON types."""
@@ -34,7 +40,7 @@ class WebWorker:
 
     def source(self) -> str:
         """Return all scripts: the kernels' functions, the model, what answers the page."""
-        return joined("kernel.js", f"{self.script}.js", "worker.js")
+        return joined(*(f"{stem}.js" for stem in (*self.scripts, "worker")))
 
 
 def joined(*names: str) -> str:

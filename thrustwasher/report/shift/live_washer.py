@@ -19,6 +19,7 @@ from .worst_moments import LEAST_LOAD, rung_with_fields
 
 WORKER = WebWorker(
     script="washer_worker",
+    more=("washer_draw",),
     calls=(
         "step",
         "broken_rule",

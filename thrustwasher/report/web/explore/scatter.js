@@ -33,10 +33,13 @@ function drawnValues(k) {
 
 /** Return a band and its median over `x` of what `value(result, i)` is in the draws. */
 function bandOver(x, scatter, name, look, value) {
-  const { sound, on, stale } = scatter, rows = on && sound.length > 1 ? x.map((at, i) => [at, ...quantiles(sound.map((r) => value(r, i)))]) : [];
-  const looks = `${look}${stale ? " stale" : ""}`, points = rows.map(([at, low, , high]) => [at, low, high]);
-  if (!rows.length) return { bands: [], medians: [] };
-  return { bands: [{ name: `${name}: 5 to 95 % of the draws`, look: looks, points }], medians: [{ name: `${name}: median`, look: `median ${looks}`, points: rows.map(([at, , middle]) => [at, middle]) }] };
+  const { sound, on, stale } = scatter, looks = `${look}${stale ? " stale" : ""}`;
+  if (!on || sound.length < 2) return { bands: [], medians: [] };
+  const rows = scatter.once(name, () => x.map((at, i) => [at, ...quantiles(sound.map((r) => value(r, i)))]));
+  return {
+    bands: [{ name: `${name}: 5 to 95 % of the draws`, look: looks, points: rows.map(([at, low, , high]) => [at, low, high]) }],
+    medians: [{ name: `${name}: median`, look: `median ${looks}`, points: rows.map(([at, , middle]) => [at, middle]) }],
+  };
 }
 
 /** Say in which band results of the draws lie, by their names. */
@@ -55,7 +58,7 @@ class Scatter {
    * worker needs for a draw; `lacks(result)`: tells if a part of it is missing; `show()`: shows `results`; `told()`: a sentence on all of them.
    */
   constructor(host, { of, depends, given, lacks = () => false, show, told }) {
-    Object.assign(this, { depends, given, lacks, show, told, results: [], queue: [], known: "", stale: false, helper: null });
+    Object.assign(this, { depends, given, lacks, show, told, results: [], queue: [], known: "", stale: false, helper: null, version: 0, kept: {} });
     this.input = el("input", { type: "checkbox", role: "switch", id: "scatter", disabled: !DRAWS });
     this.input.addEventListener("change", () => {
       this.set(this.input.checked);
@@ -68,7 +71,7 @@ class Scatter {
       el("p", {}, `${of}: 5 to 95 % of ${DRAWS} draws of what stands here, the same each time, about the values that are set. This band is of inputs; the error of the mesh is another one and is said above.`),
       el("div", { class: "wide-table", tabindex: 0 }, el("table", {}, el("thead", {}, el("tr", {}, ...["name", "law", "from"].map((text) => el("th", { scope: "col" }, text)))), el("tbody", {}, ...SOURCES.map(row)))),
       ...(ABOUT.scatter?.warnings ?? []).map((text) => el("p", {}, text)));
-    const label = el("label", {}, this.input, " scatter: the band that inputs leave");
+    const label = el("label", { for: "scatter" }, this.input, " scatter: the band that inputs leave");
     host.append(el("div", { class: "scatter" }, label, DRAWS ? list : el("p", {}, "This part has no [scatter]: nothing is known of how its inputs scatter.")), this.said);
   }
 
@@ -76,6 +79,12 @@ class Scatter {
   get complete() { return !this.stale && this.found.length === DRAWS; }
   get found() { return this.results.filter(Boolean); }
   get sound() { return this.found.filter((r) => !r.problem && !r.broken); }
+
+  /** Return what was made of the present results under a name, made once. */
+  once(name, make) {
+    if (this.kept[name]?.version !== this.version) this.kept[name] = { version: this.version, made: make() };
+    return this.kept[name].made;
+  }
 
   /** Switch on or off; on, `follow` solves. */
   set(on) {
@@ -107,6 +116,7 @@ class Scatter {
     one.ask("draw", { given: this.given(drawnValues(k), k) }, (found, problem) => {
       if (known !== this.known) return;
       this.results[k] = found ?? { problem };
+      this.version += 1;
       this.feed(one);
       this.changed();
     });

@@ -131,12 +131,13 @@ const VIEW = {
    * goes up or down; down only where that is another solution in some draw, and one load to either side.
    */
   scatterRows() {
-    const { sound } = this.scatter, differs = LOADS.map((_, i) => sound.some(({ down }) => down[i]));
+    const { sound } = this.scatter, differs = (i) => sound.some(({ down }) => down[i]);
     const at = (found) => ({ quantiles: quantiles(found.map((o) => this.size(o[this.quantity]))), lost: found.filter((o) => o.branch === "contact").length / found.length });
-    return sound.length < 2 ? [] : LOADS.map((load, i) => ({
+    if (sound.length < 2) return [];
+    return this.scatter.once(this.quantity, () => LOADS.map((load, i) => ({
       load, up: at(sound.map(({ up }) => up[i]).filter(Boolean)),
-      down: differs[i - 1] || differs[i] || differs[i + 1] ? at(sound.map(({ up, down }) => down[i] ?? up[i]).filter(Boolean)) : null,
-    }));
+      down: differs(i - 1) || differs(i) || differs(i + 1) ? at(sound.map(({ up, down }) => down[i] ?? up[i]).filter(Boolean)) : null,
+    })));
   },
 
   /** Return the scatter as bands, medians and a strip of the plot; the two ways of the load apart. */

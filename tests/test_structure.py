@@ -27,7 +27,7 @@ FORMAT_MARKS = {"sources": 40, "tests": 40}  # tables of numbers
 RATCHETS = {
     "Python files of the package": (lambda: len(structure.modules()), 370, 20),
     "lines of C": (lambda: structure.lines_of(structure.shell_sources()), 2_400, 200),
-    "module names that occur twice": (lambda: len(structure.repeated_stems()), 10, 3),
+    "module names that occur twice": (lambda: len(structure.repeated_stems()), 11, 3),
     "words of the README": (
         lambda: len((structure.ROOT / "README.md").read_text("utf-8").split()),
         1000,

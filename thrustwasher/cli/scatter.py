@@ -12,6 +12,7 @@ from ..model.registry import models_with_points, spec_of
 from ..model.rungs import rung_named
 from ..storage.whole_files import new_folder
 from ..sweep.axes import places
+from ..units import format_quantity
 from . import _options, _output
 from ._options import option_name
 
@@ -212,7 +213,10 @@ def _say(result: "ScatterResult", folder: Path | None) -> None:
 
 def _row(name: str, band: "Band") -> tuple[str, ...]:
     values = (band.nominal, *band.quantiles.values())
-    cells = (_output.shown(x, band.unit, band.relative) if x == x else "-" for x in values)
+    cells = (
+        format_quantity(x, band.unit, difference=band.relative, digits=3) if x == x else "-"
+        for x in values
+    )
     known = [(i.total, n) for n, i in band.indices.items() if _is_sure(i)]
     decided = ", ".join(f"{n} {total:.2f}" for total, n in sorted(known, reverse=True)[:3])
     return (name, *cells, decided)

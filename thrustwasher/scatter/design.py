@@ -100,7 +100,9 @@ def make_design(
         raise ParameterError(f"seed = {seed!r}, allowed: a whole number 0 .. {MOST_SEED}")
     parts = []
     for own in np.random.SeedSequence(seed).spawn(SCRAMBLES):
-        sequence = qmc.Sobol(2 * k, scramble=True, seed=np.random.default_rng(own))
-        parts.append(sequence.random(n // SCRAMBLES))
+        random = np.random.default_rng(own)
+        drawn = qmc.Sobol(2 * k, scramble=True, seed=random).random(n // SCRAMBLES)
+        # Some pairs of columns are uneven in few points: other ones in each scramble.
+        parts.append(drawn[:, random.permutation(2 * k)])
     points = np.concatenate(parts) + HALF_CELL
     return Design(a=points[:, :k], b=points[:, k:], groups=tuple(groups), rows=rows)

@@ -9,7 +9,7 @@ from scatter_stand_in import LEVELS, NOTHING, SOURCES, band, study
 
 from thrustwasher.report.html import Plot, Table, render, themed
 from thrustwasher.report.scatter import scatter_page
-from thrustwasher.report.scatter.decides import RANK, shares, verdict
+from thrustwasher.report.scatter.decides import RANK, leading, shares, verdict
 from thrustwasher.report.scatter.scatter_plots import bar_figure, decided_over_time
 from thrustwasher.report.scatter.scatter_tables import error_table, figure_table, matrix_table
 from thrustwasher.report.scatter.words import named, percent
@@ -120,18 +120,64 @@ def test_without_indices_ranks_decide():
     assert all(abs(s.value) < 0.4 for s in of[1:])
 
 
+def with_film(film, **changes):
+    """Return a study with another least film ratio (N,)."""
+    found = study(**changes)
+    return replace(found, sample=found.sample | {"least_washer_film_ratio": film})
+
+
 def test_a_choice_that_decides_is_found_by_its_ranks():
-    found = study()
-    film = np.where(np.array(found.sample["washer.cavity_shear"]) == "none", 1.0, 9.0)
-    sample = found.sample | {"least_washer_film_ratio": film + 0.01 * np.arange(len(film))}
-    of = shares(replace(found, sample=sample), "least_washer_film_ratio")
+    of_choice = np.where(np.array(study().sample["washer.cavity_shear"]) == "none", 1.0, 9.0)
+    of = shares(with_film(of_choice + 0.01 * np.arange(64)), "least_washer_film_ratio")
     assert of[0].source == "washer.cavity_shear" and of[0].weight > 0.7
+
+
+def test_an_input_that_only_seems_to_decide_is_not_named():
+    oil = study().sample["oil_temperature"] - 353.15
+    echo = study().sample["transmission.thrust_share"] - 0.02 * oil  # correlated in the sample
+    sample = {"transmission.thrust_share": echo, "least_washer_film_ratio": oil}
+    found = study()
+    found = replace(found, sample=found.sample | sample)
+    assert abs(np.corrcoef(echo, oil)[0, 1]) > 0.5
+    assert [s.source for s in leading(shares(found, "least_washer_film_ratio"))] == [
+        "oil_temperature"
+    ]
+
+
+def test_what_is_not_told_apart_is_named_together():
+    found = study()
+    share, oil = (found.sample[s.name] for s in SOURCES[:2])
+    film = (share - 0.1) / share.std() + (oil - 353.15) / oil.std()
+    noise = np.random.default_rng(1).normal(size=64)
+    (text,) = verdict(with_film(film + noise), "the washers", ["least_washer_film_ratio"])
+    assert "transmission: thrust share" in text and "oil temperature" in text
+    assert "not told apart by so few runs" in text
+    (text,) = verdict(with_film(noise), "the washers", ["least_washer_film_ratio"])
+    assert text == "These runs are too few to say which input decides the figures of the washers."
+
+
+def test_correlated_inputs_are_named_together_without_a_sign():
+    both = "transmission.thrust_share + oil_temperature"
+    found = study(groups=(both, "washer.cavity_shear"))
+    of = shares(found, "least_washer_film_ratio")
+    assert of[0].source == both and of[0].value == pytest.approx(1.0)
+
+
+def test_too_few_runs_for_a_regression_name_nothing():
+    found = study()
+    few = {name: column[:6] for name, column in found.sample.items()}
+    found = replace(found, sample=few)
+    assert shares(found, "least_washer_film_ratio") == []
+    (text,) = verdict(found, "the washers", ["least_washer_film_ratio"])
+    assert text.startswith("These runs are too few to say which input decides")
 
 
 def test_the_verdict_names_what_it_rests_on():
     (text,) = verdict(study(), "the washers", ["least_washer_film_ratio"])
     assert text.startswith("The verdict on the washers rests most on transmission: thrust share")
-    assert f"{MINUS}1.00" in text
+    assert (
+        f"rank regression coefficient for “least film ratio of the washers” is {MINUS}1.00" in text
+    )
     (text,) = verdict(study(), "the shift", ["slip_energy", "lock_after_ramp_start", "absent"])
     assert "oil temperature: alone or with others it makes 99 % of the variance of “heat" in text
     assert verdict(study(), "the shift", ["peak_jerk"]) == []

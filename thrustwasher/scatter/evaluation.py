@@ -78,6 +78,7 @@ class Runs:
             nearest={f.name: self._nearest(i, at[:, i], sample) for i, f in self._present(at)},
             sample=sample,
             units=self.units,
+            groups=tuple(self._joined(group) for group in scatter.groups),
             warnings=(*scatter.warnings, *warnings, *self._warnings(figures)),
         )
 

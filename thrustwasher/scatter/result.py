@@ -117,6 +117,8 @@ class ScatterResult:
     """Base runs by columns: sources, figures, outcomes, status."""
     units: dict[str, str] = field(default_factory=dict, repr=False)
     """Of the sample's columns."""
+    groups: tuple[str, ...] = ()
+    """Sources as indices have them: correlated ones by their joined names."""
     warnings: tuple[str, ...] = ()
     wall_time: float = 0.0
 

@@ -8,7 +8,7 @@ from ...units import format_quantity as say
 from ..html import Card, Page, Plot, Section
 from . import scatter_plots as plots
 from . import scatter_tables as tables
-from .decides import INDEX, LEAST, RANK, chances, column, share_words, shares, verdict
+from .decides import INDEX, LEAST, RANK, chances, column, most_words, shares, verdict
 from .words import (
     band_scale,
     band_words,
@@ -23,7 +23,7 @@ from .words import (
 )
 
 MOST_FIGURES, MOST_CARDS, MOST_BANDS, MOST_OVER_TIME = 12, 8, 8, 4
-MUCH = 0.1  # square of a rank correlation that makes a source worth naming
+MUCH = 0.1  # square of a coefficient that makes a source worth naming
 BAND_TEXT = (
     "Shaded: 90 % of all runs are inside, instant by instant. Dashed: the nominal values of all "
     "inputs, which need not be the middle."
@@ -38,9 +38,10 @@ DECIDED_TEXT = (
     "is the 95 % confidence interval."
 )
 RANK_TEXT = (
-    "Of figures without indices: the rank correlation of the sample (Spearman), which says how "
-    "steadily a figure rises (blue) or falls (purple) with an input. With --indices all "
-    "they have indices too."
+    "Of figures without indices: the standardised rank regression coefficient, by least squares of "
+    "the figure's ranks on the ranks of all inputs: how steadily the figure rises (blue) or falls "
+    "(purple) with this input, the others held. A choice, and correlated inputs together, have no "
+    "sign. The line is the 95 % confidence interval. With --indices all they have indices too."
 )
 OVER_TIME_TEXT = (
     "Which input decides a signal at which time. Nothing is drawn where the signal hardly scatters."
@@ -134,7 +135,7 @@ def _first_decided(result: Any, names: Sequence[str]) -> list[str]:
     for name in names[:3]:
         if of := shares(result, name):
             title, band = title_of(name, result.figures[name]), result.figures[name]
-            texts.append(f"{title}: {band_words(band)}, decided most by {share_words(of[0])}")
+            texts.append(f"{title}: {band_words(band)}, {most_words(of)}")
     return [f"{'; '.join(texts)}."] if texts else []
 
 
@@ -205,7 +206,7 @@ def decided_sections(result: Any, names: Sequence[str]) -> list[Section]:
         Plot(
             f"decides-{i}",
             plots.bar_figure(of, title_of(name, result.figures[name])),
-            f"{title_of(name, result.figures[name])}: {share_words(of[0])}",
+            f"{title_of(name, result.figures[name])}: {most_words(of)}",
             tiles=3,
         )
         for i, (name, of) in enumerate(found.items())

@@ -43,7 +43,7 @@ def test_a_figure_stands_with_band_range_and_probability():
     assert row[0] == "clutch locks, after the shift began [s]"
     low, middle, high = (float(x) for x in row[2:5])
     assert low < middle < high and middle == pytest.approx(0.84, abs=2e-3)
-    assert row[5:] == ("0.3 .. 0.8 s", "31.2 % (20 .. 44 %)")
+    assert row[5:] == ("0.3 .. 0.8 s", "0 % below, 100 % above (20 .. 44 %)")
 
 
 def test_probabilities_are_at_the_top_with_their_confidence():
@@ -57,6 +57,22 @@ def test_each_source_says_what_it_rests_on():
     assert rows[0] == ("transmission: thrust share", "0.1", "uniform 0.04 .. 0.16", "estimate")
     assert rows[1][1:] == ("80 °C", "normal, standard deviation 3 K", "ISO 0815")
     assert rows[2][1:] == ("cyclic", "either cyclic or none", "given")
+
+
+def test_a_nominal_value_outside_its_band_is_said_first():
+    found = study()
+    heat = replace(found.figures["slip_energy"], nominal=9e3)
+    page = scatter_page(replace(found, figures={**found.figures, "slip_energy": heat}))
+    assert page.summary[-1] == (
+        "The nominal value is not what to expect: heat in the clutch 9 kJ against 10.9 .. 11.1 kJ "
+        "in nine of ten runs, median 11 kJ."
+    )
+    assert not any("not what to expect" in text for text in scatter_page(found).summary)
+
+
+def test_a_probability_has_no_more_digits_than_its_runs_tell():
+    assert [percent(x, 64) for x in (5 / 64, 0.0, 63.9 / 64)] == ["8 %", "0 %", "above 99 %"]
+    assert [percent(x, 1024) for x in (1 / 1024, 80 / 1024)] == ["0.1 %", "7.8 %"]
 
 
 def test_failed_runs_stand_by_their_reason():

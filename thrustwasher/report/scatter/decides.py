@@ -209,7 +209,7 @@ def verdict(
 def chances(result: Any, names: Sequence[str] = ()) -> list[str]:
     """Return the probabilities of yes and no in words, of these names or all."""
     return [
-        f"{name.replace('_', ' ')}: probability {probability(p)}"
+        f"{name.replace('_', ' ')}: probability {probability(p, result.runs)}"
         for name, p in result.probabilities.items()
         if not names or name in names
     ]

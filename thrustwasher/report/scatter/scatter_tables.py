@@ -18,6 +18,7 @@ from .words import (
     band_words,
     joined,
     named,
+    outside_words,
     percent,
     plain,
     probability,
@@ -38,7 +39,7 @@ def figure_table(result: Any, names: Sequence[str] | None = None) -> Table:
         scale = band_scale(band)
         numbers = [scale.number(x) for x in (band.nominal, *map(band.quantiles.get, LEVELS))]
         usual = "" if band.outside is None else scale.span(*band.usual)
-        outside = "" if band.outside is None else probability(band.outside)
+        outside = outside_words(result, name)
         rows.append((with_unit(title_of(name, band), scale), *numbers, usual, outside))
     heads = ("", "nominal", *LEVELS.values(), "usual", "P(outside usual)")
     if not any(row[-1] for row in rows):  # nothing has a usual range
@@ -65,7 +66,10 @@ def confidence_table(result: Any) -> Table:
 
 def probability_table(result: Any) -> Table:
     """Return how probable each yes is."""
-    rows = [(name.replace("_", " "), probability(p)) for name, p in result.probabilities.items()]
+    rows = [
+        (name.replace("_", " "), probability(p, result.runs))
+        for name, p in result.probabilities.items()
+    ]
     return Table(("", "probability (95 % confidence)"), rows, numbers=(1,))
 
 

@@ -15,6 +15,7 @@ from .words import (
     between,
     joined,
     named,
+    not_expected,
     percent,
     relative_spread,
     sentence,
@@ -71,7 +72,11 @@ def scatter_page(result: Any, files: tables.Files | None = None) -> Page:
     return Page(
         title=f"How sure: {result.target}",
         subtitle=_subtitle(result),
-        summary=[*_verdicts(result, chosen), *_chance_text(result)],
+        summary=[
+            *_verdicts(result, chosen),
+            *_chance_text(result),
+            *not_expected(result, chosen),
+        ],
         warnings=list(map(sentence, result.warnings)),
         cards=_cards(result, chosen),
         sections=[
@@ -146,7 +151,11 @@ def _chance_text(result: Any) -> list[str]:
 
 def _cards(result: Any, names: Sequence[str]) -> list[Card]:
     cards = [
-        Card(f"probability: {named(name)}", percent(p.value), f"95 % confidence: {between(p)}")
+        Card(
+            f"probability: {named(name)}",
+            percent(p.value, result.runs),
+            f"95 % confidence: {between(p)}",
+        )
         for name, p in result.probabilities.items()
     ]
     washers = [name for name in names if name in washer_figures(result)][:2]

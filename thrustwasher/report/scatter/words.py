@@ -5,6 +5,8 @@ import re
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from ...units import display_unit, format_quantity
 from ..palette import CELSIUS
 
@@ -119,22 +121,63 @@ def shortened(text: str, most: int) -> str:
     return text if len(text) <= most else f"{text[: most - 1].rstrip()}…"
 
 
-def percent(share: float) -> str:
-    """Return a share, never rounded to a certainty that it is not."""
+def percent(share: float, runs: int = 0) -> str:
+    """Return a share, never rounded to a certainty that it is not.
+
+    Of so many runs it has two digits, not more than a run makes a difference.
+    """
     if not math.isfinite(share):
         return NONE
-    if 0.0 < share < 0.001:
-        return "below 0.1 %"
-    if 0.999 < share < 1.0:
-        return "above 99.9 %"
-    return f"{100.0 * share:.3g} %"
+    places = max(0, -math.floor(math.log10(100.0 / runs))) if runs else 1
+    least = 10.0**-places
+    value = float(f"{100.0 * share:.{2 if runs else 3}g}")
+    value = round(value, places) if runs else value
+    if share > 0.0 and value < least:
+        return f"below {least:g} %"
+    if share < 1.0 and value > 100.0 - least:
+        return f"above {100.0 - least:g} %"
+    return f"{value:g} %"
 
 
-def probability(p: Any) -> str:
-    """Return a probability with its confidence interval."""
+def probability(p: Any, runs: int = 0) -> str:
+    """Return a probability of so many runs with its confidence interval."""
     if p is None or not math.isfinite(p.value):
         return NONE
-    return f"{percent(p.value)} ({between(p)})"
+    return f"{percent(p.value, runs)} ({between(p)})"
+
+
+def outside_words(result: Any, name: str) -> str:
+    """Return how probably a figure is below and above its usual range; "" without one."""
+    band = result.figures[name]
+    values = np.asarray(result.sample.get(f"{name} (result)", result.sample.get(name, ())), float)
+    values = values[np.isfinite(values)]
+    if band.outside is None or not len(values):
+        return "" if band.outside is None else probability(band.outside, result.runs)
+    low, high = band.usual
+    sides = {"below": float((values < low).mean()), "above": float((values > high).mean())}
+    ends = {"below": low, "above": high}
+    words = [
+        f"{percent(x, result.runs)} {side}"
+        for side, x in sides.items()
+        if math.isfinite(ends[side])
+    ]
+    together = "together " if all(sides.values()) else ""
+    return f"{', '.join(words)} ({together}{between(band.outside)})"
+
+
+def not_expected(result: Any, names: Iterable[str]) -> list[str]:
+    """Return a sentence on those figures whose nominal value is outside their band, if any."""
+    found = []
+    for name in names:
+        band = result.figures[name]
+        low, high = band.quantiles[LOW], band.quantiles[HIGH]
+        if varies(band) and math.isfinite(band.nominal) and not low <= band.nominal <= high:
+            scale = band_scale(band)
+            found.append(
+                f"{title_of(name, band)} {scale.words(band.nominal)} against {band_words(band)} in "
+                f"nine of ten runs, median {scale.words(band.quantiles[MIDDLE])}"
+            )
+    return [f"The nominal value is not what to expect: {'; '.join(found)}."] if found else []
 
 
 def between(p: Any) -> str:

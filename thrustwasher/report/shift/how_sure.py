@@ -15,7 +15,7 @@ from ..scatter.study_page import (
     over_time_sections,
     washer_figures,
 )
-from ..scatter.words import joined, sentence, spoken
+from ..scatter.words import joined, not_expected, sentence, spoken
 from .shift_record import Record
 
 MOST = 6  # figures with bars
@@ -32,7 +32,10 @@ def how_sure_sections(record: Record) -> list[Section]:
     if result is None:
         return []
     chosen, main = _chosen(record), main_figures(result, MOST_FIGURES)
-    title, texts = "How sure", [*_verdicts(record), *_study_texts(record)]
+    title, texts = (
+        "How sure",
+        [*_verdicts(record), *not_expected(result, main), *_study_texts(record)],
+    )
     figures = scatter_tables.figure_table(result, main)
     decided = decided_sections(result, chosen)
     sources, errors = scatter_tables.source_table(result), scatter_tables.error_table(result, main)

@@ -120,7 +120,7 @@ def _cards(record: Record) -> list[Card]:
         found = record.band(name)
         if not found or not varies(found):
             return []
-        words = usual[name][0].study_words(found)[0] if name in usual else band_words(found)
+        words = usual[name][0].study_words(found) if name in usual else band_words(found)
         return [f"{BAND}: {words}".replace(" ", "\N{NO-BREAK SPACE}")]
 
     cards = [

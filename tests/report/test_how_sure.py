@@ -45,6 +45,7 @@ def test_key_figures_stand_beside_their_bands(no_moments):
     assert bands["slip energy"] == "5 .. 95 %: 10.9 .. 11.1 kJ"
     assert bands["lock after ramp start"].endswith("above; 5 .. 95 %: 0.834 .. 0.846 s")
     assert bands["lock speed"] == ""
+    assert bands["probability: film lost"] == "95 % confidence: 16 .. 36 %"
 
 
 def test_what_is_usual_has_the_probability_of_lying_outside():

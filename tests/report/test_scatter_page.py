@@ -12,7 +12,7 @@ from thrustwasher.report.scatter import scatter_page
 from thrustwasher.report.scatter.decides import RANK, leading, shares, verdict
 from thrustwasher.report.scatter.scatter_plots import bar_figure, decided_over_time
 from thrustwasher.report.scatter.scatter_tables import error_table, figure_table, matrix_table
-from thrustwasher.report.scatter.words import named, percent
+from thrustwasher.report.scatter.words import band_words, named, percent
 from thrustwasher.scatter.result import Probability
 
 MINUS = "\N{MINUS SIGN}"
@@ -73,6 +73,32 @@ def test_a_nominal_value_outside_its_band_is_said_first():
 def test_a_probability_has_no_more_digits_than_its_runs_tell():
     assert [percent(x, 64) for x in (5 / 64, 0.0, 63.9 / 64)] == ["8 %", "0 %", "above 99 %"]
     assert [percent(x, 1024) for x in (1 / 1024, 80 / 1024)] == ["0.1 %", "7.8 %"]
+
+
+def test_a_loose_quantile_shows_its_confidence_on_the_card():
+    found = study()
+    film = found.figures["least_washer_film_ratio"]
+    loose = replace(film, confidence=film.confidence | {0.95: (5.0, np.inf)})
+    figures = {**found.figures, "least_washer_film_ratio": loose}
+    notes = {c.name: c.note for c in scatter_page(replace(found, figures=figures)).cards}
+    own = notes["least film ratio of the washers"]
+    assert own.endswith("95 % quantile by 95 % confidence: 5 or more")
+    assert "confidence" not in notes["heat in the clutch"]
+
+
+def test_both_ends_of_a_band_have_as_many_digits():
+    at = dict(zip(LEVELS, (0.1923, 0.999, 0.9999), strict=True))
+    assert band_words(replace(study().figures["slip_energy"], unit="1", quantiles=at)) == (
+        "0.192 .. 1.00"
+    )
+
+
+def test_a_lost_film_is_defined_once_and_its_group_is_counted():
+    text = " ".join(scatter_page(study()).summary)
+    assert text.count("Film lost: in contact (distress) at any instant while it turns.") == 1
+    assert "16 of 64 base runs lose the film and form a second group" in text
+    of_a_part = " ".join(scatter_page(study(kind="part")).summary)
+    assert "Film lost: the asperities carry: the contact branch" in of_a_part
 
 
 def test_failed_runs_stand_by_their_reason():

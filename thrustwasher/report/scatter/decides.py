@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .words import joined, percent, probability, title_of, varies
+from .words import LOST, LOST_TEXTS, joined, percent, probability, title_of, varies
 
 Array = NDArray[np.float64]
 LEAST = 0.02  # an index or the square of a coefficient below this decides nothing
@@ -213,3 +213,17 @@ def chances(result: Any, names: Sequence[str] = ()) -> list[str]:
         for name, p in result.probabilities.items()
         if not names or name in names
     ]
+
+
+def lost_texts(result: Any) -> list[str]:
+    """Return what a lost film is, and how many runs form a group of their own by it."""
+    if LOST not in result.probabilities or result.kind not in LOST_TEXTS:
+        return []
+    texts = [f"Film lost: {LOST_TEXTS[result.kind]}."]
+    lost, p = column(result.sample, LOST), result.probabilities[LOST]
+    if lost is not None and 0.0 < p.value < 0.5:
+        texts.append(
+            f"{int(np.nansum(lost))} of {result.runs} base runs lose the film and form a second "
+            "group: a 5 or 95 % quantile near that share may fall into either group."
+        )
+    return texts

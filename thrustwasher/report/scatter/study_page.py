@@ -8,14 +8,17 @@ from ...units import format_quantity as say
 from ..html import Card, Page, Plot, Section
 from . import scatter_plots as plots
 from . import scatter_tables as tables
-from .decides import INDEX, LEAST, RANK, chances, column, most_words, shares, verdict
+from .decides import INDEX, LEAST, RANK, chances, column, lost_texts, most_words, shares, verdict
 from .words import (
+    LOST,
     band_scale,
     band_words,
     between,
     joined,
+    loose_words,
     named,
     not_expected,
+    padded,
     percent,
     relative_spread,
     sentence,
@@ -75,6 +78,7 @@ def scatter_page(result: Any, files: tables.Files | None = None) -> Page:
         summary=[
             *_verdicts(result, chosen),
             *_chance_text(result),
+            *lost_texts(result),
             *not_expected(result, chosen),
         ],
         warnings=list(map(sentence, result.warnings)),
@@ -135,9 +139,10 @@ def film_figures(result: Any) -> list[str]:
 
 
 def _first_decided(result: Any, names: Sequence[str]) -> list[str]:
-    """Return what decides the first figures."""
+    """Return what decides the first figures; the film ratio where a film can be lost."""
     texts = []
-    for name in names[:3]:
+    film = [n for n in ("film_ratio",) if LOST in result.probabilities and n in result.figures]
+    for name in list(dict.fromkeys([*film, *names]))[:3]:
         if of := shares(result, name):
             title, band = title_of(name, result.figures[name]), result.figures[name]
             texts.append(f"{title}: {band_words(band)}, {most_words(of)}")
@@ -149,20 +154,28 @@ def _chance_text(result: Any) -> list[str]:
     return [said] if said else []
 
 
-def _cards(result: Any, names: Sequence[str]) -> list[Card]:
-    cards = [
+def chance_cards(result: Any, names: Sequence[str] = ()) -> list[Card]:
+    """Return a card per probability, of these names or all."""
+    return [
         Card(
             f"probability: {named(name)}",
             percent(p.value, result.runs),
             f"95 % confidence: {between(p)}",
         )
         for name, p in result.probabilities.items()
+        if not names or name in names
     ]
+
+
+def _cards(result: Any, names: Sequence[str]) -> list[Card]:
+    cards = chance_cards(result)
     washers = [name for name in names if name in washer_figures(result)][:2]
     others = [name for name in names if name not in washers]
     for name in [*washers, *others][: max(MOST_CARDS - len(cards), 4)]:
         band = result.figures[name]
-        note = f"5 .. 95 %; nominal {band_scale(band).words(band.nominal)}"
+        scale = band_scale(band)
+        nominal = padded((band.nominal - scale.zero) / scale.size, scale.digits)
+        note = "; ".join([f"5 .. 95 %; nominal {nominal} {scale.unit}".strip(), *loose_words(band)])
         cards.append(Card(title_of(name, band), band_words(band), note))
     return cards
 

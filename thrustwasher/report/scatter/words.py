@@ -14,6 +14,12 @@ NONE = "\N{EN DASH}"
 LOW, MIDDLE, HIGH = 0.05, 0.5, 0.95
 BAND = "5 .. 95 %"  # the head of a column
 MOST_DIGITS = 6
+LOST = "film_lost"
+LOST_TEXTS = {
+    "part": "the asperities carry: the contact branch, or a film ratio below 3 where there are no "
+    "folds",
+    "scene": "in contact (distress) at any instant while it turns",
+}
 LEVELS = {LOW: "5 %", MIDDLE: "50 %", HIGH: "95 %"}
 
 
@@ -61,6 +67,15 @@ def plain(value: float, digits: int = 3) -> str:
     if value and not 1e-4 <= abs(value) < 1e7:
         text = f"{value:.{digits - 1}e}"
     return text.replace("-", "\N{MINUS SIGN}")
+
+
+def padded(value: float, digits: int = 3) -> str:
+    """Return just so many significant digits, zeros at the end among them."""
+    if not value or not math.isfinite(value) or not 1e-4 <= abs(value) < 1e7:
+        return plain(value, digits) if math.isfinite(value) else NONE
+    shown = float(f"{value:.{digits}g}")
+    places = max(digits - 1 - math.floor(math.log10(abs(shown))), 0)
+    return f"{shown:.{places}f}".replace("-", "\N{MINUS SIGN}")
 
 
 def scale_of(unit: str, values: Iterable[float | None], *, relative: bool = False) -> Scale:
@@ -198,8 +213,22 @@ def value_words(value: Any, unit: str) -> str:
 
 
 def band_words(band: Any) -> str:
-    """Return the range from the 5 to the 95 % quantile."""
-    return band_scale(band).span(band.quantiles.get(LOW), band.quantiles.get(HIGH))
+    """Return the range from the 5 to the 95 % quantile, both ends with as many digits."""
+    scale = band_scale(band)
+    ends = (band.quantiles.get(level, math.nan) for level in (LOW, HIGH))
+    low, high = (padded((x - scale.zero) / scale.size, scale.digits) for x in ends)
+    return f"{low} .. {high} {scale.unit}".strip()
+
+
+def loose_words(band: Any) -> list[str]:
+    """Return what is known of quantiles whose confidence spans more than half of the band."""
+    scale, width = band_scale(band), band.quantiles[HIGH] - band.quantiles[LOW]
+    return [
+        f"{LEVELS[level]} quantile by 95 % confidence: {scale.span(low, high)}"
+        for level in (LOW, HIGH)
+        for low, high in [band.confidence[level]]
+        if high - low > 0.5 * width and (math.isfinite(low) or math.isfinite(high))
+    ]
 
 
 def sentence(text: str) -> str:

@@ -4,7 +4,7 @@ from markupsafe import Markup
 
 from ..html import Section, Table
 from ..scatter import scatter_tables
-from ..scatter.decides import chances, shares, verdict
+from ..scatter.decides import chances, lost_texts, shares, verdict
 from ..scatter.study_page import (
     ERROR_TEXT,
     MOST_FIGURES,
@@ -77,7 +77,7 @@ def _verdicts(record: Record) -> list[str]:
     texts = verdict(result, "the washers", film_figures(result), words)
     texts += verdict(result, "the shift", OF_THE_SHIFT[:4], words)
     said = sentence("; ".join(chances(result)))
-    return [*texts, said] if said else texts
+    return [*texts, *([said] if said else []), *lost_texts(result)]
 
 
 def _study_texts(record: Record) -> list[str]:

@@ -5,7 +5,8 @@ from typing import Any
 
 from ...units import format_quantity as say
 from ..html import Card, Page, Plot, Section
-from ..scatter.words import BAND, band_words, varies
+from ..scatter.study_page import chance_cards
+from ..scatter.words import BAND, LOST, band_words, loose_words, varies
 from . import shift_tables
 from .how_sure import how_sure_sections
 from .live_washer import live_washer
@@ -121,7 +122,7 @@ def _cards(record: Record) -> list[Card]:
         if not found or not varies(found):
             return []
         words = usual[name][0].study_words(found) if name in usual else band_words(found)
-        return [f"{BAND}: {words}".replace(" ", "\N{NO-BREAK SPACE}")]
+        return [f"{BAND}: {words}".replace(" ", "\N{NO-BREAK SPACE}"), *loose_words(found)]
 
     cards = [
         Card(
@@ -132,6 +133,7 @@ def _cards(record: Record) -> list[Card]:
         for name in names
         if (f := record.figure(name)) is not None and f.value is not None
     ]
+    cards += chance_cards(record.scatter, [LOST]) if record.scatter else []
     share = f"{record.energy['residual_share']:.1e}"
     cards.append(Card(f"energy missing, of {record.whole_name}", share))
     if record.step_error is not None:

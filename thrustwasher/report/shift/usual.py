@@ -10,7 +10,7 @@ import numpy as np
 from ...model.toml_tables import table_beside
 from ..html import Table
 from ..palette import CELSIUS
-from ..scatter.words import BAND, HIGH, LOW, outside_words, varies
+from ..scatter.words import BAND, HIGH, LOW, outside_words, padded, varies
 from .shift_record import Record
 from .worst_moments import FILM_SPEED
 
@@ -52,7 +52,7 @@ class Usual(NamedTuple):
         """Return the band of a study."""
         if band is None or not varies(band):
             return ""
-        low, high = (f"{band.quantiles[level] / self.scale:.3g}" for level in (LOW, HIGH))
+        low, high = (padded(band.quantiles[level] / self.scale) for level in (LOW, HIGH))
         return self._with_unit(f"{low} .. {high}")
 
     def _with_unit(self, words: str) -> str:

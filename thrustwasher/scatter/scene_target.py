@@ -64,8 +64,11 @@ REASONS = (
 )
 # Parameters of the transmission that decide on the washers alone.
 OF_WASHERS = ("transmission.thrust_share", "transmission.planet_tilt", "transmission.washer_radius")
-# Error of the communication step -> figure.
-STEP = {"heat": "slip_energy"}
+# Error of the communication step -> figures that it is of, relative; others have its name.
+STEP = {
+    "heat": ("slip_energy", "slip_energy_per_area"),
+    "lock_time": ("lock_time", "lock_after_ramp_start"),
+}
 
 Records = dict[tuple[Any, ...], dict[str, Recorded]]
 
@@ -277,7 +280,7 @@ def scene_target(
         errors = {}
         with suppress(ParameterError, SolveError):
             found = step_error(nominal, reset(instances), run_shift).errors()
-            errors = {STEP.get(name, name): x for name, x in found.items()}
+            errors = {n: x for name, x in found.items() for n in STEP.get(name, (name,))}
         errors |= _of_mesh(nominal)
     target = SceneTarget(scene, scatter, nominal, errors)
     if outputs is not None:

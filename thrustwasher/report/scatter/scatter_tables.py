@@ -174,19 +174,22 @@ def choices_of(result: Any) -> list[str]:
 
 
 def _by_choice(result: Any, name: str) -> str:
-    """Return how far the medians of a model's choices lie apart."""
+    """Return how far a choice of the model moves the median at most, against the nominal choice."""
     values, words = column(result.sample, name), []
-    for source in choices_of(result):
-        drawn = np.asarray(result.sample[source])
+    for source in result.sources:
+        if source.name not in choices_of(result):
+            continue
+        drawn = np.asarray(result.sample[source.name])
         medians = {
             str(choice): float(np.median(own))
             for choice in dict.fromkeys(drawn.tolist())
             if values is not None and len(own := values[(drawn == choice) & np.isfinite(values)])
         }
-        if len(medians) > 1:
-            most, least = (pick(medians, key=medians.get) for pick in (max, min))  # type: ignore[arg-type]
-            off = _off(result.figures[name], medians[most] - medians[least])
-            words.append(f"{named(source)}: {most} {off} against {least}")
+        base = medians.pop(str(source.nominal), None)
+        if base is not None and medians:
+            other, median = max(medians.items(), key=lambda item: abs(item[1] - base))
+            off = _off(result.figures[name], median - base)
+            words.append(f"{named(source.name)}: {other} {off} against {source.nominal}")
     return "; ".join(words) or "none scatters"
 
 

@@ -8,6 +8,7 @@ import shift_stand_in
 from scatter_stand_in import study
 
 from thrustwasher.report.html import render
+from thrustwasher.report.scatter import scatter_page
 from thrustwasher.report.shift import shift_report
 from thrustwasher.report.shift.how_sure import STUDY, how_sure_sections
 from thrustwasher.report.shift.overview_plot import overview_figure
@@ -68,6 +69,17 @@ def test_the_whole_study_is_linked_and_its_warnings_stand_there():
     texts = how_sure_sections(warned)[0].texts
     assert any(f'<a href="{STUDY}">' in text for text in texts)
     assert texts[-1] == "The shortcut errs by 3 %."
+
+
+def test_a_note_on_errors_is_no_warning():
+    noted = study(notes=("the shortcut errs by 2 %",))
+    sections = {s.anchor: s.texts for s in how_sure_sections(replace(STUDIED, scatter=noted))}
+    assert "The shortcut errs by 2 %." in sections["scatter"]
+    page = scatter_page(noted)
+    assert not page.warnings
+    assert (
+        "The shortcut errs by 2 %." in next(s for s in page.sections if s.anchor == "errors").texts
+    )
 
 
 def test_bands_over_time_are_in_the_page_and_in_its_picture(no_moments):

@@ -80,6 +80,7 @@ class Runs:
             units=self.units,
             groups=tuple(self._joined(group) for group in scatter.groups),
             warnings=(*scatter.warnings, *warnings, *self._warnings(figures)),
+            notes=getattr(target, "notes", ()),
         )
 
     def sample(self) -> dict[str, Any]:

@@ -120,6 +120,8 @@ class ScatterResult:
     groups: tuple[str, ...] = ()
     """Sources as indices have them: correlated ones by their joined names."""
     warnings: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    """What is to be known of errors, and no warning."""
     wall_time: float = 0.0
 
     def as_dict(self) -> dict[str, Any]:
@@ -148,6 +150,7 @@ class ScatterResult:
                 },
                 "nearest": {name: _by_text(rows) for name, rows in self.nearest.items()},
                 "warnings": list(self.warnings),
+                "notes": list(self.notes),
                 "wall_time": self.wall_time,
             }
         )

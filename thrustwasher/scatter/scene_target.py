@@ -5,8 +5,9 @@ for them, the outcome ``film_lost`` and the series ``washer.*`` are NaN. NaN in 
 says that this run has no such figure: a shift that does not lock has no lock-up time.
 
 The shortcut of ``scene_runs`` is compared with full runs when the target is made:
-``target.shortcut`` has its largest error by figure, ``target.warnings`` says it. Where it errs by
-more than a tenth of a figure's band all runs are full ones; then nothing is costly.
+``target.shortcut`` has its largest error by figure, ``target.notes`` says it. Where it errs by
+more than a tenth of a figure's band all runs are full ones, which ``target.warnings`` says; then
+nothing is costly.
 """
 
 import hashlib
@@ -90,7 +91,9 @@ class SceneTarget:
     kind: Literal["scene"] = "scene"
     reasons = REASONS
     warnings: tuple[str, ...] = ()
-    """What must not be missed, a line each: what the shortcut errs by among them."""
+    """What must not be missed, a line each."""
+    notes: tuple[str, ...] = ()
+    """What else is to be known of its errors."""
 
     def __init__(
         self, scene: Scene, scatter: Scatter, nominal: ShiftResult, errors: Mapping[str, float]
@@ -214,7 +217,9 @@ class SceneTarget:
         if worst[0][1] > SHARE:
             self.played = {}
             text += f"; above {100.0 * SHARE:g} %, so that all runs are full ones"
-        self.warnings = (text,)
+            self.warnings, self.notes = (text,), ()
+        else:
+            self.notes = (text,)
 
     def _answer(self, loop: Loop, row: Mapping[str, Any], costly: bool, records: Records) -> Array:
         """Return the row of a run; ``records``: washers that were followed, by their values."""

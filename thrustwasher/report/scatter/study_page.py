@@ -271,7 +271,8 @@ def source_section(result: Any) -> Section:
 def error_section(result: Any, names: Sequence[str]) -> Section:
     """Return mesh, model and inputs side by side."""
     table = tables.error_table(result, names)
-    return Section("errors", "Mesh, model, inputs", texts=[ERROR_TEXT], tables=[table])
+    texts = [ERROR_TEXT, *map(sentence, result.notes)]
+    return Section("errors", "Mesh, model, inputs", texts=texts, tables=[table])
 
 
 def _nearest_sections(

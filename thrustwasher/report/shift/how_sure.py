@@ -46,7 +46,7 @@ def how_sure_sections(record: Record) -> list[Section]:
         Section(
             "scatter",
             "What scatters, and the errors beside it",
-            texts=[SOURCES_TEXT, ERROR_TEXT],
+            texts=[SOURCES_TEXT, ERROR_TEXT, *map(sentence, result.notes)],
             tables=[sources, errors, *_failed(record)],
         ),
     ]

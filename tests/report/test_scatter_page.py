@@ -59,6 +59,21 @@ def test_each_source_says_what_it_rests_on():
     assert rows[2][1:] == ("cyclic", "either cyclic or none", "given")
 
 
+def test_a_part_s_point_correlations_and_command_are_there():
+    pair = ("oil_temperature", "transmission.thrust_share", -0.5)
+    setting = {"rung": "field", "speed": "545 rad/s"}
+    changes = {"kind": "part", "setting": setting, "model": "washer", "correlations": (pair,)}
+    page = scatter_page(study(**changes), {"slip_energy": {0.5: "heat-50.toml"}})
+    assert "Part made-up (rung field, speed 545 rad/s), 3 inputs" in page.subtitle
+    texts = section(page, "sources").texts
+    assert texts[1:] == [
+        "Held: rung field, speed 545 rad/s.",
+        "Correlated, by their normal scores: oil temperature and transmission: thrust share "
+        f"{MINUS}0.50.",
+    ]
+    assert "thrustwasher washer --part FILE solves it" in section(page, "nearest").texts[0]
+
+
 def test_a_nominal_value_outside_its_band_is_said_first():
     found = study()
     heat = replace(found.figures["slip_energy"], nominal=9e3)
@@ -96,7 +111,7 @@ def test_both_ends_of_a_band_have_as_many_digits():
 def test_a_lost_film_is_defined_once_and_its_group_is_counted():
     text = " ".join(scatter_page(study()).summary)
     assert text.count("Film lost: in contact (distress) at any instant while it turns.") == 1
-    assert "16 of 64 base runs lose the film and form a second group" in text
+    assert "In 16 of 64 base runs the film is lost; they form a second group" in text
     of_a_part = " ".join(scatter_page(study(kind="part")).summary)
     assert "Film lost: the asperities carry: the contact branch" in of_a_part
 
@@ -216,7 +231,10 @@ def test_too_few_runs_for_a_regression_name_nothing():
 
 def test_the_verdict_names_what_it_rests_on():
     (text,) = verdict(study(), "the washers", ["least_washer_film_ratio"])
-    assert text.startswith("The verdict on the washers rests most on transmission: thrust share")
+    assert text.startswith(
+        "The verdict on the washers rests most on transmission: thrust share, an "
+    )
+    assert "an estimate: its" in text
     assert (
         f"rank regression coefficient for “least film ratio of the washers” is {MINUS}1.00" in text
     )

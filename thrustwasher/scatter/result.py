@@ -119,6 +119,12 @@ class ScatterResult:
     """Of the sample's columns."""
     groups: tuple[str, ...] = ()
     """Sources as indices have them: correlated ones by their joined names."""
+    correlations: tuple[tuple[str, str, float], ...] = ()
+    """Pairs of correlated sources, with the correlation of their normal scores."""
+    model: str = ""
+    """Command that solves a part."""
+    setting: dict[str, str] = field(default_factory=dict)
+    """Of a part what does not scatter: its rung, its point, its oil, in words."""
     warnings: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     """What is to be known of errors, and no warning."""
@@ -142,6 +148,8 @@ class ScatterResult:
                 "failures": self.failed,
                 "reached": self.reached,
                 "seed": self.seed,
+                "setting": self.setting,
+                "correlations": [list(pair) for pair in self.correlations],
                 "sources": [line._asdict() for line in self.sources],
                 "figures": figures,
                 "probabilities": {name: p.value for name, p in self.probabilities.items()},

@@ -155,6 +155,17 @@ def most_words(of: Sequence[Share], words: Callable[[str], str] = joined) -> str
     return f"decided most by {shown}{tied}"
 
 
+def flagged(result: Any, words: Callable[[str], str] = joined) -> Callable[[str], str]:
+    """Return words of a source that say if it rests on an estimate."""
+    estimates = {s.name for s in result.sources if s.reason.lower().startswith("estimate")}
+
+    def found(name: str) -> str:
+        is_one = not estimates.isdisjoint(name.split(" + "))
+        return words(name) + (", an estimate" if is_one else "")
+
+    return found
+
+
 def share_words(share: Share, words: Callable[[str], str] = joined) -> str:
     """Return what a source decides in words."""
     half = f" ± {share.half:.2f}" if math.isfinite(share.half) else ""
@@ -186,6 +197,7 @@ def verdict(
         return [f"These runs are too few to say which input decides the figures of {of}."]
     if not names:
         return []
+    words = flagged(result, words)
     name = max(sure, key=lambda name: leading(found[name])[0].weight)
     title, first = title_of(name, result.figures[name]), leading(found[name])
     others = [s for s in found[name] if s.is_sure and s.weight >= 0.1 and s not in first][:2]
@@ -222,8 +234,9 @@ def lost_texts(result: Any) -> list[str]:
     texts = [f"Film lost: {LOST_TEXTS[result.kind]}."]
     lost, p = column(result.sample, LOST), result.probabilities[LOST]
     if lost is not None and 0.0 < p.value < 0.5:
+        count = int(np.nansum(lost))
         texts.append(
-            f"{int(np.nansum(lost))} of {result.runs} base runs lose the film and form a second "
+            f"In {count} of {result.runs} base runs the film is lost; they form a second "
             "group: a 5 or 95 % quantile near that share may fall into either group."
         )
     return texts

@@ -8,7 +8,19 @@ from ...units import format_quantity as say
 from ..html import Card, Page, Plot, Section
 from . import scatter_plots as plots
 from . import scatter_tables as tables
-from .decides import INDEX, LEAST, RANK, chances, column, lost_texts, most_words, shares, verdict
+from .decides import (
+    INDEX,
+    LEAST,
+    RANK,
+    chances,
+    column,
+    flagged,
+    lost_texts,
+    most_words,
+    shares,
+    signed,
+    verdict,
+)
 from .words import (
     LOST,
     band_scale,
@@ -118,7 +130,13 @@ def main_figures(result: Any, most: int) -> list[str]:
 def _subtitle(result: Any) -> str:
     kind = {"part": "Part", "scene": "Scene"}.get(result.kind, "Function")
     runs = f"{len(result.sources)} inputs scatter, {result.runs} base points, {result.solves} runs"
-    return f"{kind} {result.target}, {runs}, made by thrustwasher"
+    held = f" ({setting_words(result)})" if result.setting else ""
+    return f"{kind} {result.target}{held}, {runs}, made by thrustwasher"
+
+
+def setting_words(result: Any) -> str:
+    """Return what of a part does not scatter: rung, operating point, oil."""
+    return ", ".join(f"{named(name)} {value}" for name, value in result.setting.items())
 
 
 def _verdicts(result: Any, names: Sequence[str]) -> list[str]:
@@ -145,7 +163,7 @@ def _first_decided(result: Any, names: Sequence[str]) -> list[str]:
     for name in list(dict.fromkeys([*film, *names]))[:3]:
         if of := shares(result, name):
             title, band = title_of(name, result.figures[name]), result.figures[name]
-            texts.append(f"{title}: {band_words(band)}, {most_words(of)}")
+            texts.append(f"{title}: {band_words(band)}, {most_words(of, flagged(result))}")
     return [f"{'; '.join(texts)}."] if texts else []
 
 
@@ -264,8 +282,21 @@ def over_time_sections(result: Any) -> list[Section]:
 def source_section(result: Any) -> Section:
     """Return what scatters, how, and what that rests on."""
     return Section(
-        "sources", "What scatters", texts=[SOURCES_TEXT], tables=[tables.source_table(result)]
+        "sources",
+        "What scatters",
+        texts=source_texts(result),
+        tables=[tables.source_table(result)],
     )
+
+
+def source_texts(result: Any) -> list[str]:
+    """Return what is to be known of the sources: estimates, the point, correlations."""
+    pairs = [f"{named(a)} and {named(b)} {signed(r)}" for a, b, r in result.correlations]
+    return [
+        SOURCES_TEXT,
+        *([f"Held: {setting_words(result)}."] if result.setting else []),
+        *([f"Correlated, by their normal scores: {', '.join(pairs)}."] if pairs else []),
+    ]
 
 
 def error_section(result: Any, names: Sequence[str]) -> Section:
@@ -281,7 +312,11 @@ def _nearest_sections(
     found = tables.nearest_tables(result, names, files)
     text = "The base runs nearest to the 5, 50 and 95 % quantile of a figure, with their inputs."
     if files:
-        runs = "shift --scene FILE runs" if result.kind == "scene" else "MODEL --part FILE solves"
+        runs = (
+            "shift --scene FILE runs"
+            if result.kind == "scene"
+            else f"{result.model} --part FILE solves"
+        )
         text += f" Each is a file beside this page: thrustwasher {runs} it."
     title = "Runs that stand for the band"
     return [Section("nearest", title, texts=[text], tables=found)] if found else []

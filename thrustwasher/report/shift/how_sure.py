@@ -8,11 +8,11 @@ from ..scatter.decides import chances, lost_texts, shares, verdict
 from ..scatter.study_page import (
     ERROR_TEXT,
     MOST_FIGURES,
-    SOURCES_TEXT,
     decided_sections,
     film_figures,
     main_figures,
     over_time_sections,
+    source_texts,
     washer_figures,
 )
 from ..scatter.words import joined, not_expected, sentence, spoken
@@ -46,7 +46,7 @@ def how_sure_sections(record: Record) -> list[Section]:
         Section(
             "scatter",
             "What scatters, and the errors beside it",
-            texts=[SOURCES_TEXT, ERROR_TEXT, *map(sentence, result.notes)],
+            texts=[*source_texts(result), ERROR_TEXT, *map(sentence, result.notes)],
             tables=[sources, errors, *_failed(record)],
         ),
     ]

@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 import shift_stand_in
@@ -44,9 +45,21 @@ def test_key_figures_stand_beside_their_bands(no_moments):
     notes = {card.name: card.note for card in shift_report.shift_page(STUDIED).cards}
     bands = {name: note.replace("\N{NO-BREAK SPACE}", " ") for name, note in notes.items()}
     assert bands["slip energy"] == "5 .. 95 %: 10.9 .. 11.1 kJ"
-    assert bands["lock after ramp start"].endswith("above; 5 .. 95 %: 0.834 .. 0.846 s")
+    assert bands["lock after ramp start"].endswith("above<br>5 .. 95 %: 0.834 .. 0.846 s")
     assert bands["lock speed"] == ""
     assert bands["probability: film lost"] == "95 % confidence: 16 .. 36 %"
+
+
+def test_bands_of_steady_washers_share_the_doubt_of_the_run(no_moments):
+    figures = study().figures
+    hot = replace(figures["slip_energy"], unit="K", help="hottest spot of the washer")
+    scatter = study(figures={**figures, "peak_washer_temperature_max": hot})
+    steady = replace(ALONE, scatter=scatter)
+    text = " ".join(map(str, how_sure_sections(steady)[0].texts))
+    assert "are not followed in time" in text and "as doubtful" not in text
+    found = SimpleNamespace(differences=["one"], stopped="", time=[0.0])
+    doubted = replace(steady, in_time={"washer": found})
+    assert "as doubtful" in " ".join(map(str, how_sure_sections(doubted)[0].texts))
 
 
 def test_what_is_usual_has_the_probability_of_lying_outside():

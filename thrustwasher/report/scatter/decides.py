@@ -231,7 +231,7 @@ def lost_texts(result: Any) -> list[str]:
     """Return what a lost film is, and how many runs form a group of their own by it."""
     if LOST not in result.probabilities or result.kind not in LOST_TEXTS:
         return []
-    texts = [f"Film lost: {LOST_TEXTS[result.kind]}."]
+    texts = [f"“Film lost” means: {LOST_TEXTS[result.kind]}."]
     lost, p = column(result.sample, LOST), result.probabilities[LOST]
     if lost is not None and 0.0 < p.value < 0.5:
         count = int(np.nansum(lost))

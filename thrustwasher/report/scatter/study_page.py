@@ -162,9 +162,10 @@ def _first_decided(result: Any, names: Sequence[str]) -> list[str]:
     texts = []
     film = [n for n in ("film_ratio",) if LOST in result.probabilities and n in result.figures]
     for name in list(dict.fromkeys([*film, *names]))[:3]:
-        if of := shares(result, name):
-            title, band = title_of(name, result.figures[name]), result.figures[name]
-            texts.append(f"{title}: {band_words(band)}, {most_words(of, flagged(result))}")
+        band = result.figures[name]
+        if varies(band):
+            most = most_words(shares(result, name), flagged(result))
+            texts.append(f"{title_of(name, band)}: {band_words(band)}, {most}")
     return [f"{'; '.join(texts)}."] if texts else []
 
 

@@ -37,11 +37,11 @@ def index(total: float, half: float = 0.04) -> Index:
 def band(values: np.ndarray, unit: str, help: str, *totals: float, **more: object) -> Band:
     """Return the band of values, decided by the sources to these totals; none: no indices."""
     at = dict(zip(LEVELS, np.nanquantile(values, LEVELS).tolist(), strict=True))
-    names = [source.name for source in SOURCES]
+    names, wide = [source.name for source in SOURCES], 0.1 * (at[0.95] - at[0.05])
     usual = {"usual": (-np.inf, np.inf), "nominal": at[0.5], **more}
     return Band(
         quantiles=at,
-        confidence={level: (0.9 * x, np.inf) for level, x in at.items()},
+        confidence={level: (x - wide, x + wide) for level, x in at.items()},
         mean=float(np.nanmean(values)),
         standard_deviation=float(np.nanstd(values)),
         indices=dict(zip(names, map(index, totals), strict=False)),

@@ -2,12 +2,14 @@
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 import shift_stand_in
 from scatter_stand_in import study
 
 from thrustwasher.report.html import render
+from thrustwasher.report.scatter import scatter_page
 from thrustwasher.report.shift import shift_report
 from thrustwasher.report.shift.how_sure import STUDY, how_sure_sections
 from thrustwasher.report.shift.overview_plot import overview_figure
@@ -43,14 +45,27 @@ def test_key_figures_stand_beside_their_bands(no_moments):
     notes = {card.name: card.note for card in shift_report.shift_page(STUDIED).cards}
     bands = {name: note.replace("\N{NO-BREAK SPACE}", " ") for name, note in notes.items()}
     assert bands["slip energy"] == "5 .. 95 %: 10.9 .. 11.1 kJ"
-    assert bands["lock after ramp start"].endswith("above; 5 .. 95 %: 0.834 .. 0.846 s")
+    assert bands["lock after ramp start"].endswith("above<br>5 .. 95 %: 0.834 .. 0.846 s")
     assert bands["lock speed"] == ""
+    assert bands["probability: film lost"] == "95 % confidence: 16 .. 36 %"
+
+
+def test_bands_of_steady_washers_share_the_doubt_of_the_run(no_moments):
+    figures = study().figures
+    hot = replace(figures["slip_energy"], unit="K", help="hottest spot of the washer")
+    scatter = study(figures={**figures, "peak_washer_temperature_max": hot})
+    steady = replace(ALONE, scatter=scatter)
+    text = " ".join(map(str, how_sure_sections(steady)[0].texts))
+    assert "are not followed in time" in text and "as doubtful" not in text
+    found = SimpleNamespace(differences=["one"], stopped="", time=[0.0])
+    doubted = replace(steady, in_time={"washer": found})
+    assert "as doubtful" in " ".join(map(str, how_sure_sections(doubted)[0].texts))
 
 
 def test_what_is_usual_has_the_probability_of_lying_outside():
     row = row_of(usual_table(STUDIED), "shift, from the first pressure to lock-up")
     words = tuple(text.replace("\N{NO-BREAK SPACE}", " ") for text in row[2:4])
-    assert words == ("0.834 .. 0.846 s", "31.2 % (20 .. 44 %)")
+    assert words == ("0.834 .. 0.846 s", "0 % below, 100 % above (20 .. 44 %)")
     assert row_of(usual_table(STUDIED), "mean coefficient of friction")[2:4] == ("", "")
 
 
@@ -67,6 +82,17 @@ def test_the_whole_study_is_linked_and_its_warnings_stand_there():
     texts = how_sure_sections(warned)[0].texts
     assert any(f'<a href="{STUDY}">' in text for text in texts)
     assert texts[-1] == "The shortcut errs by 3 %."
+
+
+def test_a_note_on_errors_is_no_warning():
+    noted = study(notes=("the shortcut errs by 2 %",))
+    sections = {s.anchor: s.texts for s in how_sure_sections(replace(STUDIED, scatter=noted))}
+    assert "The shortcut errs by 2 %." in sections["scatter"]
+    page = scatter_page(noted)
+    assert not page.warnings
+    assert (
+        "The shortcut errs by 2 %." in next(s for s in page.sections if s.anchor == "errors").texts
+    )
 
 
 def test_bands_over_time_are_in_the_page_and_in_its_picture(no_moments):

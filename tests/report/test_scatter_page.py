@@ -9,10 +9,10 @@ from scatter_stand_in import LEVELS, NOTHING, SOURCES, band, study
 
 from thrustwasher.report.html import Plot, Table, render, themed
 from thrustwasher.report.scatter import scatter_page
-from thrustwasher.report.scatter.decides import RANK, shares, verdict
+from thrustwasher.report.scatter.decides import RANK, leading, shares, verdict
 from thrustwasher.report.scatter.scatter_plots import bar_figure, decided_over_time
 from thrustwasher.report.scatter.scatter_tables import error_table, figure_table, matrix_table
-from thrustwasher.report.scatter.words import named, percent
+from thrustwasher.report.scatter.words import band_words, named, percent
 from thrustwasher.scatter.result import Probability
 
 MINUS = "\N{MINUS SIGN}"
@@ -43,7 +43,7 @@ def test_a_figure_stands_with_band_range_and_probability():
     assert row[0] == "clutch locks, after the shift began [s]"
     low, middle, high = (float(x) for x in row[2:5])
     assert low < middle < high and middle == pytest.approx(0.84, abs=2e-3)
-    assert row[5:] == ("0.3 .. 0.8 s", "31.2 % (20 .. 44 %)")
+    assert row[5:] == ("0.3 .. 0.8 s", "0 % below, 100 % above (20 .. 44 %)")
 
 
 def test_probabilities_are_at_the_top_with_their_confidence():
@@ -57,6 +57,63 @@ def test_each_source_says_what_it_rests_on():
     assert rows[0] == ("transmission: thrust share", "0.1", "uniform 0.04 .. 0.16", "estimate")
     assert rows[1][1:] == ("80 °C", "normal, standard deviation 3 K", "ISO 0815")
     assert rows[2][1:] == ("cyclic", "either cyclic or none", "given")
+
+
+def test_a_part_s_point_correlations_and_command_are_there():
+    pair = ("oil_temperature", "transmission.thrust_share", -0.5)
+    setting = {"rung": "field", "speed": "545 rad/s"}
+    changes = {"kind": "part", "setting": setting, "model": "washer", "correlations": (pair,)}
+    page = scatter_page(study(**changes), {"slip_energy": {0.5: "heat-50.toml"}})
+    assert "Part made-up (rung field, speed 545 rad/s), 3 inputs" in page.subtitle
+    texts = section(page, "sources").texts
+    assert texts[1:] == [
+        "Held: rung field, speed 545 rad/s.",
+        "Correlated, by their normal scores: oil temperature and transmission: thrust share "
+        f"{MINUS}0.50.",
+    ]
+    assert "thrustwasher washer --part FILE solves it" in section(page, "nearest").texts[0]
+
+
+def test_a_nominal_value_outside_its_band_is_said_first():
+    found = study()
+    heat = replace(found.figures["slip_energy"], nominal=9e3)
+    page = scatter_page(replace(found, figures={**found.figures, "slip_energy": heat}))
+    assert page.summary[-1] == (
+        "The nominal value is not what to expect: heat in the clutch 9 kJ against 10.9 .. 11.1 kJ "
+        "in nine of ten runs, median 11 kJ."
+    )
+    assert not any("not what to expect" in text for text in scatter_page(found).summary)
+
+
+def test_a_probability_has_no_more_digits_than_its_runs_tell():
+    assert [percent(x, 64) for x in (5 / 64, 0.0, 63.9 / 64)] == ["8 %", "0 %", "above 99 %"]
+    assert [percent(x, 1024) for x in (1 / 1024, 80 / 1024)] == ["0.1 %", "7.8 %"]
+
+
+def test_a_loose_quantile_shows_its_confidence_on_the_card():
+    found = study()
+    film = found.figures["least_washer_film_ratio"]
+    loose = replace(film, confidence=film.confidence | {0.95: (5.0, np.inf)})
+    figures = {**found.figures, "least_washer_film_ratio": loose}
+    notes = {c.name: c.note for c in scatter_page(replace(found, figures=figures)).cards}
+    own = notes["least film ratio of the washers"]
+    assert own.endswith("95 % quantile by 95 % confidence: 5 or more")
+    assert "confidence" not in notes["heat in the clutch"]
+
+
+def test_both_ends_of_a_band_have_as_many_digits():
+    at = dict(zip(LEVELS, (0.1923, 0.999, 0.9999), strict=True))
+    assert band_words(replace(study().figures["slip_energy"], unit="1", quantiles=at)) == (
+        "0.192 .. 1.00"
+    )
+
+
+def test_a_lost_film_is_defined_once_and_its_group_is_counted():
+    text = " ".join(scatter_page(study()).summary)
+    assert text.count("Film lost: in contact (distress) at any instant while it turns.") == 1
+    assert "In 16 of 64 base runs the film is lost; they form a second group" in text
+    of_a_part = " ".join(scatter_page(study(kind="part")).summary)
+    assert "Film lost: the asperities carry: the contact branch" in of_a_part
 
 
 def test_failed_runs_stand_by_their_reason():
@@ -120,18 +177,67 @@ def test_without_indices_ranks_decide():
     assert all(abs(s.value) < 0.4 for s in of[1:])
 
 
+def with_film(film, **changes):
+    """Return a study with another least film ratio (N,)."""
+    found = study(**changes)
+    return replace(found, sample=found.sample | {"least_washer_film_ratio": film})
+
+
 def test_a_choice_that_decides_is_found_by_its_ranks():
-    found = study()
-    film = np.where(np.array(found.sample["washer.cavity_shear"]) == "none", 1.0, 9.0)
-    sample = found.sample | {"least_washer_film_ratio": film + 0.01 * np.arange(len(film))}
-    of = shares(replace(found, sample=sample), "least_washer_film_ratio")
+    of_choice = np.where(np.array(study().sample["washer.cavity_shear"]) == "none", 1.0, 9.0)
+    of = shares(with_film(of_choice + 0.01 * np.arange(64)), "least_washer_film_ratio")
     assert of[0].source == "washer.cavity_shear" and of[0].weight > 0.7
+
+
+def test_an_input_that_only_seems_to_decide_is_not_named():
+    oil = study().sample["oil_temperature"] - 353.15
+    echo = study().sample["transmission.thrust_share"] - 0.02 * oil  # correlated in the sample
+    sample = {"transmission.thrust_share": echo, "least_washer_film_ratio": oil}
+    found = study()
+    found = replace(found, sample=found.sample | sample)
+    assert abs(np.corrcoef(echo, oil)[0, 1]) > 0.5
+    assert [s.source for s in leading(shares(found, "least_washer_film_ratio"))] == [
+        "oil_temperature"
+    ]
+
+
+def test_what_is_not_told_apart_is_named_together():
+    found = study()
+    share, oil = (found.sample[s.name] for s in SOURCES[:2])
+    film = (share - 0.1) / share.std() + (oil - 353.15) / oil.std()
+    noise = np.random.default_rng(1).normal(size=64)
+    (text,) = verdict(with_film(film + noise), "the washers", ["least_washer_film_ratio"])
+    assert "transmission: thrust share" in text and "oil temperature" in text
+    assert "not told apart by so few runs" in text
+    (text,) = verdict(with_film(noise), "the washers", ["least_washer_film_ratio"])
+    assert text == "These runs are too few to say which input decides the figures of the washers."
+
+
+def test_correlated_inputs_are_named_together_without_a_sign():
+    both = "transmission.thrust_share + oil_temperature"
+    found = study(groups=(both, "washer.cavity_shear"))
+    of = shares(found, "least_washer_film_ratio")
+    assert of[0].source == both and of[0].value == pytest.approx(1.0)
+
+
+def test_too_few_runs_for_a_regression_name_nothing():
+    found = study()
+    few = {name: column[:6] for name, column in found.sample.items()}
+    found = replace(found, sample=few)
+    assert shares(found, "least_washer_film_ratio") == []
+    (text,) = verdict(found, "the washers", ["least_washer_film_ratio"])
+    assert text.startswith("These runs are too few to say which input decides")
 
 
 def test_the_verdict_names_what_it_rests_on():
     (text,) = verdict(study(), "the washers", ["least_washer_film_ratio"])
-    assert text.startswith("The verdict on the washers rests most on transmission: thrust share")
-    assert f"{MINUS}1.00" in text
+    assert text.startswith(
+        "The verdict on the washers rests most on transmission: thrust share, an "
+    )
+    assert "an estimate: its" in text
+    assert (
+        f"rank regression coefficient for “least film ratio of the washers” is {MINUS}1.00" in text
+    )
     (text,) = verdict(study(), "the shift", ["slip_energy", "lock_after_ramp_start", "absent"])
     assert "oil temperature: alone or with others it makes 99 % of the variance of “heat" in text
     assert verdict(study(), "the shift", ["peak_jerk"]) == []
@@ -141,7 +247,10 @@ def test_mesh_model_and_inputs_stand_side_by_side():
     found = study()
     lock, film = error_table(found, ["lock_after_ramp_start", "least_washer_film_ratio"]).rows
     assert lock[1] == "± 0.2 %" and film[1] == "not known"
-    assert film[2].startswith("washer: cavity shear: cyclic +")
+    minus = re.fullmatch(rf"washer: cavity shear: none {MINUS}(.+) against cyclic", film[2])
+    turned = replace(found, sources=(*SOURCES[:2], SOURCES[2]._replace(nominal="none")))
+    plus = error_table(turned, ["least_washer_film_ratio"]).rows[0][2]
+    assert minus and plus.startswith("washer: cavity shear: cyclic +")
     assert re.fullmatch(rf"{MINUS}\d+ % .. \+\d+ %", film[3])
     plain = replace(found, sources=SOURCES[:2])
     assert error_table(plain, ["slip_energy"]).rows[0][2] == "none scatters"
@@ -181,7 +290,7 @@ def test_tiles_have_the_colours_of_the_page():
 
 
 def test_names_and_shares_are_words():
-    assert named("pressure.clutch.points.3") == "pressure clutch: points, no. 4"
+    assert named("pressure.clutch.points.3") == "pressure.clutch.points.3"
     assert named("oil_temperature") == "oil temperature"
     assert (percent(0.9996), percent(1.0), percent(2e-4)) == (
         "above 99.9 %",

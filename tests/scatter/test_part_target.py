@@ -40,6 +40,12 @@ def single(part, row, reached="below", **more):
     return solve_washer(params, **point, branch=BRANCH[reached], throw=False, **more)
 
 
+def test_what_does_not_scatter_is_said():
+    target = target_of(WASHER, SURFACES)
+    assert target.model == "washer" and target.setting["rung"] == "field"
+    assert target.setting["speed"] == "545 rad/s" and "tilt" not in target.setting
+
+
 # Washers, where there are two solutions
 
 

@@ -78,7 +78,15 @@ class Runs:
             nearest={f.name: self._nearest(i, at[:, i], sample) for i, f in self._present(at)},
             sample=sample,
             units=self.units,
+            groups=tuple(self._joined(group) for group in scatter.groups),
             warnings=(*scatter.warnings, *warnings, *self._warnings(figures)),
+            correlations=tuple(
+                (scatter.names[i], scatter.names[k], float(scatter.correlation[i, k]))
+                for i, k in np.argwhere(np.triu(scatter.correlation, 1))
+            ),
+            model=getattr(target, "model", ""),
+            setting=getattr(target, "setting", {}),
+            notes=getattr(target, "notes", ()),
         )
 
     def sample(self) -> dict[str, Any]:

@@ -22,6 +22,7 @@ from ..model.scatter import Scatter
 from ..model.spec import Signal
 from ..sweep.row_doubts import beyond
 from ..sweep.solve_rows import Task, output_signals, solve_task
+from ..units import format_quantity
 from .target import Array, Figure, Flags
 
 LOST = "film_lost"
@@ -69,6 +70,21 @@ class PartTarget:
             "reached": self.reached,
             "outputs": ", ".join(f.name for f in self.figures),
         }
+
+    @property
+    def model(self) -> str:
+        """The command that solves it."""
+        return self.part.spec.key
+
+    @property
+    def setting(self) -> dict[str, str]:
+        """Rung, inputs that do not scatter and a named oil, as words."""
+        found = {"rung": self.fidelity}
+        for s in self.part.spec.inputs:
+            value = self.inputs[s.name]
+            if s.name not in self.scatter.names and (value or not s.optional):
+                found[s.name] = format_quantity(value, s.unit, difference=s.relative)
+        return found | ({"oil": self.part.oil_words} if self.part.oil else {})
 
     def touches(self, _source: str) -> bool:
         """Any source may matter."""

@@ -117,7 +117,17 @@ class ScatterResult:
     """Base runs by columns: sources, figures, outcomes, status."""
     units: dict[str, str] = field(default_factory=dict, repr=False)
     """Of the sample's columns."""
+    groups: tuple[str, ...] = ()
+    """Sources as indices have them: correlated ones by their joined names."""
+    correlations: tuple[tuple[str, str, float], ...] = ()
+    """Pairs of correlated sources, with the correlation of their normal scores."""
+    model: str = ""
+    """Command that solves a part."""
+    setting: dict[str, str] = field(default_factory=dict)
+    """Of a part what does not scatter: its rung, its point, its oil, in words."""
     warnings: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    """What is to be known of errors, and no warning."""
     wall_time: float = 0.0
 
     def as_dict(self) -> dict[str, Any]:
@@ -138,6 +148,8 @@ class ScatterResult:
                 "failures": self.failed,
                 "reached": self.reached,
                 "seed": self.seed,
+                "setting": self.setting,
+                "correlations": [list(pair) for pair in self.correlations],
                 "sources": [line._asdict() for line in self.sources],
                 "figures": figures,
                 "probabilities": {name: p.value for name, p in self.probabilities.items()},
@@ -146,6 +158,7 @@ class ScatterResult:
                 },
                 "nearest": {name: _by_text(rows) for name, rows in self.nearest.items()},
                 "warnings": list(self.warnings),
+                "notes": list(self.notes),
                 "wall_time": self.wall_time,
             }
         )

@@ -5,8 +5,9 @@ for them, the outcome ``film_lost`` and the series ``washer.*`` are NaN. NaN in 
 says that this run has no such figure: a shift that does not lock has no lock-up time.
 
 The shortcut of ``scene_runs`` is compared with full runs when the target is made:
-``target.shortcut`` has its largest error by figure, ``target.warnings`` says it. Where it errs by
-more than a tenth of a figure's band all runs are full ones; then nothing is costly.
+``target.shortcut`` has its largest error by figure, ``target.notes`` says it. Where it errs by
+more than a tenth of a figure's band all runs are full ones, which ``target.warnings`` says; then
+nothing is costly.
 """
 
 import hashlib
@@ -64,8 +65,11 @@ REASONS = (
 )
 # Parameters of the transmission that decide on the washers alone.
 OF_WASHERS = ("transmission.thrust_share", "transmission.planet_tilt", "transmission.washer_radius")
-# Error of the communication step -> figure.
-STEP = {"heat": "slip_energy"}
+# Error of the communication step -> figures that it is of, relative; others have its name.
+STEP = {
+    "heat": ("slip_energy", "slip_energy_per_area"),
+    "lock_time": ("lock_time", "lock_after_ramp_start"),
+}
 
 Records = dict[tuple[Any, ...], dict[str, Recorded]]
 
@@ -87,7 +91,9 @@ class SceneTarget:
     kind: Literal["scene"] = "scene"
     reasons = REASONS
     warnings: tuple[str, ...] = ()
-    """What must not be missed, a line each: what the shortcut errs by among them."""
+    """What must not be missed, a line each."""
+    notes: tuple[str, ...] = ()
+    """What else is to be known of its errors."""
 
     def __init__(
         self, scene: Scene, scatter: Scatter, nominal: ShiftResult, errors: Mapping[str, float]
@@ -223,7 +229,9 @@ class SceneTarget:
         if worst[0][1] > SHARE:
             self.played = {}
             text += f"; above {100.0 * SHARE:g} %, so that all runs are full ones"
-        self.warnings = (text,)
+            self.warnings, self.notes = (text,), ()
+        else:
+            self.notes = (text,)
 
     def _answer(self, loop: Loop, row: Mapping[str, Any], costly: bool, records: Records) -> Array:
         """Return the row of a run; ``records``: washers that were followed, by their values."""
@@ -289,7 +297,7 @@ def scene_target(
         errors = {}
         with suppress(ParameterError, SolveError):
             found = step_error(nominal, reset(instances), run_shift).errors()
-            errors = {STEP.get(name, name): x for name, x in found.items()}
+            errors = {n: x for name, x in found.items() for n in STEP.get(name, (name,))}
         errors |= _of_mesh(nominal)
     target = SceneTarget(scene, scatter, nominal, errors)
     if outputs is not None:

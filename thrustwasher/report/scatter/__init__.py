@@ -1,7 +1,7 @@
 """How sure figures are: the page of a study, and what a shift's report takes of it.
 
 ==================  ========================================================================
-``decides``         what decides a figure: total indices, else rank correlations
+``decides``         what decides a figure: total indices, else rank regression
 ``scatter_plots``   bands over time, distributions, bars of what decides
 ``scatter_tables``  the tables as rows of text
 ``study_page``      the page of a study

@@ -12,6 +12,7 @@ from ..style import styled
 from .decides import LEAST, RANK, Share, column
 from .words import (
     HIGH,
+    LOST,
     LOW,
     MIDDLE,
     Scale,
@@ -30,7 +31,6 @@ PER_INCH = 12.0  # letters of a title
 PLAIN = Scale("")
 LETTERS = 46  # of a name above a bar
 DRAWN = 0.01  # of the greatest spread: below it indices over time say nothing
-LOST = "film_lost"
 
 
 def _tile(

@@ -18,6 +18,7 @@ from .words import (
     band_words,
     joined,
     named,
+    outside_words,
     percent,
     plain,
     probability,
@@ -38,7 +39,7 @@ def figure_table(result: Any, names: Sequence[str] | None = None) -> Table:
         scale = band_scale(band)
         numbers = [scale.number(x) for x in (band.nominal, *map(band.quantiles.get, LEVELS))]
         usual = "" if band.outside is None else scale.span(*band.usual)
-        outside = "" if band.outside is None else probability(band.outside)
+        outside = outside_words(result, name)
         rows.append((with_unit(title_of(name, band), scale), *numbers, usual, outside))
     heads = ("", "nominal", *LEVELS.values(), "usual", "P(outside usual)")
     if not any(row[-1] for row in rows):  # nothing has a usual range
@@ -65,7 +66,10 @@ def confidence_table(result: Any) -> Table:
 
 def probability_table(result: Any) -> Table:
     """Return how probable each yes is."""
-    rows = [(name.replace("_", " "), probability(p)) for name, p in result.probabilities.items()]
+    rows = [
+        (name.replace("_", " "), probability(p, result.runs))
+        for name, p in result.probabilities.items()
+    ]
     return Table(("", "probability (95 % confidence)"), rows, numbers=(1,))
 
 
@@ -170,19 +174,22 @@ def choices_of(result: Any) -> list[str]:
 
 
 def _by_choice(result: Any, name: str) -> str:
-    """Return how far the medians of a model's choices lie apart."""
+    """Return how far a choice of the model moves the median at most, against the nominal choice."""
     values, words = column(result.sample, name), []
-    for source in choices_of(result):
-        drawn = np.asarray(result.sample[source])
+    for source in result.sources:
+        if source.name not in choices_of(result):
+            continue
+        drawn = np.asarray(result.sample[source.name])
         medians = {
             str(choice): float(np.median(own))
             for choice in dict.fromkeys(drawn.tolist())
             if values is not None and len(own := values[(drawn == choice) & np.isfinite(values)])
         }
-        if len(medians) > 1:
-            most, least = (pick(medians, key=medians.get) for pick in (max, min))  # type: ignore[arg-type]
-            off = _off(result.figures[name], medians[most] - medians[least])
-            words.append(f"{named(source)}: {most} {off} against {least}")
+        base = medians.pop(str(source.nominal), None)
+        if base is not None and medians:
+            other, median = max(medians.items(), key=lambda item: abs(item[1] - base))
+            off = _off(result.figures[name], median - base)
+            words.append(f"{named(source.name)}: {other} {off} against {source.nominal}")
     return "; ".join(words) or "none scatters"
 
 

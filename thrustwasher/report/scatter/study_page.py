@@ -8,22 +8,39 @@ from ...units import format_quantity as say
 from ..html import Card, Page, Plot, Section
 from . import scatter_plots as plots
 from . import scatter_tables as tables
-from .decides import INDEX, LEAST, RANK, chances, column, share_words, shares, verdict
+from .decides import (
+    INDEX,
+    LEAST,
+    RANK,
+    chances,
+    column,
+    flagged,
+    lost_texts,
+    most_words,
+    shares,
+    signed,
+    verdict,
+)
 from .words import (
+    LOST,
     band_scale,
     band_words,
     between,
     joined,
+    loose_words,
     named,
+    not_expected,
+    padded,
     percent,
     relative_spread,
     sentence,
+    steady_texts,
     title_of,
     varies,
 )
 
 MOST_FIGURES, MOST_CARDS, MOST_BANDS, MOST_OVER_TIME = 12, 8, 8, 4
-MUCH = 0.1  # square of a rank correlation that makes a source worth naming
+MUCH = 0.1  # square of a coefficient that makes a source worth naming
 BAND_TEXT = (
     "Shaded: 90 % of all runs are inside, instant by instant. Dashed: the nominal values of all "
     "inputs, which need not be the middle."
@@ -38,9 +55,10 @@ DECIDED_TEXT = (
     "is the 95 % confidence interval."
 )
 RANK_TEXT = (
-    "Of figures without indices: the rank correlation of the sample (Spearman), which says how "
-    "steadily a figure rises (blue) or falls (purple) with an input. With --indices all "
-    "they have indices too."
+    "Of figures without indices: the standardised rank regression coefficient, by least squares of "
+    "the figure's ranks on the ranks of all inputs: how steadily the figure rises (blue) or falls "
+    "(purple) with this input, the others held. A choice, and correlated inputs together, have no "
+    "sign. The line is the 95 % confidence interval. With --indices all they have indices too."
 )
 OVER_TIME_TEXT = (
     "Which input decides a signal at which time. Nothing is drawn where the signal hardly scatters."
@@ -70,7 +88,12 @@ def scatter_page(result: Any, files: tables.Files | None = None) -> Page:
     return Page(
         title=f"How sure: {result.target}",
         subtitle=_subtitle(result),
-        summary=[*_verdicts(result, chosen), *_chance_text(result)],
+        summary=[
+            *_verdicts(result, chosen),
+            *_chance_text(result),
+            *lost_texts(result),
+            *not_expected(result, chosen),
+        ],
         warnings=list(map(sentence, result.warnings)),
         cards=_cards(result, chosen),
         sections=[
@@ -108,7 +131,13 @@ def main_figures(result: Any, most: int) -> list[str]:
 def _subtitle(result: Any) -> str:
     kind = {"part": "Part", "scene": "Scene"}.get(result.kind, "Function")
     runs = f"{len(result.sources)} inputs scatter, {result.runs} base points, {result.solves} runs"
-    return f"{kind} {result.target}, {runs}, made by thrustwasher"
+    held = f" ({setting_words(result)})" if result.setting else ""
+    return f"{kind} {result.target}{held}, {runs}, made by thrustwasher"
+
+
+def setting_words(result: Any) -> str:
+    """Return what of a part does not scatter: rung, operating point, oil."""
+    return ", ".join(f"{named(name)} {value}" for name, value in result.setting.items())
 
 
 def _verdicts(result: Any, names: Sequence[str]) -> list[str]:
@@ -129,12 +158,13 @@ def film_figures(result: Any) -> list[str]:
 
 
 def _first_decided(result: Any, names: Sequence[str]) -> list[str]:
-    """Return what decides the first figures."""
+    """Return what decides the first figures; the film ratio where a film can be lost."""
     texts = []
-    for name in names[:3]:
+    film = [n for n in ("film_ratio",) if LOST in result.probabilities and n in result.figures]
+    for name in list(dict.fromkeys([*film, *names]))[:3]:
         if of := shares(result, name):
             title, band = title_of(name, result.figures[name]), result.figures[name]
-            texts.append(f"{title}: {band_words(band)}, decided most by {share_words(of[0])}")
+            texts.append(f"{title}: {band_words(band)}, {most_words(of, flagged(result))}")
     return [f"{'; '.join(texts)}."] if texts else []
 
 
@@ -143,16 +173,28 @@ def _chance_text(result: Any) -> list[str]:
     return [said] if said else []
 
 
-def _cards(result: Any, names: Sequence[str]) -> list[Card]:
-    cards = [
-        Card(f"probability: {named(name)}", percent(p.value), f"95 % confidence: {between(p)}")
+def chance_cards(result: Any, names: Sequence[str] = ()) -> list[Card]:
+    """Return a card per probability, of these names or all."""
+    return [
+        Card(
+            f"probability: {named(name)}",
+            percent(p.value, result.runs),
+            f"95 % confidence: {between(p)}",
+        )
         for name, p in result.probabilities.items()
+        if not names or name in names
     ]
+
+
+def _cards(result: Any, names: Sequence[str]) -> list[Card]:
+    cards = chance_cards(result)
     washers = [name for name in names if name in washer_figures(result)][:2]
     others = [name for name in names if name not in washers]
     for name in [*washers, *others][: max(MOST_CARDS - len(cards), 4)]:
         band = result.figures[name]
-        note = f"5 .. 95 %; nominal {band_scale(band).words(band.nominal)}"
+        scale = band_scale(band)
+        nominal = padded((band.nominal - scale.zero) / scale.size, scale.digits)
+        note = "; ".join([f"5 .. 95 %; nominal {nominal} {scale.unit}".strip(), *loose_words(band)])
         cards.append(Card(title_of(name, band), band_words(band), note))
     return cards
 
@@ -186,7 +228,8 @@ def _figure_section(result: Any, names: Sequence[str]) -> Section:
         title = f"All {len(result.figures)} figures"
         shown.append(replace(tables.figure_table(result), title=title, folded=True))
     shown.append(tables.confidence_table(result))
-    return Section("figures", "Figures and their bands", tables=shown)
+    title = "Figures and their bands"
+    return Section("figures", title, texts=steady_texts(result), tables=shown)
 
 
 def decided_sections(result: Any, names: Sequence[str]) -> list[Section]:
@@ -205,7 +248,7 @@ def decided_sections(result: Any, names: Sequence[str]) -> list[Section]:
         Plot(
             f"decides-{i}",
             plots.bar_figure(of, title_of(name, result.figures[name])),
-            f"{title_of(name, result.figures[name])}: {share_words(of[0])}",
+            f"{title_of(name, result.figures[name])}: {most_words(of)}",
             tiles=3,
         )
         for i, (name, of) in enumerate(found.items())
@@ -241,14 +284,28 @@ def over_time_sections(result: Any) -> list[Section]:
 def source_section(result: Any) -> Section:
     """Return what scatters, how, and what that rests on."""
     return Section(
-        "sources", "What scatters", texts=[SOURCES_TEXT], tables=[tables.source_table(result)]
+        "sources",
+        "What scatters",
+        texts=source_texts(result),
+        tables=[tables.source_table(result)],
     )
+
+
+def source_texts(result: Any) -> list[str]:
+    """Return what is to be known of the sources: estimates, the point, correlations."""
+    pairs = [f"{named(a)} and {named(b)} {signed(r)}" for a, b, r in result.correlations]
+    return [
+        SOURCES_TEXT,
+        *([f"Held: {setting_words(result)}."] if result.setting else []),
+        *([f"Correlated, by their normal scores: {', '.join(pairs)}."] if pairs else []),
+    ]
 
 
 def error_section(result: Any, names: Sequence[str]) -> Section:
     """Return mesh, model and inputs side by side."""
     table = tables.error_table(result, names)
-    return Section("errors", "Mesh, model, inputs", texts=[ERROR_TEXT], tables=[table])
+    texts = [ERROR_TEXT, *map(sentence, result.notes)]
+    return Section("errors", "Mesh, model, inputs", texts=texts, tables=[table])
 
 
 def _nearest_sections(
@@ -257,7 +314,11 @@ def _nearest_sections(
     found = tables.nearest_tables(result, names, files)
     text = "The base runs nearest to the 5, 50 and 95 % quantile of a figure, with their inputs."
     if files:
-        runs = "shift --scene FILE runs" if result.kind == "scene" else "MODEL --part FILE solves"
+        runs = (
+            "shift --scene FILE runs"
+            if result.kind == "scene"
+            else f"{result.model} --part FILE solves"
+        )
         text += f" Each is a file beside this page: thrustwasher {runs} it."
     title = "Runs that stand for the band"
     return [Section("nearest", title, texts=[text], tables=found)] if found else []

@@ -5,6 +5,8 @@ import re
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from ...units import display_unit, format_quantity
 from ..palette import CELSIUS
 
@@ -12,6 +14,12 @@ NONE = "\N{EN DASH}"
 LOW, MIDDLE, HIGH = 0.05, 0.5, 0.95
 BAND = "5 .. 95 %"  # the head of a column
 MOST_DIGITS = 6
+LOST = "film_lost"
+LOST_TEXTS = {
+    "part": "the asperities carry: the contact branch, or a film ratio below 3 where there are no "
+    "folds",
+    "scene": "in contact (distress) at any instant while it turns",
+}
 LEVELS = {LOW: "5 %", MIDDLE: "50 %", HIGH: "95 %"}
 
 
@@ -61,6 +69,15 @@ def plain(value: float, digits: int = 3) -> str:
     return text.replace("-", "\N{MINUS SIGN}")
 
 
+def padded(value: float, digits: int = 3) -> str:
+    """Return just so many significant digits, zeros at the end among them."""
+    if not value or not math.isfinite(value) or not 1e-4 <= abs(value) < 1e7:
+        return plain(value, digits) if math.isfinite(value) else NONE
+    shown = float(f"{value:.{digits}g}")
+    places = max(digits - 1 - math.floor(math.log10(abs(shown))), 0)
+    return f"{shown:.{places}f}".replace("-", "\N{MINUS SIGN}")
+
+
 def scale_of(unit: str, values: Iterable[float | None], *, relative: bool = False) -> Scale:
     """Return the unit for values as large as these [SI]."""
     if unit == "K" and not relative:
@@ -88,8 +105,8 @@ def named(name: str) -> str:
     """Return a name as words: "clutch.friction_scale" is clutch: friction scale."""
     part, _, own = name.rpartition(".")
     words = own.replace("_", " ")
-    if own.isdecimal():  # a point of a list counts from zero
-        return f"{named(part)}, no. {int(own) + 1}"
+    if own.isdecimal():  # a point of a list: its path
+        return name
     return f"{part.replace('_', ' ').replace('.', ' ')}: {words}" if part else words
 
 
@@ -108,6 +125,16 @@ def title_of(name: str, band: Any) -> str:
     return spoken(band.help) or named(name)
 
 
+def steady_texts(result: Any) -> list[str]:
+    """Return what is to be known of washer temperatures in the runs of a scene's study."""
+    if result.kind != "scene" or not any("washer_temperature" in name for name in result.figures):
+        return []
+    return [
+        "Washer temperatures: where the scene takes them as steady, runs of the study are not "
+        "followed in time, and no run is checked one by one."
+    ]
+
+
 def with_unit(title: str, scale: Scale, most: int = 1000) -> str:
     """Return a title with the unit of what it names, both in so many letters."""
     unit = f" [{scale.unit}]" if scale.unit else ""
@@ -119,22 +146,63 @@ def shortened(text: str, most: int) -> str:
     return text if len(text) <= most else f"{text[: most - 1].rstrip()}…"
 
 
-def percent(share: float) -> str:
-    """Return a share, never rounded to a certainty that it is not."""
+def percent(share: float, runs: int = 0) -> str:
+    """Return a share, never rounded to a certainty that it is not.
+
+    Of so many runs it has two digits, not more than a run makes a difference.
+    """
     if not math.isfinite(share):
         return NONE
-    if 0.0 < share < 0.001:
-        return "below 0.1 %"
-    if 0.999 < share < 1.0:
-        return "above 99.9 %"
-    return f"{100.0 * share:.3g} %"
+    places = max(0, -math.floor(math.log10(100.0 / runs))) if runs else 1
+    least = 10.0**-places
+    value = float(f"{100.0 * share:.{2 if runs else 3}g}")
+    value = round(value, places) if runs else value
+    if share > 0.0 and value < least:
+        return f"below {least:g} %"
+    if share < 1.0 and value > 100.0 - least:
+        return f"above {100.0 - least:g} %"
+    return f"{value:g} %"
 
 
-def probability(p: Any) -> str:
-    """Return a probability with its confidence interval."""
+def probability(p: Any, runs: int = 0) -> str:
+    """Return a probability of so many runs with its confidence interval."""
     if p is None or not math.isfinite(p.value):
         return NONE
-    return f"{percent(p.value)} ({between(p)})"
+    return f"{percent(p.value, runs)} ({between(p)})"
+
+
+def outside_words(result: Any, name: str) -> str:
+    """Return how probably a figure is below and above its usual range; "" without one."""
+    band = result.figures[name]
+    values = np.asarray(result.sample.get(f"{name} (result)", result.sample.get(name, ())), float)
+    values = values[np.isfinite(values)]
+    if band.outside is None or not len(values):
+        return "" if band.outside is None else probability(band.outside, result.runs)
+    low, high = band.usual
+    sides = {"below": float((values < low).mean()), "above": float((values > high).mean())}
+    ends = {"below": low, "above": high}
+    words = [
+        f"{percent(x, result.runs)} {side}"
+        for side, x in sides.items()
+        if math.isfinite(ends[side])
+    ]
+    together = "together " if all(sides.values()) else ""
+    return f"{', '.join(words)} ({together}{between(band.outside)})"
+
+
+def not_expected(result: Any, names: Iterable[str]) -> list[str]:
+    """Return a sentence on those figures whose nominal value is outside their band, if any."""
+    found = []
+    for name in names:
+        band = result.figures[name]
+        low, high = band.quantiles[LOW], band.quantiles[HIGH]
+        if varies(band) and math.isfinite(band.nominal) and not low <= band.nominal <= high:
+            scale = band_scale(band)
+            found.append(
+                f"{title_of(name, band)} {scale.words(band.nominal)} against {band_words(band)} in "
+                f"nine of ten runs, median {scale.words(band.quantiles[MIDDLE])}"
+            )
+    return [f"The nominal value is not what to expect: {'; '.join(found)}."] if found else []
 
 
 def between(p: Any) -> str:
@@ -155,8 +223,22 @@ def value_words(value: Any, unit: str) -> str:
 
 
 def band_words(band: Any) -> str:
-    """Return the range from the 5 to the 95 % quantile."""
-    return band_scale(band).span(band.quantiles.get(LOW), band.quantiles.get(HIGH))
+    """Return the range from the 5 to the 95 % quantile, both ends with as many digits."""
+    scale = band_scale(band)
+    ends = (band.quantiles.get(level, math.nan) for level in (LOW, HIGH))
+    low, high = (padded((x - scale.zero) / scale.size, scale.digits) for x in ends)
+    return f"{low} .. {high} {scale.unit}".strip()
+
+
+def loose_words(band: Any) -> list[str]:
+    """Return what is known of quantiles whose confidence spans more than half of the band."""
+    scale, width = band_scale(band), band.quantiles[HIGH] - band.quantiles[LOW]
+    return [
+        f"{LEVELS[level]} quantile by 95 % confidence: {scale.span(low, high)}"
+        for level in (LOW, HIGH)
+        for low, high in [band.confidence[level]]
+        if high - low > 0.5 * width and (math.isfinite(low) or math.isfinite(high))
+    ]
 
 
 def sentence(text: str) -> str:

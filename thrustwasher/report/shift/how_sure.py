@@ -4,22 +4,26 @@ from markupsafe import Markup
 
 from ..html import Section, Table
 from ..scatter import scatter_tables
-from ..scatter.decides import chances, shares, verdict
+from ..scatter.decides import chances, lost_texts, shares, verdict
 from ..scatter.study_page import (
     ERROR_TEXT,
     MOST_FIGURES,
-    SOURCES_TEXT,
     decided_sections,
     film_figures,
     main_figures,
     over_time_sections,
+    source_texts,
     washer_figures,
 )
-from ..scatter.words import joined, sentence, spoken
+from ..scatter.words import joined, not_expected, sentence, spoken, steady_texts
 from .shift_record import Record
 
 MOST = 6  # figures with bars
 STUDY = "scatter/scatter.html"  # beside the report
+DOUBTED = (
+    "In the nominal run steady washers do not hold or could not be followed, see the warning: the "
+    "bands of washer temperatures are as doubtful."
+)
 OF_THE_SHIFT = (
     *("lock_after_ramp_start", "lock_after_half_ramp", "slip_energy", "peak_jerk"),
     *("torque_hole", "flare"),
@@ -32,7 +36,10 @@ def how_sure_sections(record: Record) -> list[Section]:
     if result is None:
         return []
     chosen, main = _chosen(record), main_figures(result, MOST_FIGURES)
-    title, texts = "How sure", [*_verdicts(record), *_study_texts(record)]
+    title, texts = (
+        "How sure",
+        [*_verdicts(record), *not_expected(result, main), *_study_texts(record)],
+    )
     figures = scatter_tables.figure_table(result, main)
     decided = decided_sections(result, chosen)
     sources, errors = scatter_tables.source_table(result), scatter_tables.error_table(result, main)
@@ -43,7 +50,7 @@ def how_sure_sections(record: Record) -> list[Section]:
         Section(
             "scatter",
             "What scatters, and the errors beside it",
-            texts=[SOURCES_TEXT, ERROR_TEXT],
+            texts=[*source_texts(result), ERROR_TEXT, *map(sentence, result.notes)],
             tables=[sources, errors, *_failed(record)],
         ),
     ]
@@ -74,7 +81,7 @@ def _verdicts(record: Record) -> list[str]:
     texts = verdict(result, "the washers", film_figures(result), words)
     texts += verdict(result, "the shift", OF_THE_SHIFT[:4], words)
     said = sentence("; ".join(chances(result)))
-    return [*texts, said] if said else texts
+    return [*texts, *([said] if said else []), *lost_texts(result)]
 
 
 def _study_texts(record: Record) -> list[str]:
@@ -83,9 +90,16 @@ def _study_texts(record: Record) -> list[str]:
     return [
         f"{r.runs} base points, {r.solves} runs. {scatter_tables.share_of_failed(r)} Bands are "
         "shaded in the plots above.",
+        *steady_texts(r),
+        *([DOUBTED] if steady_is_doubted(record) else []),
         Markup('The whole study: <a href="{0}">{0}</a> beside this page.').format(STUDY),
         *map(sentence, r.warnings),
     ]
+
+
+def steady_is_doubted(record: Record) -> bool:
+    """Return whether the nominal run, followed in time, warns of its steady washers."""
+    return any(found.differences or found.stopped for found in record.in_time.values())
 
 
 def source_words(record: Record, name: str) -> str:

@@ -127,8 +127,13 @@ class Record:
 
     def band(self, name: str) -> Any:
         """Return what a study says of a figure, also as the least of its kind; None: nothing."""
+        found = self.band_name(name)
+        return self.scatter.figures[found] if found else None
+
+    def band_name(self, name: str) -> str:
+        """Return a figure's name in a study; "" where none has it."""
         known = self.scatter.figures if self.scatter else {}
-        return known.get(name) or known.get(f"least_{name}")
+        return next((n for n in (name, f"least_{name}") if n in known), "")
 
     @property
     def releasing(self) -> str:

@@ -3,11 +3,14 @@
 from collections.abc import Sequence
 from typing import Any
 
+from markupsafe import Markup
+
 from ...units import format_quantity as say
 from ..html import Card, Page, Plot, Section
-from ..scatter.words import BAND, band_words, varies
+from ..scatter.study_page import chance_cards
+from ..scatter.words import BAND, LOST, band_words, loose_words, varies
 from . import shift_tables
-from .how_sure import how_sure_sections
+from .how_sure import how_sure_sections, steady_is_doubted
 from .live_washer import live_washer
 from .overview_plot import overview_figure
 from .section_texts import USUAL_TEXT, cost_texts, rung_texts, simulated_texts, temperature_texts
@@ -120,18 +123,26 @@ def _cards(record: Record) -> list[Card]:
         found = record.band(name)
         if not found or not varies(found):
             return []
-        words = usual[name][0].study_words(found)[0] if name in usual else band_words(found)
-        return [f"{BAND}: {words}".replace(" ", "\N{NO-BREAK SPACE}")]
+        words = usual[name][0].study_words(found) if name in usual else band_words(found)
+        doubt = "washer_temperature" in name and steady_is_doubted(record)
+        return [
+            f"{BAND}: {words}".replace(" ", "\N{NO-BREAK SPACE}"),
+            *loose_words(found),
+            *(["steady, which the check in time doubts"] if doubt else []),
+        ]
 
     cards = [
         Card(
             f.text,
             usual[name][0].value_words(f.value) if name in usual else f.words(f.value, 4),
-            "; ".join([*([usual[name][0].note(f.value)] if name in usual else []), *band(name)]),
+            Markup("<br>").join(
+                [*([usual[name][0].note(f.value)] if name in usual else []), *band(name)]
+            ),
         )
         for name in names
         if (f := record.figure(name)) is not None and f.value is not None
     ]
+    cards += chance_cards(record.scatter, [LOST]) if record.scatter else []
     share = f"{record.energy['residual_share']:.1e}"
     cards.append(Card(f"energy missing, of {record.whole_name}", share))
     if record.step_error is not None:

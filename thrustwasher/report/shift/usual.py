@@ -10,7 +10,7 @@ import numpy as np
 from ...model.toml_tables import table_beside
 from ..html import Table
 from ..palette import CELSIUS
-from ..scatter.words import BAND, HIGH, LOW, probability, varies
+from ..scatter.words import BAND, HIGH, LOW, outside_words, padded, varies
 from .shift_record import Record
 from .worst_moments import FILM_SPEED
 
@@ -48,12 +48,12 @@ class Usual(NamedTuple):
         """Return the range, and on which side of it the value lies."""
         return f"usual: {self.range_words()} {MARKS[self.place(value)]}".strip()
 
-    def study_words(self, band: Any) -> tuple[str, str]:
-        """Return the band of a study and the probability of a value outside the range."""
+    def study_words(self, band: Any) -> str:
+        """Return the band of a study."""
         if band is None or not varies(band):
-            return "", ""
-        low, high = (f"{band.quantiles[level] / self.scale:.3g}" for level in (LOW, HIGH))
-        return self._with_unit(f"{low} .. {high}"), probability(band.outside)
+            return ""
+        low, high = (padded(band.quantiles[level] / self.scale) for level in (LOW, HIGH))
+        return self._with_unit(f"{low} .. {high}")
 
     def _with_unit(self, words: str) -> str:
         return f"{words} {self.unit}".strip().replace(" ", "\N{NO-BREAK SPACE}")
@@ -140,17 +140,22 @@ def beside(record: Record) -> dict[str, tuple[Usual, float]]:
     return found
 
 
+def _outside(record: Record, name: str) -> str:
+    found = record.band_name(name)
+    return outside_words(record.scatter, found) if found and varies(record.band(name)) else ""
+
+
 def usual_table(record: Record) -> Table:
     """Return every figure beside what is usual; one outside is marked, not blamed.
 
-    With a study of scatter also its band, and how probably it is outside.
+    With a study of scatter also its band, and how probably it is below and above.
     """
     found, studied = beside(record), record.scatter is not None
     rows = [
         (
             u.text,
             u.value_words(v),
-            *(u.study_words(record.band(name)) if studied else ()),
+            *((u.study_words(record.band(name)), _outside(record, name)) if studied else ()),
             u.range_words(),
             MARKS[u.place(v)],
             u.basis,

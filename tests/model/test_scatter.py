@@ -196,6 +196,8 @@ BOTH = {"roughness": "5 %", "tilt": "5 %", "share": "5 %"}
         ({"roughnes": "10 %"}, ["'roughnes'", "did you mean 'roughness'?"]),
         ({"roughness": "0 %"}, ["normal = '0 %'", "above 0"]),
         ({"roughness": -1e-7}, ["normal = -1e-07", "above 0"]),
+        ({"roughness": 1e9}, ["so wide that it is uniform", "or uniform"]),
+        ({"roughness": 1e-300}, ["nothing beside", "of that size"]),
         ({"roughness": "3 N"}, ["normal = '3 N'", "um"]),
         ({"roughness": True}, ["normal = True", "a number or a text"]),
         ({"roughness": [1, 2]}, ["normal = [1, 2]", "a number or a text"]),

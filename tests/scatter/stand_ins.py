@@ -77,6 +77,12 @@ class Swing:
     def touches(self, source):
         return source != "d"
 
+    def why(self, row):
+        return ""
+
+    def doubts(self, base):
+        return []
+
     def error(self):
         return {"peak": 0.01}
 

@@ -237,3 +237,26 @@ def test_a_target_goes_to_workers_and_knows_what_makes_it_another():
         target_of(WASHER, {"roughness": "5 %"}, outputs=["film_ratio"]),
     ]
     assert all(other.identity != target.identity for other in others)
+
+
+# What is said of a study
+
+
+def test_what_a_single_solve_warns_of_is_said_of_the_nominal_and_the_base_runs():
+    clutch = find_part("clutch")
+    inputs = {**clutch.starts, "load": 2000.0, "speed": 100.0}
+    target = target_of(clutch, {"friction_scale": "6 %"}, inputs=inputs)
+    base, _ = target.solve(rows_of(target, 8), np.ones(8, bool))
+    nominal, runs = target.doubts(base)
+    assert nominal.startswith("nominal run: at worst temperature = ") and "250 degC" in nominal
+    assert runs.startswith("8 of 8 base runs, at worst temperature = ")
+    assert "load = 2 kN" in target.notes[0] and repr(target.fidelity) in target.notes[0]
+
+
+def test_a_refused_draw_says_which_value_does_not_go_together():
+    mesh = find_part("gearmesh")
+    target = target_of(mesh, {"addendum": {"uniform": [0.5, 1.0]}})
+    row = {"addendum": 0.4}
+    assert target.solve([row], np.ones(1, bool))[1].tolist() == [1]
+    assert "addendum" in target.why(row) and "allowed" in target.why(row)
+    assert target.why({"addendum": 1.0}) == ""

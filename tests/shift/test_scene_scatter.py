@@ -177,6 +177,10 @@ def test_the_default_scene_has_twelve():
         ("[engine]\ntorque_scale = 0.0", "torque_scale = 0.0, allowed: 0.01 .. 100"),
         ("[pressure.clutch]\nscale = true", "[pressure.clutch]: scale = True"),
         ("[oil]\nviscosity_scale = 200.0", "viscosity_scale = 200.0, allowed: 0.01 .. 100"),
+        (
+            '[scatter]\nclutch.faces = { either = [4, 6] }\n"clutch.faces" = { either = [2, 4] }',
+            "clutch.faces is there twice",
+        ),
     ],
 )
 def test_a_wrong_line_is_refused_in_words(tmp_path, text, words):

@@ -199,7 +199,7 @@ def _say(result: "ScatterResult", folder: Path | None) -> None:
         f"{result.target}: {result.runs} base points, {result.solves} runs"
         + (f", {failed} failed" if failed else "")
     )
-    heads = ("figure", "nominal", "5 %", "50 %", "95 %", "decided by (total index)")
+    heads = ("figure", "nominal", "5 %", "50 %", "95 %", "outside", "decided by (total index)")
     rows = [heads, *(_row(name, band) for name, band in result.figures.items())]
     widths = [max(len(row[i]) for row in rows) for i in range(len(heads) - 1)]
     for name, *numbers, decided in rows:
@@ -219,7 +219,8 @@ def _row(name: str, band: "Band") -> tuple[str, ...]:
     )
     known = [(i.total, n) for n, i in band.indices.items() if _is_sure(i)]
     decided = ", ".join(f"{n} {total:.2f}" for total, n in sorted(known, reverse=True)[:3])
-    return (name, *cells, decided)
+    outside = f"{100.0 * band.outside.value:.3g} %" if band.outside else ""
+    return (name, *cells, outside, decided)
 
 
 def _is_sure(index: "Index") -> bool:

@@ -65,10 +65,11 @@ class Point:
 
 def taken_text(box: Values, default: Values, inputs: Sequence[Signal]) -> str:
     """Return a line that names what was taken from a box and by default; "" if nothing was."""
-    default = {s.name: default[s.name] for s in inputs if s.name in default and not s.optional}
     parts = []
     for words, values in {"from the part's box": box, "by default": default}.items():
-        shown = [quantity_text(s, values[s.name]) for s in inputs if s.name in values]
+        known = [s for s in inputs if s.name in values]
+        known = [s for s in known if not (s.optional and values[s.name] == s.usual)]
+        shown = [quantity_text(s, values[s.name]) for s in known]
         if shown:
             parts.append(f"{words}: {', '.join(shown)}")
     return f"taken {'; '.join(parts)}" if parts else ""

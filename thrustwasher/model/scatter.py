@@ -24,6 +24,7 @@ if TYPE_CHECKING:  # part files are read without numpy
 LAWS = ("normal", "lognormal", "uniform", "either")
 CORRELATION = "correlation"
 MUCH_CUT = 0.01  # share of the probability outside the allowed range that is worth a warning
+LEAST_LEFT = 1e-6  # of the probability, inside the allowed range
 LARGEST_WEIGHT = 1e100  # so that their sum is a number
 LEAST_U = 2.0**-53  # quantiles at 0 and 1 would be infinite
 
@@ -328,6 +329,12 @@ def _lognormal(place: Place, given: Any) -> Law:
 def _truncated(place: Place, kind: str, middle: float, spread: float, text: str) -> Law:
     law = Law(kind=kind, low=place.low, high=place.high, middle=middle, spread=spread, text=text)
     start, end = map(NormalDist().cdf, law._scores())
+    if end - start < LEAST_LEFT or middle + spread == middle:
+        raise ParameterError(
+            f"{text}: {'so wide that it is uniform' if end - start < LEAST_LEFT else 'nothing'} "
+            f"beside {place.text(place.nominal)} in {place.range_text}, allowed: a standard "
+            "deviation of that size, or uniform"
+        )
     return replace(law, cut=1.0 - (end - start))
 
 

@@ -230,9 +230,11 @@ class Runs:
                 "probabilities has these at either end"
             )
             points = int((self.codes.reshape(n, -1) > 0).any(1).sum())
-            yield text + (
-                f"; indices leave out {points} of {n} base points" if self.design.groups else ""
-            )
+            text += f"; indices leave out {points} of {n} base points" if self.design.groups else ""
+            why = (self.target.why(row) for row in self._failed_base())
+            example = next(filter(None, why), "")
+            yield f"{text}; for example: {example}" if example else text
+        yield from self.target.doubts(self.base)
         for absent in sorted({band.absent for band in figures.values()} - {0}):
             names = ", ".join(name for name, band in figures.items() if band.absent == absent)
             yield f"{absent} of {n} base runs have no {names}: quantiles are of the others"
@@ -241,6 +243,11 @@ class Runs:
                 f"runs = {n}: fewer than {LEAST_BOUNDED} cannot bound 5 and 95 % quantiles with "
                 "95 % confidence; the least and the largest value are given"
             )
+
+    def _failed_base(self) -> list[dict[str, Any]]:
+        """Return the values of the base runs that failed."""
+        rows = self.target.scatter.values(self.design.a)
+        return [row for row, code in zip(rows, self.base_codes, strict=True) if code]
 
 
 def _index(first: float, total: float, first_half: float, total_half: float) -> Index:

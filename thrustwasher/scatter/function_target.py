@@ -2,7 +2,7 @@
 
 import hashlib
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -49,6 +49,14 @@ class FunctionTarget:
     def touches(self, source: str) -> bool:
         """Any source may matter."""
         return True
+
+    def why(self, _row: Mapping[str, Any]) -> str:
+        """Return nothing: the reasons say it."""
+        return ""
+
+    def doubts(self, _base: Array) -> Iterator[str]:
+        """Yield nothing: a function has no limits."""
+        yield from ()
 
     def error(self) -> dict[str, float]:
         """Nothing is known."""

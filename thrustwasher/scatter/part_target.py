@@ -2,7 +2,7 @@
 
 import hashlib
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from typing import Any, Literal
@@ -12,12 +12,15 @@ from numpy.typing import NDArray
 
 from ..errors import FIRST_FAILURE, ParameterError, Status, suggestion
 from ..ladder.error_table import QUANTITIES, error_estimate
+from ..model.advice import quantity_text
 from ..model.part_file import PartFile
-from ..model.prepare import tables_of
-from ..model.registry import find_model
+from ..model.point import point_of
+from ..model.prepare import filled, tables_of
+from ..model.registry import find_model, kernel_of
 from ..model.rungs import rung_named
 from ..model.scatter import Scatter
 from ..model.spec import Signal
+from ..sweep.row_doubts import beyond
 from ..sweep.solve_rows import Task, output_signals, solve_task
 from ..units import format_quantity
 from .target import Array, Figure, Flags
@@ -127,6 +130,36 @@ class PartTarget:
         lines = tuple(range(len(params) + 1))  # each row stands alone
         numbers, flags = solve_task(Task(spec.key, self.fidelity, 0, inputs, lines, params))
         return numbers, flags[:, -1], np.zeros(len(params))
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """The rung and the point about which inputs scatter."""
+        inputs = self.part.spec.inputs
+        shown = [s for s in inputs if not (s.optional and self.inputs[s.name] == s.usual)]
+        point = ", ".join(quantity_text(s, self.inputs[s.name]) for s in shown)
+        return (f"solved with {self.fidelity!r} at {point}",)
+
+    def why(self, row: Mapping[str, Any]) -> str:
+        """Return why a row failed, as its parameters say; "" if these go together."""
+        try:
+            params, _ = self.part.varied(row)
+            kernel = kernel_of(self.part.spec)
+            filled(self.part.spec, params, self.fidelity, kernel.NPAR, kernel.derive)
+        except ParameterError as problem:
+            return str(problem)
+        return ""
+
+    def doubts(self, base: Array) -> Iterator[str]:
+        """Yield what single solves would warn of, of the nominal run and the base runs (N, m)."""
+        point = point_of(self.part, dict(self.inputs))
+        yield from point.warnings
+        for words, rows in (("nominal run", self._nominal[np.newaxis]), ("base runs", base)):
+            columns = dict.fromkeys([s.name for s in self.part.spec.outputs], np.full(1, np.nan))
+            columns |= {f.name: rows[:, i] for i, f in enumerate(self.figures)}
+            for found in beyond(self.part.spec, columns):
+                one = found.text(len(rows)).partition(", ")[2]
+                text = found.text(len(rows)).replace(" points,", f" {words},")
+                yield f"{words}: {one}" if len(rows) == 1 else text
 
     def error(self) -> dict[str, float]:
         """Return the mesh's error of figures at the nominal point, by its table of errors."""

@@ -195,7 +195,7 @@ def _refuse_nothing(scatter: Scatter, what: str, example: str) -> None:
     if not scatter.sources:
         raise ParameterError(
             f"nothing scatters: add [scatter] to the {what}, such as {example}; in Python "
-            "scatter = {name: law, ...}"
+            "scatter = {name: law, ...}" + "".join(f" ({text})" for text in scatter.warnings)
         )
 
 

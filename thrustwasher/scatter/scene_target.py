@@ -13,7 +13,7 @@ nothing is costly.
 import hashlib
 import json
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, suppress
 from functools import partial
@@ -148,6 +148,18 @@ class SceneTarget:
         """Tell if any figure but the costly ones depends on a source."""
         alone = source in OF_WASHERS or source.partition(".")[0] in self._washers
         return not (self.played and alone)
+
+    def why(self, row: Mapping[str, Any]) -> str:
+        """Return why a row makes no scene; "" if it does."""
+        try:
+            varied_scene(self.scene, row)
+        except ParameterError as problem:
+            return str(problem)
+        return ""
+
+    def doubts(self, _base: Array) -> Iterator[str]:
+        """Yield nothing: the report of the shift itself has the limits of its parts."""
+        yield from ()
 
     def error(self) -> dict[str, float]:
         """Return the numerical error of figures for which it is known, relative."""

@@ -1,7 +1,7 @@
 """What a study needs to know of what it studies: a part, a gear shift, a function."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
@@ -87,6 +87,12 @@ class Target(Protocol):
         with another the row is NaN and ``reasons`` says why. The answers depend on ``rows`` and
         ``costly`` alone, of all of them: neighbours may start one another.
         """
+
+    def why(self, row: Mapping[str, Any]) -> str:
+        """Return in words why a row failed; "" if only its run can tell."""
+
+    def doubts(self, base: Array) -> Iterable[str]:
+        """Return what single runs would warn of, with the base runs (N, m)."""
 
     def error(self) -> Mapping[str, float]:
         """Return the numerical error of figures for which it is known, relative."""

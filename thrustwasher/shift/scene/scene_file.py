@@ -120,7 +120,12 @@ def _parse(name: str) -> dict[str, Any]:
     if isinstance(table.get("oil"), str):
         table["oil"] = oil_table("oil", table["oil"])
     if isinstance(table.get("scatter"), dict):
-        table["scatter"] = dict(lines_of(table["scatter"]))
+        lines = list(lines_of(table["scatter"]))
+        table["scatter"] = dict(lines)
+        if twice := [path for path, _ in lines if [n for n, _ in lines].count(path) > 1]:
+            raise ParameterError(
+                f"scene {name!r} [scatter]: {twice[0]} is there twice, allowed: once"
+            )
     for part, spec in PARTS.items():
         if isinstance(table.get(part), dict):
             with within(f"scene {name!r} [{part}]"):

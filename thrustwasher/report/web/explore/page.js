@@ -74,8 +74,9 @@ class Field {
     if (this.slider) {
       const share = this.log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
       if (from !== this.slider) this.slider.value = 1000 * Math.min(Math.max(share, 0), 1);
-      this.slider.setAttribute("aria-valuetext", shown(value, unit, relative));
-      this.more.textContent = unit === "1" ? "" : unit === "rad/s" ? `${digits((value * 30) / Math.PI)} rpm` : shown(value, unit, relative);
+      const text = unit === "K" && !relative && value === 0 ? "not given" : shown(value, unit, relative);
+      this.slider.setAttribute("aria-valuetext", text);
+      this.more.textContent = unit === "1" ? "" : unit === "rad/s" ? `${digits((value * 30) / Math.PI)} rpm` : text;
     }
   }
 

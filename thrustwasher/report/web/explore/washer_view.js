@@ -158,7 +158,7 @@ const VIEW = {
   /** Say what the band is at the load of the scatter that is nearest, and put all into a table. */
   scatterWords() {
     const about = ABOUT.outputs[this.quantity], rows = this.scatterRows(), tell = (v) => shown(v, about.unit, about.relative, 3);
-    const percent = (v) => `${digits(100 * v, 3)} %`, cell = (v, text) => el("td", {}, el("data", { value: v }, text));
+    const percent = (v) => `${digits(100 * v, 2)} %`, cell = (v, text) => el("td", {}, el("data", { value: v }, text));
     const heads = ["load", "way", "5 %", "50 %", "95 %", "film lost"].map((text) => el("th", { scope: "col" }, text));
     const lines = rows.flatMap((row) => Object.keys(WAYS).filter((way) => row[way]).map((way) => el("tr", { "data-way": way },
       cell(row.load, shown(row.load, "N", false, 3)), el("td", {}, WAYS[way]), ...row[way].quantiles.map((v) => cell(v, tell(v))), cell(row[way].lost, percent(row[way].lost)))));

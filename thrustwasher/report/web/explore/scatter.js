@@ -66,7 +66,7 @@ class Scatter {
       settled();
     });
     this.said = el("p", { class: "folds", role: "status", id: "scatter-state" });
-    const row = ({ name, law, reason }) => el("tr", {}, el("th", { scope: "row" }, el("code", {}, name)), el("td", {}, law), el("td", {}, reason || "the part, without a source"));
+    const row = ({ name, law, reason }) => el("tr", {}, el("th", { scope: "row" }, el("code", {}, name)), el("td", {}, law), el("td", {}, reason || "given"));
     const list = el("details", {}, el("summary", {}, `what scatters (${SOURCES.length})`),
       el("p", {}, `${of}: 5 to 95 % of ${DRAWS} draws of what stands here, the same each time, about the values that are set. This band is of inputs; the error of the mesh is another one and is said above.`),
       el("div", { class: "wide-table", tabindex: 0 }, el("table", {}, el("thead", {}, el("tr", {}, ...["name", "law", "from"].map((text) => el("th", { scope: "col" }, text)))), el("tbody", {}, ...SOURCES.map(row)))),

@@ -56,7 +56,7 @@ from .target import Array, Flags
 
 FULL_RUNS = 16
 SHARE = 0.1  # of a figure's band: an error of the shortcut that is too large
-STILL = 1e-6  # of a figure: a band below is none
+STILL = 1e-4  # of a figure: a band below is none, and less than the error of the step
 N_TIME = 131  # instants of the series
 REASONS = (
     "the values do not go together",

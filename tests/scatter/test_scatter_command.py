@@ -149,6 +149,18 @@ def test_a_study_without_any_solution_has_an_exit_status_of_its_own(part, tmp_pa
     assert len((folder / "sample.csv").read_text().splitlines()) == 9
 
 
+def test_a_page_that_cannot_be_written_loses_no_run(part, tmp_path, capsys):
+    folder = tmp_path / "out"
+    (folder / "scatter.html").mkdir(parents=True)
+    words = part, "--runs", "8", "--no-indices", "--out", folder
+    status, out, err = said(capsys, *words)
+    assert (status, out) == (2, "") and f"{JOURNAL} keeps 8 of 8 runs; the same command" in err
+    (folder / "scatter.html").rmdir()
+    status, _, err = said(capsys, *words)
+    assert status == 0 and "scatter: 8 runs, 8 of them done before" in err
+    assert not (folder / JOURNAL).exists()
+
+
 def test_a_stopped_command_goes_on_with_the_same_numbers(part, tmp_path):
     """Ctrl-C while it runs: one line, a journal, then the same tables as without."""
     words = [sys.executable, "-m", "thrustwasher", "scatter", str(part), "--runs", "2048"]
@@ -159,7 +171,9 @@ def test_a_stopped_command_goes_on_with_the_same_numbers(part, tmp_path):
         pass
     stopped.send_signal(signal.SIGINT)
     err = stopped.communicate(timeout=60)[1]
-    assert stopped.returncode == 130 and err.splitlines()[-1] == "thrustwasher scatter: stopped"
+    kept, last = err.splitlines()[-2:]
+    assert stopped.returncode == 130 and last == "thrustwasher scatter: stopped"
+    assert f"{tmp_path / 'out' / JOURNAL} keeps " in kept and "of 8192 runs" in kept
     assert [p.name for p in (tmp_path / "out").iterdir()] == [JOURNAL]
     for folder in ("out", "whole"):
         done = subprocess.run([*words, "--out", tmp_path / folder], capture_output=True, text=True)

@@ -106,6 +106,27 @@ def test_a_stopped_study_goes_on_and_ends_as_if_never_stopped(tmp_path):
     assert not (out / JOURNAL).exists()
 
 
+def test_what_fails_while_files_are_written_loses_no_run(tmp_path):
+    usual = {"scatter": NORMAL, "runs": 32, "out": tmp_path, "workers": 1}
+    (tmp_path / "figures.csv").mkdir()
+    with pytest.raises(OSError):
+        propagate(linear, **usual)
+    assert (tmp_path / JOURNAL).exists()
+    (tmp_path / "figures.csv").rmdir()
+
+    def finish(result):
+        assert (tmp_path / "figures.csv").exists() and (tmp_path / JOURNAL).exists()
+        raise Stop
+
+    seen = []
+    usual["progress"] = lambda done, _: seen.append(done)
+    with pytest.raises(Stop):
+        propagate(linear, **usual, finish=finish)
+    propagate(linear, **usual)
+    assert seen == [32 * 5, 32 * 5]
+    assert not (tmp_path / JOURNAL).exists()
+
+
 @pytest.mark.parametrize(
     ("changed", "says"),
     [
@@ -168,6 +189,7 @@ def test_if_all_runs_fail_the_reason_is_told_and_the_sample_stays(tmp_path):
             runs=16,
             out=tmp_path,
         )
+    assert not (tmp_path / JOURNAL).exists()
     lines = (tmp_path / "sample.csv").read_text().splitlines()
     assert len(lines) == 17 and lines[0] == "a,value,status" and lines[1].endswith(",,no solution")
 

@@ -2,7 +2,8 @@
 
 import argparse
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -71,7 +72,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     from ..scatter.propagate import propagate
 
-    with new_folder(folder):
+    with new_folder(folder), _kept(folder) as progress:
         result = propagate(
             target,
             runs=runs,
@@ -83,9 +84,9 @@ def run(arguments: argparse.Namespace) -> int:
             workers=arguments.workers,
             cluster=arguments.scheduler,
             out=folder,
-            progress=_progress(),
+            progress=progress,
+            finish=lambda result: _write(result, target, at, folder),
         )
-        _write(result, target, at, folder)
     _output.warn(result.warnings)
     if arguments.json:
         _output.print_json({**result.as_dict(), "out": str(folder)})
@@ -139,6 +140,27 @@ def _inputs() -> dict[str, str]:
             if place.is_input:
                 found.setdefault(place.name, {})[f"{place.unit} ({model})"] = None
     return {name: ", ".join(units) for name, units in found.items()}
+
+
+@contextmanager
+def _kept(folder: Path | None) -> Iterator[Callable[[int, int], None]]:
+    """Give what shows the progress; if the study stops, say that its journal keeps the runs."""
+    from ..scatter.propagate import JOURNAL
+
+    show, done, total = _progress(), 0, 0
+
+    def progress(*now: int) -> None:
+        nonlocal done, total
+        done, total = now
+        show(done, total)
+
+    try:
+        yield progress
+    except BaseException:
+        if folder and done and (folder / JOURNAL).exists():
+            kept = f"keeps {done} of {total} runs; the same command goes on with them"
+            _output.note(f"scatter: {folder / JOURNAL} {kept}")
+        raise
 
 
 def _progress() -> Callable[[int, int], None]:

@@ -84,6 +84,31 @@ def test_the_folder_has_page_tables_and_the_nearest_runs_as_parts(part, tmp_path
     assert not (folder / JOURNAL).exists()
 
 
+def test_an_earlier_study_leaves_no_files_among_the_new_and_the_users_stay(part, tmp_path, capsys):
+    folder = tmp_path / "out"
+    words = "--runs", "8", "--no-indices", "--out", folder
+    assert said(capsys, part, *words)[0] == 0
+    earlier = folder / "friction_torque-95.toml"
+    own = {"mine-95.toml": earlier.read_text(), "friction_torque-5.toml": "x", "series.csv": "x"}
+    for name, text in own.items():
+        (folder / name).write_text(text)
+    (folder / "sub-50.toml").mkdir()
+    assert said(capsys, part, *words, "--outputs", "friction_power")[0] == 0
+    assert {p.name for p in folder.iterdir()} == {
+        *own,
+        *(f"friction_power-{level}.toml" for level in ("05", "50", "95")),
+        *("scatter.html", "sample.csv", "figures.csv", "sub-50.toml"),
+    }
+
+
+def test_a_target_that_its_own_study_would_replace_is_refused(part, tmp_path, capsys):
+    folder = tmp_path / "out"
+    words = "--runs", "8", "--no-indices", "--out", folder
+    assert said(capsys, part, *words)[0] == 0
+    status, _, err = said(capsys, folder / "friction_torque-95.toml", *words)
+    assert status == 2 and "which the study would replace; choose another folder" in err
+
+
 def test_inputs_and_parameters_are_set_as_elsewhere(part, tmp_path, capsys):
     words = "--runs", "8", "--no-indices", "--json", "--out", tmp_path / "out"
     usual, set_ = (

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 HELP = "how sure figures are: the scatter of inputs through a part or a gear shift"
 LEAST = 0.02  # a total index below decides nothing
 FOLDER, PAGE = "scatter-report", "scatter.html"
+NEAREST = "# thrustwasher scatter: "  # first line of the file of a run, with the file's name
 OPTIONS = {
     "--runs N": "base points, rounded up to a power of two; default 1024, of a scene 256",
     "--seed N": "of the sample; default 1",
@@ -69,6 +70,12 @@ def run(arguments: argparse.Namespace) -> int:
     runs, seed = (_whole(arguments, name) for name in ("runs", "seed"))
     target, at = _target(arguments)
     folder = _output.check_folder(arguments.out, "--out")
+    file = Path(arguments.target)
+    if file.resolve().parent == folder.resolve() and _is_nearest(file):
+        raise ParameterError(
+            f"--out {folder}: {file.name} is there, which the study would replace; choose another "
+            "folder"
+        )
 
     from ..scatter.propagate import propagate
 
@@ -183,11 +190,15 @@ def _progress() -> Callable[[int, int], None]:
 
 
 def _write(result: "ScatterResult", target: Any, at: Any, folder: Path) -> None:
-    """Write the page, and the runs nearest to quantiles of its figures as files to open."""
+    """Write the page, and the runs nearest to quantiles of its figures as files to open.
+
+    Files of an earlier study of which this one has none go.
+    """
     from ..model.part_file import PartFile, part_text
     from ..report.html import render
     from ..report.scatter import scatter_page
     from ..report.scatter.study_page import MOST_FIGURES, main_figures
+    from ..scatter.result import SERIES
     from ..shift.scene.variation import scene_text
 
     files: dict[str, dict[float, str]] = {}
@@ -199,10 +210,30 @@ def _write(result: "ScatterResult", target: Any, at: Any, folder: Path) -> None:
                 else:
                     text = scene_text(target, values)
                 file = f"{name}-{100.0 * level:02.0f}.toml"
-                (draft / file).write_text(text, encoding="utf-8")
+                (draft / file).write_text(f"{NEAREST}{file}\n{text}", encoding="utf-8")
                 files.setdefault(name, {})[level] = file
         page = render(scatter_page(result, files))
         (draft / PAGE).write_text(page, encoding="utf-8")
+    written = {file for by_level in files.values() for file in by_level.values()}
+    for path in folder.glob("*.toml"):
+        if path.name not in written and _is_nearest(path):
+            path.unlink()
+    if not result.series and _first_line(folder / SERIES).startswith("time [s],"):
+        (folder / SERIES).unlink()
+
+
+def _is_nearest(path: Path) -> bool:
+    """Tell if a file is one that a study wrote under this name."""
+    return _first_line(path) == f"{NEAREST}{path.name}\n"
+
+
+def _first_line(path: Path) -> str:
+    """Return the first line of a file, nothing of what cannot be read."""
+    try:
+        with path.open(encoding="utf-8", errors="replace") as stream:
+            return stream.readline(1000)
+    except OSError:
+        return ""
 
 
 def _drawn(part: "PartFile", at: dict[str, str], values: dict[str, Any]) -> "PartFile":

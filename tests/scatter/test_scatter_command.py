@@ -123,9 +123,18 @@ def test_inputs_and_parameters_are_set_as_elsewhere(part, tmp_path, capsys):
     [
         (["nothing.toml"], "cannot be read"),
         (["gearmsh"], "did you mean 'gearmesh'"),
-        (["gearmesh", "--runs", "many"], "--runs many: allowed: a whole number"),
-        (["gearmesh", "--runs", "4"], "runs = 4, allowed"),
-        (["gearmesh", "--runs", "999999999"], "runs = 999999999, allowed"),
+        *(
+            (["gearmesh", "--runs", n], f"--runs {n}: allowed: a whole number 8 .. 131072")
+            for n in ("many", "4", "-4", "8.5", "131073", "999999999", "1" * 21)
+        ),
+        *(
+            (["gearmesh", "--seed", n], f"--seed {n}: allowed: a whole number 0 .. 4294967295")
+            for n in ("-1", "4294967296", "1" * 21)
+        ),
+        (["gearmesh", "--reached", "above"], "--reached: has no effect with a gearmesh"),
+        (["clutch", "--reached", "above"], "--reached: has no effect with a clutch"),
+        (["planetary", "--reached", "above"], "--reached: has no effect with a scene"),
+        (["washer", "--indices", "all"], "--indices: has no effect with a part"),
         (["gearmesh", "--indices", "all", "--no-indices"], "allowed: one of them"),
         (["gearmesh", "--load", "much"], "load"),
         (["gearmesh", "--outputs", "torqe"], "outputs: 'torqe'"),

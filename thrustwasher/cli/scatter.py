@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError
-from ..model.registry import models_with_points, spec_of
+from ..model.registry import find_model, models_with_points, spec_of
 from ..model.rungs import rung_named
 from ..storage.whole_files import new_folder
 from ..sweep.axes import places
@@ -47,13 +47,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     _options.add(parser, OPTIONS)
     parser.set_defaults(out=FOLDER)
-    parser.add_argument("--indices", choices=["all"], help="all: of the costly figures too")
+    parser.add_argument("--indices", choices=["all"], help="all: of a scene's costly figures too")
     parser.add_argument(
         "--reached",
         choices=["below", "above"],
         default="below",
-        help="where several solutions exist, the branch: as loaded up from light load (below, "
-        "default), or coming down (above)",
+        help="of a washer: where several solutions exist, the branch: as loaded up from light load "
+        "(below, default), or coming down (above)",
     )
     _options.add_settings(parser, "of a part: change a parameter, e.g. --set roughness=4e-7")
     _options.add_oil(parser)
@@ -67,7 +67,10 @@ def run(arguments: argparse.Namespace) -> int:
     """Study the target, say what came out, write its files."""
     if arguments.no_indices and arguments.indices:
         raise ParameterError("--indices all: beside --no-indices, allowed: one of them")
-    runs, seed = (_whole(arguments, name) for name in ("runs", "seed"))
+    from ..scatter.design import LEAST_RUNS, MOST_RUNS, MOST_SEED
+
+    runs = _whole(arguments, "runs", LEAST_RUNS, MOST_RUNS)
+    seed = _whole(arguments, "seed", 0, MOST_SEED)
     target, at = _target(arguments)
     folder = _output.check_folder(arguments.out, "--out")
     file = Path(arguments.target)
@@ -102,14 +105,15 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _whole(arguments: argparse.Namespace, name: str) -> int | None:
-    """Return the whole number of an option."""
+def _whole(arguments: argparse.Namespace, name: str, low: int, high: int) -> int | None:
+    """Return the whole number of an option, in its range."""
     text = getattr(arguments, name)
     if text is None:
         return None
-    if not text.strip().isdecimal() or len(text) > 12:
-        raise ParameterError(f"--{name} {text}: allowed: a whole number from 0 on")
-    return int(text)
+    number = int(text) if text.strip().isdecimal() and len(text) <= 12 else -1
+    if not low <= number <= high:
+        raise ParameterError(f"--{name} {text}: allowed: a whole number {low} .. {high}")
+    return number
 
 
 def _names(text: str | None) -> list[str] | None:
@@ -124,6 +128,10 @@ def _target(arguments: argparse.Namespace) -> tuple[Any, dict[str, str] | None]:
     given = {n: getattr(arguments, n) for n in _inputs() if getattr(arguments, n) is not None}
     found = part_or_scene(arguments.target)
     if isinstance(found, PartFile):
+        _options.refuse_unused(arguments, "a part, of which no figure is costly", ("indices",))
+        if find_model(found.spec.key).sweep.draws is None:
+            what = f"a {found.spec.key}, which has one solution"
+            _options.refuse_unused(arguments, what, (), reached="below")
         if arguments.preset is not None:
             found = _options.solvable(arguments.target, arguments.preset)
         if arguments.fidelity is not None:
@@ -131,7 +139,8 @@ def _target(arguments: argparse.Namespace) -> tuple[Any, dict[str, str] | None]:
         settings = _options.read_settings(arguments.settings, found.spec)
         found = _options.with_oil(arguments, found, settings)
         return replace(found, parameters=found.parameters | settings), given
-    _options.refuse_unused(arguments, "a scene", (*_inputs(), "preset", "fidelity", "settings"))
+    unused = (*_inputs(), "preset", "fidelity", "settings")
+    _options.refuse_unused(arguments, "a scene", unused, reached="below")
     if arguments.oil is not None:
         from ..shift import load_scene
 

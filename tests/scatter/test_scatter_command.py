@@ -137,6 +137,7 @@ def test_inputs_and_parameters_are_set_as_elsewhere(part, tmp_path, capsys):
         (["washer", "--indices", "all"], "--indices: has no effect with a part"),
         (["gearmesh", "--indices", "all", "--no-indices"], "allowed: one of them"),
         (["gearmesh", "--load", "much"], "load"),
+        (["gearmesh", "--out", ""], "--out '': the name of a folder is required"),
         (["gearmesh", "--outputs", "torqe"], "outputs: 'torqe'"),
         (["gearmesh", "--fidelity", "finest"], "finest"),
         (["gearmesh", "--tilt", "0.1"], "tilt"),
@@ -188,6 +189,7 @@ def test_a_page_that_cannot_be_written_loses_no_run(part, tmp_path, capsys):
     (folder / "scatter.html").mkdir(parents=True)
     words = part, "--runs", "8", "--no-indices", "--out", folder
     status, out, err = said(capsys, *words)
+    assert f"{folder / 'scatter.html'}: is a folder, and a file of this name" in err
     assert (status, out) == (2, "") and f"{JOURNAL} keeps 8 of 8 runs; the same command" in err
     (folder / "scatter.html").rmdir()
     status, _, err = said(capsys, *words)

@@ -109,8 +109,9 @@ def test_a_stopped_study_goes_on_and_ends_as_if_never_stopped(tmp_path):
 def test_what_fails_while_files_are_written_loses_no_run(tmp_path):
     usual = {"scatter": NORMAL, "runs": 32, "out": tmp_path, "workers": 1}
     (tmp_path / "figures.csv").mkdir()
-    with pytest.raises(OSError):
+    with pytest.raises(ParameterError, match=r"figures\.csv: is a folder, and a file of this name"):
         propagate(linear, **usual)
+    assert [p.name for p in tmp_path.iterdir() if p.name != JOURNAL] == ["figures.csv"]
     assert (tmp_path / JOURNAL).exists()
     (tmp_path / "figures.csv").rmdir()
 
@@ -305,6 +306,8 @@ def test_out_must_be_a_folder(tmp_path):
     (tmp_path / "file").write_text("x")
     with pytest.raises(ParameterError, match=r"is a file, a folder is required"):
         propagate(linear, scatter=NORMAL, runs=8, out=tmp_path / "file")
+    with pytest.raises(ParameterError, match=r"out = '': the name of a folder is required"):
+        propagate(linear, scatter=NORMAL, runs=8, out="")
 
 
 def test_runs_are_rounded_up_and_that_is_told():

@@ -223,6 +223,8 @@ def part_or_scene(name: str) -> Any:
 
 
 def _folder(out: str | Path) -> Path:
+    if not str(out).strip():
+        raise ParameterError(f"out = {out!r}: the name of a folder is required")
     folder = Path(out)
     if folder.exists() and not folder.is_dir():
         raise ParameterError(f"out = {str(out)!r}: is a file, a folder is required")

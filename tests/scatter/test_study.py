@@ -1,5 +1,6 @@
 """A study gives the same numbers however it is run, loses nothing, and says what is wrong."""
 
+import csv
 import json
 import math
 
@@ -169,7 +170,7 @@ def test_a_function_within_another_is_studied_here_but_not_sent():
 # Failures
 
 
-def test_failed_runs_are_counted_named_and_widen_what_they_may():
+def test_failed_runs_are_counted_named_and_widen_what_they_may(tmp_path):
     sound = propagate(linear, scatter=NORMAL, runs=256, workers=1)
     result = propagate(picky, scatter=NORMAL, runs=256, workers=1)
     band = result.figures["value"]
@@ -177,6 +178,10 @@ def test_failed_runs_are_counted_named_and_widen_what_they_may():
     assert 30 < n < 50 and result.failed == {"no solution": result.as_dict()["failed"]}
     assert band.confidence[0.95][1] == math.inf and band.confidence[0.05][0] == -math.inf
     assert result.as_dict()["figures"]["value"]["confidence"]["0.95"][1] is None
+    result.write(tmp_path)
+    with (tmp_path / "figures.csv").open(newline="") as stream:
+        (row,) = csv.DictReader(stream)
+    assert row["0.05 low"] == row["0.95 high"] == "" and float(row["0.5 low"])
     usual = sound.figures["sum"].confidence[0.5]
     assert band.confidence[0.5][1] - band.confidence[0.5][0] > usual[1] - usual[0] + 0.5
     assert band.left_out > n and any(f"leave out {band.left_out} of" in w for w in result.warnings)
@@ -226,6 +231,7 @@ def test_a_signal_has_bands_and_indices_over_time():
 def test_a_figure_beyond_its_usual_range_has_a_probability():
     result = result_of(Swing(), runs=1024)
     outside, high = result.figures["peak"].outside, result.probabilities["high"]
+    assert {type(x) for p in result.probabilities.values() for x in (p.low, p.high)} == {float}
     assert high.low < 0.0899 < high.high and outside.value > high.value
     assert result.figures["dear"].outside is None and result.figures["peak"].error == 0.01
 

@@ -3,6 +3,8 @@
 import csv
 import json
 import math
+import subprocess
+import sys
 
 import needed
 import numpy as np
@@ -127,6 +129,24 @@ def test_what_fails_while_files_are_written_loses_no_run(tmp_path):
     propagate(linear, **usual)
     assert seen == [32 * 5, 32 * 5]
     assert not (tmp_path / JOURNAL).exists()
+
+
+KILLED = """
+import os, signal, sys
+from thrustwasher import propagate
+finish = lambda _: os.kill(os.getpid(), signal.SIGTERM)
+signal.signal(signal.SIGTERM, signal.SIG_DFL)
+propagate("gearmesh", runs=8, workers=1, out=sys.argv[1], finish=finish)
+"""
+
+
+def test_a_process_that_is_killed_while_files_are_written_loses_no_run(tmp_path):
+    assert subprocess.run([sys.executable, "-c", KILLED, tmp_path]).returncode != 0
+    seen = []
+    propagate(
+        "gearmesh", runs=8, out=tmp_path, progress=lambda done, total: seen.append((done, total))
+    )
+    assert len(seen) == 1 and seen[0][0] == seen[0][1]
 
 
 @pytest.mark.parametrize(

@@ -170,6 +170,13 @@ def test_a_study_stands_in_report_and_json_and_beside_them(scattered, tmp_path, 
     assert {p.suffix for p in (tmp_path / "r").iterdir()} == {".html", ".png", ".csv", ""}
 
 
+def test_a_report_that_cannot_be_written_loses_no_run_of_its_study(scattered, tmp_path, capsys):
+    (tmp_path / "r" / "shift.csv").mkdir(parents=True)
+    assert main(scattered) == 2 and "keeps 24 of 24 runs" in capsys.readouterr().err
+    (tmp_path / "r" / "shift.csv").rmdir()
+    assert main(scattered) == 0 and "24 of them done before" in capsys.readouterr().err
+
+
 def test_a_study_that_fails_leaves_the_shift(scattered, tmp_path, capsys, monkeypatch):
     def fails(*_, **__):
         raise SolveError("none of the runs has a solution")

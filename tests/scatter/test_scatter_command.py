@@ -84,6 +84,31 @@ def test_the_folder_has_page_tables_and_the_nearest_runs_as_parts(part, tmp_path
     assert not (folder / JOURNAL).exists()
 
 
+def test_an_earlier_study_leaves_no_files_among_the_new_and_the_users_stay(part, tmp_path, capsys):
+    folder = tmp_path / "out"
+    words = "--runs", "8", "--no-indices", "--out", folder
+    assert said(capsys, part, *words)[0] == 0
+    earlier = folder / "friction_torque-95.toml"
+    own = {"mine-95.toml": earlier.read_text(), "friction_torque-5.toml": "x", "series.csv": "x"}
+    for name, text in own.items():
+        (folder / name).write_text(text)
+    (folder / "sub-50.toml").mkdir()
+    assert said(capsys, part, *words, "--outputs", "friction_power")[0] == 0
+    assert {p.name for p in folder.iterdir()} == {
+        *own,
+        *(f"friction_power-{level}.toml" for level in ("05", "50", "95")),
+        *("scatter.html", "sample.csv", "figures.csv", "sub-50.toml"),
+    }
+
+
+def test_a_target_that_its_own_study_would_replace_is_refused(part, tmp_path, capsys):
+    folder = tmp_path / "out"
+    words = "--runs", "8", "--no-indices", "--out", folder
+    assert said(capsys, part, *words)[0] == 0
+    status, _, err = said(capsys, folder / "friction_torque-95.toml", *words)
+    assert status == 2 and "which the study would replace; choose another folder" in err
+
+
 def test_inputs_and_parameters_are_set_as_elsewhere(part, tmp_path, capsys):
     words = "--runs", "8", "--no-indices", "--json", "--out", tmp_path / "out"
     usual, set_ = (
@@ -98,11 +123,21 @@ def test_inputs_and_parameters_are_set_as_elsewhere(part, tmp_path, capsys):
     [
         (["nothing.toml"], "cannot be read"),
         (["gearmsh"], "did you mean 'gearmesh'"),
-        (["gearmesh", "--runs", "many"], "--runs many: allowed: a whole number"),
-        (["gearmesh", "--runs", "4"], "runs = 4, allowed"),
-        (["gearmesh", "--runs", "999999999"], "runs = 999999999, allowed"),
+        *(
+            (["gearmesh", "--runs", n], f"--runs {n}: allowed: a whole number 8 .. 131072")
+            for n in ("many", "4", "-4", "8.5", "131073", "999999999", "1" * 21)
+        ),
+        *(
+            (["gearmesh", "--seed", n], f"--seed {n}: allowed: a whole number 0 .. 4294967295")
+            for n in ("-1", "4294967296", "1" * 21)
+        ),
+        (["gearmesh", "--reached", "above"], "--reached: has no effect with a gearmesh"),
+        (["clutch", "--reached", "above"], "--reached: has no effect with a clutch"),
+        (["planetary", "--reached", "above"], "--reached: has no effect with a scene"),
+        (["washer", "--indices", "all"], "--indices: has no effect with a part"),
         (["gearmesh", "--indices", "all", "--no-indices"], "allowed: one of them"),
         (["gearmesh", "--load", "much"], "load"),
+        (["gearmesh", "--out", ""], "--out '': the name of a folder is required"),
         (["gearmesh", "--outputs", "torqe"], "outputs: 'torqe'"),
         (["gearmesh", "--fidelity", "finest"], "finest"),
         (["gearmesh", "--tilt", "0.1"], "tilt"),
@@ -149,6 +184,19 @@ def test_a_study_without_any_solution_has_an_exit_status_of_its_own(part, tmp_pa
     assert len((folder / "sample.csv").read_text().splitlines()) == 9
 
 
+def test_a_page_that_cannot_be_written_loses_no_run(part, tmp_path, capsys):
+    folder = tmp_path / "out"
+    (folder / "scatter.html").mkdir(parents=True)
+    words = part, "--runs", "8", "--no-indices", "--out", folder
+    status, out, err = said(capsys, *words)
+    assert f"{folder / 'scatter.html'}: is a folder, and a file of this name" in err
+    assert (status, out) == (2, "") and f"{JOURNAL} keeps 8 of 8 runs; the same command" in err
+    (folder / "scatter.html").rmdir()
+    status, _, err = said(capsys, *words)
+    assert status == 0 and "scatter: 8 runs, 8 of them done before" in err
+    assert not (folder / JOURNAL).exists()
+
+
 def test_a_stopped_command_goes_on_with_the_same_numbers(part, tmp_path):
     """Ctrl-C while it runs: one line, a journal, then the same tables as without."""
     words = [sys.executable, "-m", "thrustwasher", "scatter", str(part), "--runs", "2048"]
@@ -159,7 +207,9 @@ def test_a_stopped_command_goes_on_with_the_same_numbers(part, tmp_path):
         pass
     stopped.send_signal(signal.SIGINT)
     err = stopped.communicate(timeout=60)[1]
-    assert stopped.returncode == 130 and err.splitlines()[-1] == "thrustwasher scatter: stopped"
+    kept, last = err.splitlines()[-2:]
+    assert stopped.returncode == 130 and last == "thrustwasher scatter: stopped"
+    assert f"{tmp_path / 'out' / JOURNAL} keeps " in kept and "of 8192 runs" in kept
     assert [p.name for p in (tmp_path / "out").iterdir()] == [JOURNAL]
     for folder in ("out", "whole"):
         done = subprocess.run([*words, "--out", tmp_path / folder], capture_output=True, text=True)

@@ -1,7 +1,10 @@
 """A study gives the same numbers however it is run, loses nothing, and says what is wrong."""
 
+import csv
 import json
 import math
+import subprocess
+import sys
 
 import needed
 import numpy as np
@@ -106,6 +109,46 @@ def test_a_stopped_study_goes_on_and_ends_as_if_never_stopped(tmp_path):
     assert not (out / JOURNAL).exists()
 
 
+def test_what_fails_while_files_are_written_loses_no_run(tmp_path):
+    usual = {"scatter": NORMAL, "runs": 32, "out": tmp_path, "workers": 1}
+    (tmp_path / "figures.csv").mkdir()
+    with pytest.raises(ParameterError, match=r"figures\.csv: is a folder, and a file of this name"):
+        propagate(linear, **usual)
+    assert [p.name for p in tmp_path.iterdir() if p.name != JOURNAL] == ["figures.csv"]
+    assert (tmp_path / JOURNAL).exists()
+    (tmp_path / "figures.csv").rmdir()
+
+    def finish(result):
+        assert (tmp_path / "figures.csv").exists() and (tmp_path / JOURNAL).exists()
+        raise Stop
+
+    seen = []
+    usual["progress"] = lambda done, _: seen.append(done)
+    with pytest.raises(Stop):
+        propagate(linear, **usual, finish=finish)
+    propagate(linear, **usual)
+    assert seen == [32 * 5, 32 * 5]
+    assert not (tmp_path / JOURNAL).exists()
+
+
+KILLED = """
+import os, signal, sys
+from thrustwasher import propagate
+finish = lambda _: os.kill(os.getpid(), signal.SIGTERM)
+signal.signal(signal.SIGTERM, signal.SIG_DFL)
+propagate("gearmesh", runs=8, workers=1, out=sys.argv[1], finish=finish)
+"""
+
+
+def test_a_process_that_is_killed_while_files_are_written_loses_no_run(tmp_path):
+    assert subprocess.run([sys.executable, "-c", KILLED, tmp_path]).returncode != 0
+    seen = []
+    propagate(
+        "gearmesh", runs=8, out=tmp_path, progress=lambda done, total: seen.append((done, total))
+    )
+    assert len(seen) == 1 and seen[0][0] == seen[0][1]
+
+
 @pytest.mark.parametrize(
     ("changed", "says"),
     [
@@ -147,7 +190,7 @@ def test_a_function_within_another_is_studied_here_but_not_sent():
 # Failures
 
 
-def test_failed_runs_are_counted_named_and_widen_what_they_may():
+def test_failed_runs_are_counted_named_and_widen_what_they_may(tmp_path):
     sound = propagate(linear, scatter=NORMAL, runs=256, workers=1)
     result = propagate(picky, scatter=NORMAL, runs=256, workers=1)
     band = result.figures["value"]
@@ -155,6 +198,10 @@ def test_failed_runs_are_counted_named_and_widen_what_they_may():
     assert 30 < n < 50 and result.failed == {"no solution": result.as_dict()["failed"]}
     assert band.confidence[0.95][1] == math.inf and band.confidence[0.05][0] == -math.inf
     assert result.as_dict()["figures"]["value"]["confidence"]["0.95"][1] is None
+    result.write(tmp_path)
+    with (tmp_path / "figures.csv").open(newline="") as stream:
+        (row,) = csv.DictReader(stream)
+    assert row["0.05 low"] == row["0.95 high"] == "" and float(row["0.5 low"])
     usual = sound.figures["sum"].confidence[0.5]
     assert band.confidence[0.5][1] - band.confidence[0.5][0] > usual[1] - usual[0] + 0.5
     assert band.left_out > n and any(f"leave out {band.left_out} of" in w for w in result.warnings)
@@ -168,6 +215,7 @@ def test_if_all_runs_fail_the_reason_is_told_and_the_sample_stays(tmp_path):
             runs=16,
             out=tmp_path,
         )
+    assert not (tmp_path / JOURNAL).exists()
     lines = (tmp_path / "sample.csv").read_text().splitlines()
     assert len(lines) == 17 and lines[0] == "a,value,status" and lines[1].endswith(",,no solution")
 
@@ -203,6 +251,7 @@ def test_a_signal_has_bands_and_indices_over_time():
 def test_a_figure_beyond_its_usual_range_has_a_probability():
     result = result_of(Swing(), runs=1024)
     outside, high = result.figures["peak"].outside, result.probabilities["high"]
+    assert {type(x) for p in result.probabilities.values() for x in (p.low, p.high)} == {float}
     assert high.low < 0.0899 < high.high and outside.value > high.value
     assert result.figures["dear"].outside is None and result.figures["peak"].error == 0.01
 
@@ -283,6 +332,8 @@ def test_out_must_be_a_folder(tmp_path):
     (tmp_path / "file").write_text("x")
     with pytest.raises(ParameterError, match=r"is a file, a folder is required"):
         propagate(linear, scatter=NORMAL, runs=8, out=tmp_path / "file")
+    with pytest.raises(ParameterError, match=r"out = '': the name of a folder is required"):
+        propagate(linear, scatter=NORMAL, runs=8, out="")
 
 
 def test_runs_are_rounded_up_and_that_is_told():

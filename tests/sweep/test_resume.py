@@ -78,7 +78,9 @@ def test_a_journal_is_on_disk_after_a_second_and_a_crash_costs_no_more(tmp_path,
     now = time.monotonic()
     monkeypatch.setattr(time, "monotonic", lambda: now)
     crashed = Journal(path, {"of": "a test"})
+    assert list(crashed.blocks(3, 1)) == []
     crashed.append(0, rows, np.ones((2, 1), np.int32))  # committed: the first
+    assert crashed._waiting == []
     crashed.append(2, rows, np.ones((2, 1), np.int32))
     now += 1.0
     crashed.append(4, rows, np.ones((2, 1), np.int32))  # and a second later

@@ -224,6 +224,8 @@ def new_part(path: str) -> Path:
 
 def check_folder(path: str, option: str) -> Path:
     """Return the folder if files can be written there; leave no trace of the test."""
+    if not path.strip():
+        raise ParameterError(f"{option} {path!r}: the name of a folder is required")
     folder = Path(path).absolute()
     if folder.exists() and not folder.is_dir():
         raise ParameterError(f"{option} {path}: is a file, a folder is required")

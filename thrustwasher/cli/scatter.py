@@ -2,13 +2,14 @@
 
 import argparse
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError
-from ..model.registry import models_with_points, spec_of
+from ..model.registry import find_model, models_with_points, spec_of
 from ..model.rungs import rung_named
 from ..storage.whole_files import new_folder
 from ..sweep.axes import places
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 HELP = "how sure figures are: the scatter of inputs through a part or a gear shift"
 LEAST = 0.02  # a total index below decides nothing
 FOLDER, PAGE = "scatter-report", "scatter.html"
+NEAREST = "# thrustwasher scatter: "  # first line of the file of a run, with the file's name
 OPTIONS = {
     "--runs N": "base points, rounded up to a power of two; default 1024, of a scene 256",
     "--seed N": "of the sample; default 1",
@@ -45,13 +47,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     _options.add(parser, OPTIONS)
     parser.set_defaults(out=FOLDER)
-    parser.add_argument("--indices", choices=["all"], help="all: of the costly figures too")
+    parser.add_argument("--indices", choices=["all"], help="all: of a scene's costly figures too")
     parser.add_argument(
         "--reached",
         choices=["below", "above"],
         default="below",
-        help="where several solutions exist, the branch: as loaded up from light load (below, "
-        "default), or coming down (above)",
+        help="of a washer: where several solutions exist, the branch: as loaded up from light load "
+        "(below, default), or coming down (above)",
     )
     _options.add_settings(parser, "of a part: change a parameter, e.g. --set roughness=4e-7")
     _options.add_oil(parser)
@@ -65,13 +67,22 @@ def run(arguments: argparse.Namespace) -> int:
     """Study the target, say what came out, write its files."""
     if arguments.no_indices and arguments.indices:
         raise ParameterError("--indices all: beside --no-indices, allowed: one of them")
-    runs, seed = (_whole(arguments, name) for name in ("runs", "seed"))
+    from ..scatter.design import LEAST_RUNS, MOST_RUNS, MOST_SEED
+
+    runs = _whole(arguments, "runs", LEAST_RUNS, MOST_RUNS)
+    seed = _whole(arguments, "seed", 0, MOST_SEED)
     target, at = _target(arguments)
     folder = _output.check_folder(arguments.out, "--out")
+    file = Path(arguments.target)
+    if file.resolve().parent == folder.resolve() and _is_nearest(file):
+        raise ParameterError(
+            f"--out {folder}: {file.name} is there, which the study would replace; choose another "
+            "folder"
+        )
 
     from ..scatter.propagate import propagate
 
-    with new_folder(folder):
+    with new_folder(folder), _kept(folder) as progress:
         result = propagate(
             target,
             runs=runs,
@@ -83,9 +94,9 @@ def run(arguments: argparse.Namespace) -> int:
             workers=arguments.workers,
             cluster=arguments.scheduler,
             out=folder,
-            progress=_progress(),
+            progress=progress,
+            finish=lambda result: _write(result, target, at, folder),
         )
-        _write(result, target, at, folder)
     _output.warn(result.warnings)
     if arguments.json:
         _output.print_json({**result.as_dict(), "out": str(folder)})
@@ -94,14 +105,15 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _whole(arguments: argparse.Namespace, name: str) -> int | None:
-    """Return the whole number of an option."""
+def _whole(arguments: argparse.Namespace, name: str, low: int, high: int) -> int | None:
+    """Return the whole number of an option, in its range."""
     text = getattr(arguments, name)
     if text is None:
         return None
-    if not text.strip().isdecimal() or len(text) > 12:
-        raise ParameterError(f"--{name} {text}: allowed: a whole number from 0 on")
-    return int(text)
+    number = int(text) if text.strip().isdecimal() and len(text) <= 12 else -1
+    if not low <= number <= high:
+        raise ParameterError(f"--{name} {text}: allowed: a whole number {low} .. {high}")
+    return number
 
 
 def _names(text: str | None) -> list[str] | None:
@@ -116,6 +128,10 @@ def _target(arguments: argparse.Namespace) -> tuple[Any, dict[str, str] | None]:
     given = {n: getattr(arguments, n) for n in _inputs() if getattr(arguments, n) is not None}
     found = part_or_scene(arguments.target)
     if isinstance(found, PartFile):
+        _options.refuse_unused(arguments, "a part, of which no figure is costly", ("indices",))
+        if find_model(found.spec.key).sweep.draws is None:
+            what = f"a {found.spec.key}, which has one solution"
+            _options.refuse_unused(arguments, what, (), reached="below")
         if arguments.preset is not None:
             found = _options.solvable(arguments.target, arguments.preset)
         if arguments.fidelity is not None:
@@ -123,7 +139,8 @@ def _target(arguments: argparse.Namespace) -> tuple[Any, dict[str, str] | None]:
         settings = _options.read_settings(arguments.settings, found.spec)
         found = _options.with_oil(arguments, found, settings)
         return replace(found, parameters=found.parameters | settings), given
-    _options.refuse_unused(arguments, "a scene", (*_inputs(), "preset", "fidelity", "settings"))
+    unused = (*_inputs(), "preset", "fidelity", "settings")
+    _options.refuse_unused(arguments, "a scene", unused, reached="below")
     if arguments.oil is not None:
         from ..shift import load_scene
 
@@ -139,6 +156,27 @@ def _inputs() -> dict[str, str]:
             if place.is_input:
                 found.setdefault(place.name, {})[f"{place.unit} ({model})"] = None
     return {name: ", ".join(units) for name, units in found.items()}
+
+
+@contextmanager
+def _kept(folder: Path | None) -> Iterator[Callable[[int, int], None]]:
+    """Give what shows the progress; if the study stops, say that its journal keeps the runs."""
+    from ..scatter.propagate import JOURNAL
+
+    show, done, total = _progress(), 0, 0
+
+    def progress(*now: int) -> None:
+        nonlocal done, total
+        done, total = now
+        show(done, total)
+
+    try:
+        yield progress
+    except BaseException:
+        if folder and done and (folder / JOURNAL).exists():
+            kept = f"keeps {done} of {total} runs; the same command goes on with them"
+            _output.note(f"scatter: {folder / JOURNAL} {kept}")
+        raise
 
 
 def _progress() -> Callable[[int, int], None]:
@@ -161,11 +199,15 @@ def _progress() -> Callable[[int, int], None]:
 
 
 def _write(result: "ScatterResult", target: Any, at: Any, folder: Path) -> None:
-    """Write the page, and the runs nearest to quantiles of its figures as files to open."""
+    """Write the page, and the runs nearest to quantiles of its figures as files to open.
+
+    Files of an earlier study of which this one has none go.
+    """
     from ..model.part_file import PartFile, part_text
     from ..report.html import render
     from ..report.scatter import scatter_page
     from ..report.scatter.study_page import MOST_FIGURES, main_figures
+    from ..scatter.result import SERIES
     from ..shift.scene.variation import scene_text
 
     files: dict[str, dict[float, str]] = {}
@@ -177,10 +219,30 @@ def _write(result: "ScatterResult", target: Any, at: Any, folder: Path) -> None:
                 else:
                     text = scene_text(target, values)
                 file = f"{name}-{100.0 * level:02.0f}.toml"
-                (draft / file).write_text(text, encoding="utf-8")
+                (draft / file).write_text(f"{NEAREST}{file}\n{text}", encoding="utf-8")
                 files.setdefault(name, {})[level] = file
         page = render(scatter_page(result, files))
         (draft / PAGE).write_text(page, encoding="utf-8")
+    written = {file for by_level in files.values() for file in by_level.values()}
+    for path in folder.glob("*.toml"):
+        if path.name not in written and _is_nearest(path):
+            path.unlink()
+    if not result.series and _first_line(folder / SERIES).startswith("time [s],"):
+        (folder / SERIES).unlink()
+
+
+def _is_nearest(path: Path) -> bool:
+    """Tell if a file is one that a study wrote under this name."""
+    return _first_line(path) == f"{NEAREST}{path.name}\n"
+
+
+def _first_line(path: Path) -> str:
+    """Return the first line of a file, nothing of what cannot be read."""
+    try:
+        with path.open(encoding="utf-8", errors="replace") as stream:
+            return stream.readline(1000)
+    except OSError:
+        return ""
 
 
 def _drawn(part: "PartFile", at: dict[str, str], values: dict[str, Any]) -> "PartFile":

@@ -93,13 +93,17 @@ def run(arguments: argparse.Namespace) -> int:
 
     began = time.perf_counter()
     result, study = _simulate(arguments, scene), None
-    try:
-        if runs:
-            study = _study(result.scene, runs, folder)
-    finally:  # what stops the study leaves the shift
+
+    def write(study: Any) -> None:
         if folder:
             with _output.whole_folder(folder) as draft:
                 _write(result, study, draft)
+
+    try:
+        study = _study(result.scene, runs, folder, write) if runs else None
+    finally:  # what stops the study leaves the shift
+        if study is None:
+            write(None)
     _output.warn([*result.warnings, *(study.warnings if study else ())])
     if arguments.json:
         total, out = time.perf_counter() - began, str(folder) if folder else None
@@ -141,15 +145,22 @@ def _scatter_runs(arguments: argparse.Namespace, scene: Any) -> int | None:
     return rounded_runs(number)
 
 
-def _study(scene: Any, runs: int, folder: Path | None) -> Any:
-    """Return the study of a scene; its page and tables go to a folder of their own."""
+def _study(scene: Any, runs: int, folder: Path | None, write: Callable[[Any], None]) -> Any:
+    """Return the study of a scene; its page and tables go to a folder of their own.
+
+    ``write`` writes the report; the journal goes after all files.
+    """
     from ..scatter.propagate import propagate
 
     out = folder and folder / STUDY
-    study = propagate(scene, runs=runs, out=out, progress=_scatter._progress())
-    if out:
-        _scatter._write(study, scene, None, out)
-    return study
+
+    def finish(study: Any) -> None:
+        if out:
+            _scatter._write(study, scene, None, out)
+        write(study)
+
+    with _scatter._kept(out) as progress:
+        return propagate(scene, runs=runs, out=out, progress=progress, finish=finish)
 
 
 def _list(as_json: bool) -> int:

@@ -63,8 +63,8 @@ def probability_bounds(values: Array) -> Bounds:
     n = len(values)
     low, high = (_shares(np.where(np.isnan(values), end, values)) for end in (0.0, 1.0))
     return Bounds(
-        _wilson(low.mean(), _independent(low, n)).low,
-        _wilson(high.mean(), _independent(high, n)).high,
+        _wilson(float(low.mean()), _independent(low, n)).low,
+        _wilson(float(high.mean()), _independent(high, n)).high,
     )
 
 

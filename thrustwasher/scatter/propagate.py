@@ -45,6 +45,7 @@ def propagate(
     cluster: str | None = None,
     out: str | Path | None = None,
     progress: Progress | None = None,
+    finish: Callable[[ScatterResult], None] | None = None,
 ) -> ScatterResult:
     """Return what the scatter of inputs makes of the figures of a part, a scene or a function.
 
@@ -68,6 +69,8 @@ def propagate(
     out : folder for ``sample.csv``, ``figures.csv``, ``series.csv``; a journal lies there until the
         study is done, and the same call goes on from it
     progress : called as progress(runs done, runs in all)
+    finish : called with the result while the journal is still there, for files of one's own: if
+        that fails, the same call goes on with all runs done
 
     Raises
     ------
@@ -114,6 +117,7 @@ def propagate(
             if folder is not None:
                 with whole_folder(folder) as draft:
                     write_columns(draft / SAMPLE, drawn.sample(), drawn.units)
+            finished = True  # the sample has all there is
             n, why = study.design.n, next(iter(drawn.failed))
             raise SolveError(
                 f"none of the {n} base runs has a solution, mostly: {why}; check the nominal "
@@ -123,6 +127,8 @@ def propagate(
         result = replace(result, wall_time=time.perf_counter() - began)
         if folder is not None:
             result.write(folder)
+        if finish is not None:
+            finish(result)
         finished = True
     finally:
         if journal:
@@ -217,6 +223,8 @@ def part_or_scene(name: str) -> Any:
 
 
 def _folder(out: str | Path) -> Path:
+    if not str(out).strip():
+        raise ParameterError(f"out = {out!r}: the name of a folder is required")
     folder = Path(out)
     if folder.exists() and not folder.is_dir():
         raise ParameterError(f"out = {str(out)!r}: is a file, a folder is required")

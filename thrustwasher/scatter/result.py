@@ -229,8 +229,8 @@ def _write(path: Path, rows: Iterable[list[Any]]) -> None:
 
 
 def _cell(value: Any) -> Any:
-    """Return what a cell holds: nothing for NaN and None."""
-    is_nothing = value is None or (isinstance(value, float) and math.isnan(value))
+    """Return what a cell holds: nothing for None and what is not finite."""
+    is_nothing = value is None or (isinstance(value, float) and not math.isfinite(value))
     return "" if is_nothing else value
 
 

@@ -85,6 +85,8 @@ class Study:
             show(n_done, n_rows)
 
         _hand_out(self.target, todo, take, workers, cluster)
+        if journal:
+            journal.flush()  # a kill while files are written loses nothing
         return numbers, flags[:, 0]
 
     def _batches(self) -> list[Batch]:

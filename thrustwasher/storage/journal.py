@@ -110,6 +110,8 @@ class Journal:
 
     def flush(self) -> None:
         """Write what waits; if the disk has no room for all of it, what there is room for."""
+        if not self._waiting:  # the first entry is yet to come
+            return
         with self._named():
             try:
                 self._commit(len(self._waiting))

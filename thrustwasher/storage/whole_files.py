@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from ..errors import naming
+from ..errors import ParameterError, naming
 
 
 @contextmanager
@@ -28,14 +28,24 @@ def whole_file(path: Path) -> Iterator[Path]:
 
 @contextmanager
 def whole_folder(path: Path) -> Iterator[Path]:
-    """Give a temporary folder whose files move to ``path`` only if all went well."""
+    """Give a temporary folder whose files move to ``path`` only if all went well.
+
+    ParameterError: a folder has the name of a file.
+    """
     with naming(path), new_folder(path):
         draft = path / f".draft-{secrets.token_hex(8)}"
         try:
             draft.mkdir(0o700)
             yield draft
-            for made in sorted(draft.iterdir()):
-                os.replace(made, path / made.name)
+            made = sorted(draft.iterdir())
+            for blocked in (path / file.name for file in made):
+                if blocked.is_dir():
+                    raise ParameterError(
+                        f"{blocked}: is a folder, and a file of this name is to be written; move "
+                        "or rename it, or choose another folder"
+                    )
+            for file in made:
+                os.replace(file, path / file.name)
         finally:
             shutil.rmtree(draft, ignore_errors=True)
 

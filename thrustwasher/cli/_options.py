@@ -20,8 +20,8 @@ from ..model.part_file import (
 )
 from ..model.point import Point, point_of
 from ..model.record import Option
-from ..model.registry import find_model, spec_of
-from ..sweep.axes import Place, split_settings
+from ..model.registry import find_model, models_with_points, spec_of
+from ..sweep.axes import Place, places, split_settings
 from ..units import has_unit, parse_quantity
 from ._output import note, parameters_of, warn
 
@@ -43,6 +43,16 @@ def add_inputs(parser: argparse.ArgumentParser, inputs: "Iterable[Signal]") -> N
             help=f"{signal.help} [{signal.unit}]; {span}, default {signal.usual:g}, moved into the "
             "part's [box]",
         )
+
+
+def inputs_of_all_models() -> dict[str, str]:
+    """Return the inputs of all models with the units that they have there."""
+    found: dict[str, dict[str, None]] = {}
+    for model in models_with_points():
+        for place in places(spec_of(model)).values():
+            if place.is_input:
+                found.setdefault(place.name, {})[f"{place.unit} ({model})"] = None
+    return {name: ", ".join(units) for name, units in found.items()}
 
 
 def _doubts(given: Mapping[str, Any], inputs: "Iterable[Signal]") -> list[str]:

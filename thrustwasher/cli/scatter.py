@@ -9,10 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError
-from ..model.registry import find_model, models_with_points, spec_of
+from ..model.registry import find_model, models_with_points
 from ..model.rungs import rung_named
 from ..storage.whole_files import new_folder
-from ..sweep.axes import places
 from ..units import format_quantity
 from . import _options, _output
 from ._options import option_name
@@ -59,7 +58,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add_oil(parser)
     _options.add_workers(parser, "processes; default: one per core, 1: none")
     inputs = parser.add_argument_group("inputs of a part, if not those of its [box]")
-    for name, units in _inputs().items():
+    for name, units in _options.inputs_of_all_models().items():
         inputs.add_argument(option_name(name), dest=name, metavar="QUANTITY", help=units)
 
 
@@ -125,7 +124,11 @@ def _target(arguments: argparse.Namespace) -> tuple[Any, dict[str, str] | None]:
     from ..model.part_file import PartFile
     from ..scatter.propagate import part_or_scene
 
-    given = {n: getattr(arguments, n) for n in _inputs() if getattr(arguments, n) is not None}
+    given = {
+        n: getattr(arguments, n)
+        for n in _options.inputs_of_all_models()
+        if getattr(arguments, n) is not None
+    }
     found = part_or_scene(arguments.target)
     if isinstance(found, PartFile):
         _options.refuse_unused(arguments, "a part, of which no figure is costly", ("indices",))
@@ -139,23 +142,13 @@ def _target(arguments: argparse.Namespace) -> tuple[Any, dict[str, str] | None]:
         settings = _options.read_settings(arguments.settings, found.spec)
         found = _options.with_oil(arguments, found, settings)
         return replace(found, parameters=found.parameters | settings), given
-    unused = (*_inputs(), "preset", "fidelity", "settings")
+    unused = (*_options.inputs_of_all_models(), "preset", "fidelity", "settings")
     _options.refuse_unused(arguments, "a scene", unused, reached="below")
     if arguments.oil is not None:
         from ..shift import load_scene
 
         found = load_scene(arguments.target, arguments.oil)
     return found, None
-
-
-def _inputs() -> dict[str, str]:
-    """Return the inputs of all models with the units that they have there."""
-    found: dict[str, dict[str, None]] = {}
-    for model in models_with_points():
-        for place in places(spec_of(model)).values():
-            if place.is_input:
-                found.setdefault(place.name, {})[f"{place.unit} ({model})"] = None
-    return {name: ", ".join(units) for name, units in found.items()}
 
 
 @contextmanager

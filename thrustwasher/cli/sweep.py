@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ..errors import ParameterError, SolveError
-from ..model.registry import models_with_points, spec_of
+from ..model.registry import models_with_points
 from ..model.spec import ModelSpec
 from ..sweep.axes import places, split_settings
 from . import _options, _output
@@ -40,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add_workers(parser, "processes; default: one per core, 1: none")
     _options.add_oil(parser)
     inputs = parser.add_argument_group("inputs that are held (as with --set)")
-    for name, units in _inputs().items():
+    for name, units in _options.inputs_of_all_models().items():
         inputs.add_argument(option_name(name), dest=name, metavar="QUANTITY", help=units)
 
 
@@ -95,7 +95,7 @@ def _held(arguments: argparse.Namespace, spec: ModelSpec) -> dict[str, str]:
     """Return what ``--set`` and the inputs' options hold, by name."""
     held = split_settings(arguments.settings, "--set", VALUES)
     known = places(spec)
-    for name in _inputs():
+    for name in _options.inputs_of_all_models():
         value = getattr(arguments, name)
         if value is not None:
             if name not in known or name in held:
@@ -114,16 +114,6 @@ def _points(path: str, spec: ModelSpec) -> dict[str, Any]:
         inputs = ", ".join(p.name for p in known.values() if p.is_input)
         raise ParameterError(f"{path}: no column is an input or parameter, required: {inputs}")
     return columns
-
-
-def _inputs() -> dict[str, str]:
-    """Return the inputs of all models with the units that they have there."""
-    found: dict[str, dict[str, None]] = {}
-    for model in models_with_points():
-        for place in places(spec_of(model)).values():
-            if place.is_input:
-                found.setdefault(place.name, {})[f"{place.unit} ({model})"] = None
-    return {name: ", ".join(units) for name, units in found.items()}
 
 
 def _progress(spec: ModelSpec) -> Callable[[int, int], None]:

@@ -39,6 +39,9 @@ def local_processes(n: int) -> Iterator[Executor]:
         n, mp_context=multiprocessing.get_context("spawn"), initializer=_settle_in
     )
     try:
+        with _interrupts_held():
+            for _ in range(n):
+                executor.submit(int)  # starts a process
         yield executor
         executor.shutdown()
     except BaseException:
@@ -65,6 +68,19 @@ def runner(n: int) -> Iterator[Run]:
             "a worker process has ended before its work was done (too little memory?); what is "
             "solved is kept: run the same again, with fewer workers"
         ) from None
+
+
+@contextmanager
+def _interrupts_held() -> Iterator[None]:
+    """Hold Ctrl-C back: processes that start meanwhile never see it, not even while they start."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _settle_in() -> None:

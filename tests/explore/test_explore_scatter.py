@@ -116,7 +116,8 @@ def test_the_switch_is_a_key_away_and_stands_in_the_address(opened):
     page.page.keyboard.press("Space")
     assert banded(page).page.url.endswith("&scatter=true")
     page.page.keyboard.press("Space")
-    assert "scatter" not in page.page.url and said(page) == ""
+    page.page.wait_for_url(lambda url: "scatter" not in url)  # written a moment later
+    assert said(page) == ""
     assert page.page.locator(".band").count() == 0
     assert not page.page.is_visible("#scatter-numbers")
 

@@ -81,7 +81,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     from ..scatter.propagate import propagate
 
-    with new_folder(folder), _kept(folder) as progress:
+    with new_folder(folder), kept_runs(folder) as progress:
         result = propagate(
             target,
             runs=runs,
@@ -94,13 +94,13 @@ def run(arguments: argparse.Namespace) -> int:
             cluster=arguments.scheduler,
             out=folder,
             progress=progress,
-            finish=lambda result: _write(result, target, at, folder),
+            finish=lambda result: write_files(result, target, at, folder),
         )
     _output.warn(result.warnings)
     if arguments.json:
         _output.print_json({**result.as_dict(), "out": str(folder)})
     else:
-        _say(result, folder)
+        say(result, folder)
     return 0
 
 
@@ -152,7 +152,7 @@ def _target(arguments: argparse.Namespace) -> tuple[Any, dict[str, str] | None]:
 
 
 @contextmanager
-def _kept(folder: Path | None) -> Iterator[Callable[[int, int], None]]:
+def kept_runs(folder: Path | None) -> Iterator[Callable[[int, int], None]]:
     """Give what shows the progress; if the study stops, say that its journal keeps the runs."""
     from ..scatter.propagate import JOURNAL
 
@@ -191,7 +191,7 @@ def _progress() -> Callable[[int, int], None]:
     return progress
 
 
-def _write(result: "ScatterResult", target: Any, at: Any, folder: Path) -> None:
+def write_files(result: "ScatterResult", target: Any, at: Any, folder: Path) -> None:
     """Write the page, and the runs nearest to quantiles of its figures as files to open.
 
     Files of an earlier study of which this one has none go.
@@ -247,13 +247,15 @@ def _drawn(part: "PartFile", at: dict[str, str], values: dict[str, Any]) -> "Par
     return replace(part, parameters=_output.parameters_of(params), box=box, scatter={})
 
 
-def _say(result: "ScatterResult", folder: Path | None) -> None:
+def say(result: "ScatterResult", folder: Path | None) -> None:
     """Print the bands, what decides them, probabilities, and where the files are."""
     failed = sum(result.failed.values())
     print(
         f"{result.target}: {result.runs} base points, {result.solves} runs"
         + (f", {failed} failed" if failed else "")
     )
+    for note in result.notes:
+        print(f"  {note}")
     heads = ("figure", "nominal", "5 %", "50 %", "95 %", "outside", "decided by (total index)")
     rows = [heads, *(_row(name, band) for name, band in result.figures.items())]
     widths = [max(len(row[i]) for row in rows) for i in range(len(heads) - 1)]

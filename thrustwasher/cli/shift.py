@@ -115,7 +115,7 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         _say(result, folder)
     if study:
-        _scatter._say(study, folder and folder / STUDY)
+        _scatter.say(study, folder and folder / STUDY)
     return 0
 
 
@@ -156,10 +156,10 @@ def _study(scene: Any, runs: int, folder: Path | None, write: Callable[[Any], No
 
     def finish(study: Any) -> None:
         if out:
-            _scatter._write(study, scene, None, out)
+            _scatter.write_files(study, scene, None, out)
         write(study)
 
-    with _scatter._kept(out) as progress:
+    with _scatter.kept_runs(out) as progress:
         return propagate(scene, runs=runs, out=out, progress=progress, finish=finish)
 
 

@@ -1,6 +1,7 @@
 """Python in a process of its own, with this checkout first in its path."""
 
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -21,3 +22,21 @@ def child(code, *words, check=False, path=(), limit=500, **environment):
     )
     assert not check or done.returncode == 0, done.stderr
     return done
+
+
+def started(words, folder):
+    """Start a command as a program of its own, which hears Ctrl-C whatever runs the tests.
+
+    Its lines are not measured: coverage holds a lock that an exception out of a signal never frees.
+    """
+    unmeasured = {k: v for k, v in os.environ.items() if not k.startswith("COVERAGE_PROCESS")}
+    return subprocess.Popen(
+        [sys.executable, "-m", "thrustwasher", *map(str, words)],
+        cwd=folder,
+        text=True,
+        env=unmeasured,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )

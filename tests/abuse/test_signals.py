@@ -2,11 +2,11 @@
 
 import os
 import signal
-import subprocess
 import sys
 import time
 
 import pytest
+from children import started
 
 from thrustwasher.cli import Stopped, Watch, main
 
@@ -14,24 +14,6 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs signals o
 SWEEP = ["sweep", "gearmesh", "--over", "load=10:1000:x300", "--over", "speed=50:500:x150"]
 MAP = "map build --load 20:1800 --speed 50:1400 --tilt 0.001:0.003 --workers 2".split()
 MAP += ["--oil-temperature", "290:400"]
-
-
-def started(words, folder):
-    """Start a command as a program of its own, which hears Ctrl-C whatever runs the tests.
-
-    Its lines are not measured: coverage holds a lock that an exception out of a signal never frees.
-    """
-    unmeasured = {k: v for k, v in os.environ.items() if not k.startswith("COVERAGE_PROCESS")}
-    return subprocess.Popen(
-        [sys.executable, "-m", "thrustwasher", *words],
-        cwd=folder,
-        text=True,
-        env=unmeasured,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        start_new_session=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-    )
 
 
 def stopped(words, folder, begun, *signals):
@@ -103,6 +85,7 @@ def watch():
     made = Watch()
     made.begin()
     yield made
+    made.close()
     for number, handler in before.items():
         signal.signal(number, handler)
 
@@ -162,3 +145,14 @@ def test_a_stop_that_a_library_takes_for_a_failure_is_a_stop(monkeypatch, capsys
         for number, handler in before.items():
             signal.signal(number, handler)
     assert capsys.readouterr().err == "thrustwasher shift: terminated\n"
+
+
+def test_a_signal_where_python_cannot_raise_stops_what_follows(watch, capsys):
+    class Gone:
+        def __del__(self):
+            signal.raise_signal(signal.SIGINT)
+
+    with pytest.raises(Stopped):
+        Gone()
+        time.sleep(10.0)
+    assert capsys.readouterr().err == ""

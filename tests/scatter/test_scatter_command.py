@@ -3,10 +3,9 @@
 import csv
 import json
 import signal
-import subprocess
-import sys
 
 import pytest
+from children import started
 
 from thrustwasher import load_part
 from thrustwasher.cli import main
@@ -199,10 +198,8 @@ def test_a_page_that_cannot_be_written_loses_no_run(part, tmp_path, capsys):
 
 def test_a_stopped_command_goes_on_with_the_same_numbers(part, tmp_path):
     """Ctrl-C while it runs: one line, a journal, then the same tables as without."""
-    words = [sys.executable, "-m", "thrustwasher", "scatter", str(part), "--runs", "2048"]
-    stopped = subprocess.Popen(
-        [*words, "--workers", "1", "--out", tmp_path / "out"], stderr=subprocess.PIPE, text=True
-    )
+    words = ["scatter", part, "--runs", "2048"]
+    stopped = started([*words, "--workers", "1", "--out", tmp_path / "out"], tmp_path)
     while "about" not in stopped.stderr.readline():  # the first batch is done
         pass
     stopped.send_signal(signal.SIGINT)
@@ -212,9 +209,10 @@ def test_a_stopped_command_goes_on_with_the_same_numbers(part, tmp_path):
     assert f"{tmp_path / 'out' / JOURNAL} keeps " in kept and "of 8192 runs" in kept
     assert [p.name for p in (tmp_path / "out").iterdir()] == [JOURNAL]
     for folder in ("out", "whole"):
-        done = subprocess.run([*words, "--out", tmp_path / folder], capture_output=True, text=True)
+        done = started([*words, "--out", tmp_path / folder], tmp_path)
+        said_of_it = done.communicate()[1]
         assert done.returncode == 0
-        assert ("done before" in done.stderr) == (folder == "out")
+        assert ("done before" in said_of_it) == (folder == "out")
     for name in ("sample.csv", "figures.csv"):
         one, other = ((tmp_path / f / name).read_bytes() for f in ("out", "whole"))
         assert one == other

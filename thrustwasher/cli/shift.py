@@ -202,13 +202,21 @@ def _simulate(arguments: argparse.Namespace, scene: Any) -> Any:
 
     progress = _output.time_left(scene.name) if sys.stderr.isatty() else None
     guard = not arguments.no_guard
+    # Ctrl-C in an import may leave another one waiting for ever: what draws is loaded by a thread
+    # that nobody waits for then, and this one imports nothing of it before that has ended.
+    loader = Thread(target=_load_report, daemon=True)
+    result: Any
     with _fmu_instances(scene, arguments.fmu) as make:
         if not arguments.no_report:
-            Thread(target=_load_report).start()
-        if not scene.sequence:
-            return run_auto(scene, make, guard=guard, progress=progress)
-        instances = {name: make(name, part) for name, part in scene.parts.items()}
-        return run_sequence(scene, instances, guard=guard, progress=progress)
+            loader.start()
+        if scene.sequence:
+            instances = {name: make(name, part) for name, part in scene.parts.items()}
+            result = run_sequence(scene, instances, guard=guard, progress=progress)
+        else:
+            result = run_auto(scene, make, guard=guard, progress=progress)
+    if loader.is_alive():
+        loader.join()
+    return result
 
 
 def _check_rungs(scene: Any, where: str) -> None:

@@ -85,7 +85,6 @@ def watch():
     made = Watch()
     made.begin()
     yield made
-    made.close()
     for number, handler in before.items():
         signal.signal(number, handler)
 
@@ -145,15 +144,3 @@ def test_a_stop_that_a_library_takes_for_a_failure_is_a_stop(monkeypatch, capsys
         for number, handler in before.items():
             signal.signal(number, handler)
     assert capsys.readouterr().err == "thrustwasher shift: terminated\n"
-
-
-def test_a_signal_where_python_cannot_raise_stops_what_follows(watch, capsys):
-    class Gone:
-        def __del__(self):
-            signal.raise_signal(signal.SIGINT)
-
-    watch.begin()  # older pytest takes Python's hook over for each phase of a test
-    with pytest.raises(Stopped):
-        Gone()
-        time.sleep(10.0)
-    assert capsys.readouterr().err == ""

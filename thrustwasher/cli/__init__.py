@@ -12,7 +12,6 @@ A command that solves a model at one point is no file: ``_solve`` makes it from 
 ==============  ==================================================================
 """
 
-import _thread
 import argparse
 import errno
 import gc
@@ -210,7 +209,6 @@ class Watch:
     def __init__(self) -> None:
         self.number = 0
         self._last = float("-inf")
-        self._tell_lost = sys.unraisablehook
 
     def begin(self) -> None:
         """Take the signals over; what a parent has switched off stays off."""
@@ -219,17 +217,6 @@ class Watch:
         for number in (signal.SIGINT, signal.SIGTERM):
             if signal.getsignal(number) in (signal.default_int_handler, signal.SIG_DFL):
                 signal.signal(number, self._stop)
-        sys.unraisablehook = self._raise_later
-
-    def _raise_later(self, lost: "sys.UnraisableHookArgs") -> None:
-        """Stop a moment later if Python could not raise where it was, as in a weak reference."""
-        if not isinstance(lost.exc_value, Stopped):
-            self._tell_lost(lost)
-            return
-        self._last = float("-inf")
-        again = threading.Timer(0.01, _thread.interrupt_main, (self.number,))
-        again.daemon = True
-        again.start()
 
     def _stop(self, number: int, _frame: FrameType | None) -> None:
         now = time.monotonic()
@@ -243,7 +230,6 @@ class Watch:
         for number in (signal.SIGINT, signal.SIGTERM):
             if signal.getsignal(number) == self._stop:
                 signal.signal(number, signal.SIG_IGN)
-        sys.unraisablehook = self._tell_lost
 
     @property
     def status(self) -> int:

@@ -5,7 +5,7 @@ import json
 import signal
 
 import pytest
-from children import started
+from children import started, stopped
 
 from thrustwasher import load_part
 from thrustwasher.cli import main
@@ -199,13 +199,10 @@ def test_a_page_that_cannot_be_written_loses_no_run(part, tmp_path, capsys):
 def test_a_stopped_command_goes_on_with_the_same_numbers(part, tmp_path):
     """Ctrl-C while it runs: one line, a journal, then the same tables as without."""
     words = ["scatter", part, "--runs", "2048"]
-    stopped = started([*words, "--workers", "1", "--out", tmp_path / "out"], tmp_path)
-    while "about" not in stopped.stderr.readline():  # the first batch is done
-        pass
-    stopped.send_signal(signal.SIGINT)
-    err = stopped.communicate(timeout=60)[1]
-    kept, last = err.splitlines()[-2:]
-    assert stopped.returncode == 130 and last == "thrustwasher scatter: stopped"
+    stop = "thrustwasher.storage.journal.Journal.put", "len(calls) == 2", signal.SIGINT
+    code, lines = stopped([*words, "--out", tmp_path / "out"], tmp_path, *stop)
+    kept, last = lines[-2:]
+    assert code == 130 and last == "thrustwasher scatter: stopped"
     assert f"{tmp_path / 'out' / JOURNAL} keeps " in kept and "of 8192 runs" in kept
     assert [p.name for p in (tmp_path / "out").iterdir()] == [JOURNAL]
     for folder in ("out", "whole"):

@@ -31,14 +31,15 @@ fmi3Instance fmi3InstantiateCoSimulation(
     size_t nRequiredIntermediateVariables, fmi3InstanceEnvironment instanceEnvironment,
     fmi3LogMessageCallback logMessage, fmi3IntermediateUpdateCallback intermediateUpdate) {
     (void)visible, (void)earlyReturnAllowed;
-    (void)requiredIntermediateVariables, (void)intermediateUpdate;
     const Log log = open_log(instanceName, loggingOn, instanceEnvironment, logMessage);
-    if (nRequiredIntermediateVariables > 0) {
-        return refuse_instance(&log, "has no intermediate updates: "
-                               "nRequiredIntermediateVariables has to be 0");
-    }
     Instance *m = instantiate(&log, instantiationToken, resourcePath);
-    if (m) m->has_events = eventModeUsed != 0;
+    if (!m) return NULL;
+    m->has_events = eventModeUsed != 0;
+    if (begin_updates(m, requiredIntermediateVariables, nRequiredIntermediateVariables,
+                      intermediateUpdate)) {
+        free_instance(m);
+        return NULL;
+    }
     return m;
 }
 
@@ -153,6 +154,7 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
         *lastSuccessfulTime = known ? known->now.time : currentCommunicationPoint;
     }
     ENTER(fmi3DoStep);
+    ask_ahead(m, currentCommunicationPoint, communicationStepSize);
     m->last_step = advance(m, currentCommunicationPoint, communicationStepSize);
     if (lastSuccessfulTime) *lastSuccessfulTime = m->now.time;
     return (fmi3Status)m->last_step;

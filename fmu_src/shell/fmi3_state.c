@@ -1,4 +1,4 @@
-/* FMI 3.0 co-simulation: states and derivatives, translated. */
+/* FMI 3.0 co-simulation: states, derivatives and inputs within a step, translated. */
 #include "fmi3_shell.h"
 
 fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
@@ -66,4 +66,42 @@ fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueRefere
     AS_MANY(fmi3GetAdjointDerivative, nKnowns, nSensitivity);
     const Direction d = {unknowns, knowns, nUnknowns, nKnowns, seed};
     return (fmi3Status)adjoint(m, &d, sensitivity);
+}
+
+/* Inputs at the end of a step, asked for at its start. */
+
+int begin_updates(Instance *m, const fmi3ValueReference wanted[], size_t n,
+                  fmi3IntermediateUpdateCallback update) {
+    if (n == 0) return GOOD;
+    if (!wanted || !update) {
+        return fail(m, "intermediate variables are required, but %s is NULL",
+                    wanted ? "intermediateUpdate" : "the array of them");
+    }
+    for (size_t i = 0; i < n; i++) {
+        const Variable *v = find(m, wanted[i]);
+        if (!v) return BAD;
+        if (v->cause == CAUSE_INPUT && v->type == TYPE_REAL) continue;
+        return fail(m, "%s is required between communication points, allowed: Float64 inputs",
+                    v->name);
+    }
+    m->update = (void (*)(void))update;
+    return GOOD;
+}
+
+void ask_ahead(Instance *m, double t, double h) {
+    Snap *s = &m->now;
+    double start[AT_LEAST_ONE(NINP)], early_time = t;
+    const int32_t dirty = s->dirty, latch = s->latch, unsolved = m->unsolved;
+    fmi3Boolean early = fmi3False;
+    if (!m->update || !(h > 0.0) || !is_finite(t + h)) return;
+    memcpy(start, s->inp, sizeof start);
+    s->mode = UPDATING;
+    ((fmi3IntermediateUpdateCallback)m->update)(m->log.environment, t + h, fmi3True, fmi3False,
+                                                fmi3False, fmi3False, &early, &early_time);
+    s->mode = STEPPING;
+    for (int i = 0; i < NINP; i++) s->inp[NINP + i] = (s->inp[i] - start[i]) / h;
+    memcpy(s->inp, start, sizeof start);
+    s->dirty = dirty;
+    m->unsolved = unsolved;
+    if (!s->n_refused) s->latch = latch;
 }

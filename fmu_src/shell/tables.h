@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 /* Where an instance is in its life; the bits of Call.modes and Access. */
-enum { INSTANTIATED = 1, INITIALIZING = 2, STEPPING = 4, TERMINATED = 8, EVENTS = 16 };
+enum { INSTANTIATED = 1, INITIALIZING = 2, STEPPING = 4, TERMINATED = 8, EVENTS = 16, UPDATING = 32 };
 
 enum { TYPE_REAL, TYPE_INTEGER, TYPE_BOOLEAN, TYPE_ENUMERATION };
 enum { CAUSE_INDEPENDENT, CAUSE_INPUT, CAUSE_PARAMETER, CAUSE_OUTPUT, N_CAUSES };

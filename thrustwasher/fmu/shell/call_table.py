@@ -7,6 +7,7 @@ in every mode. A mode there is a name of here in small letters.
 from ...model.toml_tables import table_beside
 
 INSTANTIATED, INITIALIZING, STEPPING, TERMINATED, EVENTS = 1, 2, 4, 8, 16
+UPDATING = 32  # within the host's intermediateUpdate, FMI 3 only
 NEVER = 0
 ALWAYS = INSTANTIATED | INITIALIZING | STEPPING | TERMINATED | EVENTS
 SOLVABLE = INITIALIZING | STEPPING | EVENTS  # events: FMI 3 only
@@ -23,7 +24,7 @@ MODES = {
 # Causality, in the order of tables.h -> modes in which a value may be set, and may be read.
 ACCESS = {
     "independent": (NEVER, ALWAYS),
-    "input": (INSTANTIATED | SOLVABLE, ALWAYS),
+    "input": (INSTANTIATED | SOLVABLE | UPDATING, ALWAYS),
     "parameter": (INSTANTIATED | INITIALIZING, ALWAYS),
     "output": (NEVER, SOLVABLE | TERMINATED),
 }

@@ -110,7 +110,9 @@ class Chain:
             old, now = self.before, self.outputs
             given = {name: self.inputs(name, now) for name in CHAIN}
             ahead = {
-                name: [2.0 * b - a for a, b in zip(self.inputs(name, old), given[name], strict=True)]
+                name: [
+                    2.0 * b - a for a, b in zip(self.inputs(name, old), given[name], strict=True)
+                ]
                 for name in CHAIN
             }
             fresh = {}
@@ -131,7 +133,9 @@ class Chain:
         }
 
 
-def show(title: str, steps: Sequence[float], run: Callable[[float], Figures], true: Figures) -> None:
+def show(
+    title: str, steps: Sequence[float], run: Callable[[float], Figures], true: Figures
+) -> None:
     """Print errors at steps [ms] and their order."""
     found = [run(1e-3 * ms) for ms in steps]
     print(f"  {title}")

@@ -125,6 +125,29 @@ def test_readings_never_change_what_follows(make):
     assert results[0] == results[1]
 
 
+def test_rates_move_inputs_through_the_next_step_where_the_fmu_takes_them(instance, request):
+    rates = [1e4, -100.0, 5.0]
+    if request.node.callspec.params["make"] in ("python", "fmi3"):
+        with pytest.raises((ParameterError, SolveError)):
+            instance.set_rates(rates)
+        return
+    with pytest.raises(ParameterError, match="load: rate of change = inf N/s"):
+        instance.set_rates([math.inf])
+    bare = Bare([0.05, 0.1, 100.0, 2.0, 0.0, 1.0, 1.0])
+    middle, end = (
+        [x + share * H * r for x, r in zip(GOOD, rates, strict=True)] for share in (0.5, 1)
+    )
+    bare.outputs(middle, 0.0, H)
+    instance.set_rates(rates)
+    state = instance.get_state()
+    for _ in range(2):
+        instance.set_state(state)
+        instance.step(0.0, H)
+        assert instance.get(instance.input_names) == end
+        assert instance.outputs() == bare.outputs(end, H, 0.0)
+    assert run(instance, [end], 1) == bare.outputs(end, H, H)
+
+
 def test_reset_gives_a_fresh_run_with_the_same_parameters_and_others_are_not_touched(make):
     instance, other = make(parameters={"discs": 5}), make(parameters={"discs": 9})
     other.initialize(inputs=TOY_START)

@@ -114,7 +114,9 @@ class Instance(Stepped):
     def set_rates(self, rates: Sequence[float]) -> None:
         """Let the inputs, in their order, move straight in the next step [their unit/s]; FMI 2."""
         if self.description.fmiVersion.startswith("3"):
-            raise ParameterError("rates of inputs: FMI 2.0 only; FMI 3.0 asks for the inputs itself")
+            raise ParameterError(
+                "rates of inputs: FMI 2.0 only; FMI 3.0 asks for the inputs itself"
+            )
         self._judge(self._protocol.set_rates(self._inputs, rates), *STAGES["set"])
 
     def step(self, t: float, h: float) -> None:

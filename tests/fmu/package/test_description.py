@@ -30,10 +30,11 @@ def written(spec, fmi=2, **options):
 
 @each_spec
 @each_fmi
-@pytest.mark.parametrize("derivatives", [False, True])
-def test_the_description_keeps_to_the_schema(spec, fmi, derivatives):
+@pytest.mark.parametrize("native", [False, True])
+def test_the_description_keeps_to_the_schema(spec, fmi, native):
     schema = etree.XMLSchema(etree.parse(SCHEMAS / f"fmi{fmi}" / f"fmi{fmi}ModelDescription.xsd"))
-    assert schema.validate(written(spec, fmi, derivatives=derivatives)), schema.error_log
+    tree = written(spec, fmi, derivatives=native, moving=native)
+    assert schema.validate(tree), schema.error_log
 
 
 @each_spec
@@ -163,6 +164,7 @@ def test_the_structure_is_that_of_fmi_2_by_value_references(spec):
         assert listed(old, two, "index", 1) == listed(new, three, "valueReference", 0)
 
 
+MOVING = {2: {"canInterpolateInputs"}, 3: {"providesIntermediateUpdate"}}
 STATES_2 = {"canGetAndSetFMUstate", "canSerializeFMUstate"}
 STATES_3 = {"canGetAndSetFMUState", "canSerializeFMUState"}
 VARIABLE = "canHandleVariableCommunicationStepSize"
@@ -178,24 +180,33 @@ DERIVATIVES = {
 
 @each_spec
 @each_fmi
-@pytest.mark.parametrize("derivatives", [False, True])
-def test_the_flags_are_these(spec, fmi, derivatives):
-    flags = dict(written(spec, fmi, derivatives=derivatives).find("CoSimulation").attrib)
+@pytest.mark.parametrize("native", [False, True])
+def test_the_flags_are_these(spec, fmi, native):
+    tree = written(spec, fmi, derivatives=native, moving=native)
+    flags = dict(tree.find("CoSimulation").attrib)
     assert flags.pop("modelIdentifier") == spec.name
     assert flags.pop("maxOutputDerivativeOrder") == "0"
     can = {flag for flag, said in flags.items() if said == "true"}
-    assert can == CAN[fmi] | (DERIVATIVES[fmi] if derivatives else set())
+    more = DERIVATIVES[fmi] | (MOVING[fmi] if spec.inputs else set())
+    assert can == CAN[fmi] | (more if native else set())
     assert {flags[flag] for flag in flags.keys() - can} == {"false"}
 
 
 @each_spec
-def test_the_two_targets_of_fmi_2_differ_in_guid_and_derivatives_only(spec):
+def test_the_two_targets_of_fmi_2_differ_in_guid_and_two_flags_only(spec):
     python = description(interface(spec), fmi=2, guid="a")
-    native = description(interface(spec), fmi=2, guid="b", derivatives=True)
-    flag = b'providesDirectionalDerivative="%s"'
-    assert native.count(flag % b"true") == native.count(b'guid="b"') == 1
-    back = native.replace(flag % b"true", flag % b"false").replace(b'guid="b"', b'guid="a"')
-    assert back == python
+    native = description(interface(spec), fmi=2, guid="b", derivatives=True, moving=True)
+    back = native.replace(b'guid="b"', b'guid="a"')
+    for flag in (b'providesDirectionalDerivative="%s"', b'canInterpolateInputs="%s"'):
+        back = back.replace(flag % b"true", flag % b"false")
+    assert back == python != native
+
+
+@each_spec
+def test_in_fmi_3_inputs_and_no_others_may_be_set_within_a_step(spec):
+    tree = written(spec, 3, moving=True).find("ModelVariables")
+    marked = [v.get("name") for v in tree if v.get("intermediateUpdate") == "true"]
+    assert marked == [s.name for s in spec.inputs]
 
 
 def test_a_reader_sees_degrees_celsius_rpm_and_micrometres(fmus):

@@ -8,8 +8,8 @@ transmission: the default shift without washer and mesh, stepped by masters as i
 rates are differences of the last two points; the transmission in turn gets the packs' capacities at
 both ends of its step. `held`: `input_course` of the packs is held, as it starts in the FMUs, and
 the transmission does not extrapolate capacities; `extrapolated`: it does, with a linear course, as
-in `thrustwasher shift`. Errors are relative to a run with rates at a much shorter step; times count from the first pressure,
-0.1 s. The order is the slope of log(error) over log(step), fitted to all steps: where pressure and
+in `thrustwasher shift`. Errors are relative to a run with rates at a much shorter step; times count
+from the first pressure, 0.1 s. The order is the slope of log(error) over log(step), fitted to all steps: where pressure and
 engine torque have a corner inside a step single errors scatter.
 """
 
@@ -115,7 +115,7 @@ class Chain:
                 ]
                 for name in CHAIN
             }
-            fresh = {}
+            fresh: dict[str, list[float]] = {}
             for name in reversed(CHAIN):
                 if name == "transmission" and self.in_turn:
                     ahead[name] = self.inputs(name, fresh)

@@ -7,8 +7,8 @@ first brings film and heat from the last point to the present one, whose inputs 
 the friction there, and books heat in advance with the present power; the next step replaces that
 advance. This couples with second order to a partner that looks ahead by itself.
 
-With rates of the inputs behind them a step with held inputs follows them: they run straight from
-their values to those at the step's end, which the outputs belong to. A linear course takes no rates.
+With rates behind the inputs a step with held ones follows them: they run straight from their values
+to those at the step's end, which the outputs belong to. A linear course takes no rates.
 """
 
 import math

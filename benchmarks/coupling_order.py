@@ -9,8 +9,8 @@ rates are differences of the last two points; the transmission in turn gets the 
 both ends of its step. `held`: `input_course` of the packs is held, as it starts in the FMUs, and
 the transmission does not extrapolate capacities; `extrapolated`: it does, with a linear course, as
 in `thrustwasher shift`. Errors are relative to a run with rates at a much shorter step; times count
-from the first pressure, 0.1 s. The order is the slope of log(error) over log(step), fitted to all steps: where pressure and
-engine torque have a corner inside a step single errors scatter.
+from the first pressure, 0.1 s. The order is the slope of log(error) over log(step), fitted to all
+steps: where pressure and engine torque have a corner inside a step single errors scatter.
 """
 
 import math

@@ -53,9 +53,14 @@ def abi_callback(kernel: ModuleType, name: str, symbol: str, sizes: tuple[str, .
     given = [f"carray({n}, {size})" if size else n for n, size in zip(names, sizes, strict=True)]
     source = f"def entry({', '.join(names)}):\n return function({', '.join(given)})\n"
     scope = {"function": getattr(kernel, name)}
-    lengths = {"NGIVEN": kernel.NINP + getattr(kernel, "NRATES", 0)}
-    scope |= {size: lengths.get(size) or getattr(kernel, size, 0) for size in sizes if size}
+    scope |= {size: _length(kernel, size) for size in sizes if size}
     return Callback(symbol, kinds, source, scope)
+
+
+def _length(kernel: ModuleType, name: str) -> int:
+    """Return a length of a kernel module's arrays by its name."""
+    length: int = getattr(kernel, "NINP" if name == "NGIVEN" else name)
+    return length + getattr(kernel, "NRATES", 0) if name == "NGIVEN" else length
 
 
 def python_callback(entry: Entry) -> Callback:

@@ -30,15 +30,14 @@ fmi3Instance fmi3InstantiateCoSimulation(
     fmi3Boolean earlyReturnAllowed, const fmi3ValueReference requiredIntermediateVariables[],
     size_t nRequiredIntermediateVariables, fmi3InstanceEnvironment instanceEnvironment,
     fmi3LogMessageCallback logMessage, fmi3IntermediateUpdateCallback intermediateUpdate) {
-    (void)visible, (void)earlyReturnAllowed;
-    (void)requiredIntermediateVariables, (void)intermediateUpdate;
+    (void)visible; /* there is nothing to see */
+    (void)requiredIntermediateVariables, (void)nRequiredIntermediateVariables; /* all may be read */
     const Log log = open_log(instanceName, loggingOn, instanceEnvironment, logMessage);
-    if (nRequiredIntermediateVariables > 0) {
-        return refuse_instance(&log, "has no intermediate updates: "
-                               "nRequiredIntermediateVariables has to be 0");
-    }
-    Instance *m = instantiate(&log, instantiationToken, resourcePath);
-    if (m) m->has_events = eventModeUsed != 0;
+    const int ends_early = eventModeUsed && earlyReturnAllowed && N_SWITCHES > 0;
+    Instance *m = instantiate(&log, instantiationToken, resourcePath, ends_early);
+    if (!m) return NULL;
+    m->has_events = eventModeUsed != 0;
+    m->update = (void (*)(void))intermediateUpdate;
     return m;
 }
 
@@ -62,7 +61,15 @@ fmi3Instance fmi3InstantiateScheduledExecution(
     return refuse_instance(&log, "is for co-simulation, not for scheduled execution");
 }
 
-void fmi3FreeInstance(fmi3Instance instance) { free_instance(instance); }
+/* Not out of its own callback: the step that called back goes on with the instance. */
+void fmi3FreeInstance(fmi3Instance instance) {
+    Instance *m = instance;
+    if (m && m->now.mode == INTERMEDIATE) {
+        fail(m, "fmi3FreeInstance is not allowed in the callback of a step");
+        return;
+    }
+    free_instance(m);
+}
 
 fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean loggingOn, size_t nCategories,
                                const fmi3String categories[]) {
@@ -89,7 +96,8 @@ fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
     return fmi3OK;
 }
 
-/* Event mode is there for tunable parameters: the model itself has no events. */
+/* Nothing is left to do in event mode: what changes has changed. It is the place for tunable
+   parameters. */
 fmi3Status fmi3EnterEventMode(fmi3Instance instance) {
     ENTER(fmi3EnterEventMode);
     if (!m->has_events) {
@@ -140,6 +148,18 @@ static void write_flags(fmi3Boolean *event, fmi3Boolean *end, fmi3Boolean *early
     if (early) *early = fmi3False;
 }
 
+/* The end of a step is the only point in between that is offered: values may be read, none is asked
+   for, and it is too late to return early. */
+static void update_host(Instance *m) {
+    fmi3Boolean wants_return = fmi3False;
+    fmi3Float64 return_time = m->now.time;
+    m->now.mode = INTERMEDIATE;
+    ((fmi3IntermediateUpdateCallback)m->update)(m->log.environment, m->now.time, fmi3False,
+                                                fmi3True, fmi3True, fmi3False, &wants_return,
+                                                &return_time);
+    m->now.mode = STEPPING;
+}
+
 /* What is pointed to is written in every case: hosts read it after errors too. */
 fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoint,
                       fmi3Float64 communicationStepSize,
@@ -155,5 +175,9 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
     ENTER(fmi3DoStep);
     m->last_step = advance(m, currentCommunicationPoint, communicationStepSize);
     if (lastSuccessfulTime) *lastSuccessfulTime = m->now.time;
-    return (fmi3Status)m->last_step;
+    if (m->last_step != GOOD) return (fmi3Status)m->last_step;
+    if (eventHandlingNeeded) *eventHandlingNeeded = m->has_events && m->happened;
+    if (earlyReturn) *earlyReturn = m->is_early;
+    if (m->update) update_host(m);
+    return fmi3OK;
 }

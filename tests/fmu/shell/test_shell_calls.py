@@ -120,7 +120,6 @@ def test_a_description_of_another_build_is_refused_and_both_are_named(fmi, guid)
         (2, "m", "not for model exchange"),
         (3, "m", "not for model exchange"),
         (3, "s", "not for scheduled execution"),
-        (3, "i", "nRequiredIntermediateVariables has to be 0"),
     ],
 )
 def test_what_the_fmu_is_not_for_is_refused_at_once(fmi, oddity, text):

@@ -28,9 +28,22 @@ static double located(const Instance *m, double t) {
     return first;
 }
 
-static int from_before(Instance *m, double t, double h) {
+static void go_back(Instance *m, const double *given) {
     memcpy(&m->now.solution, m->before, sizeof *m->before);
-    return solve(m, t, h);
+    memcpy(m->now.inp, given, sizeof m->now.inp);
+}
+
+/* Step by h with the inputs and rates given at t; the outputs are those at its end. */
+static int from_before(Instance *m, const double *given, double t, double h) {
+    go_back(m, given);
+    int rc = h > 0.0 ? follow(m, t, h) : solve(m, t, h);
+    if (!rc && h > 0.0 && m->now.dirty) rc = solve(m, t + h, 0.0);
+    if (rc) {
+        go_back(m, given);
+    } else {
+        m->now.dirty = 0;
+    }
+    return rc;
 }
 
 /* A row of early returns ends when time has gone over the step in which it began. */
@@ -46,23 +59,25 @@ static void note_early_return(Snap *s, double t, double h) {
     s->n_early++;
 }
 
-/* Solve from t by *h or, if a Boolean output changes, just behind the first change: by the new *h,
+/* Step from t by *h or, if a Boolean output changes, just behind the first change: by the new *h,
    which is 0 where the change comes with the inputs at t. Returns 0 or a failure.
 
    Each trial starts from a copy of the solution at t: the kernels store every step that succeeds. */
-int solve_to_event(Instance *m, double t, double *h) {
+int follow_to_event(Instance *m, double t, double *h) {
     const double whole = *h, near = RESOLUTION + 1e-15 * fabs(t);
+    double given[2 * AT_LEAST_ONE(NINP)];
+    memcpy(given, m->now.inp, sizeof given);
     memcpy(m->before, &m->now.solution, sizeof *m->before);
-    int rc = solve(m, t, whole);
+    int rc = from_before(m, given, t, whole);
     if (rc || !has_changed(m) || !may_return_early(&m->now, t)) return rc;
     double low = 0.0, high = whole, at = 0.0;
     const double guess = located(m, t) - t;
-    rc = from_before(m, t, 0.0);
+    rc = from_before(m, given, t, 0.0);
     if (!rc && has_changed(m)) high = 0.0;
     for (int n = 0; !rc && n < MOST_TRIALS && high - low > near; n++) {
         at = n < 2 ? guess + (n ? -0.5 : 0.5) * near : 0.5 * (low + high);
         if (!(low < at && at < high)) at = 0.5 * (low + high);
-        rc = from_before(m, t, at);
+        rc = from_before(m, given, t, at);
         if (!rc && has_changed(m)) {
             high = at;
         } else {
@@ -70,8 +85,10 @@ int solve_to_event(Instance *m, double t, double *h) {
         }
     }
     if (rc || whole - high <= near) high = whole; /* a trial failed, or the change is at the end */
-    if (rc || at != high) rc = from_before(m, t, high);
+    if (rc || at != high) rc = from_before(m, given, t, high);
+    if (rc) return rc;
+    memset(m->now.inp + NINP, 0, NINP * sizeof *m->now.inp);
     if (high < whole) note_early_return(&m->now, t, whole);
     *h = high;
-    return rc;
+    return 0;
 }

@@ -31,13 +31,16 @@ fmi3Instance fmi3InstantiateCoSimulation(
     size_t nRequiredIntermediateVariables, fmi3InstanceEnvironment instanceEnvironment,
     fmi3LogMessageCallback logMessage, fmi3IntermediateUpdateCallback intermediateUpdate) {
     (void)visible; /* there is nothing to see */
-    (void)requiredIntermediateVariables, (void)nRequiredIntermediateVariables; /* all may be read */
     const Log log = open_log(instanceName, loggingOn, instanceEnvironment, logMessage);
     const int ends_early = eventModeUsed && earlyReturnAllowed && N_SWITCHES > 0;
     Instance *m = instantiate(&log, instantiationToken, resourcePath, ends_early);
     if (!m) return NULL;
     m->has_events = eventModeUsed != 0;
-    m->update = (void (*)(void))intermediateUpdate;
+    if (begin_updates(m, requiredIntermediateVariables, nRequiredIntermediateVariables,
+                      intermediateUpdate)) {
+        free_instance(m);
+        return NULL;
+    }
     return m;
 }
 
@@ -64,7 +67,7 @@ fmi3Instance fmi3InstantiateScheduledExecution(
 /* Not out of its own callback: the step that called back goes on with the instance. */
 void fmi3FreeInstance(fmi3Instance instance) {
     Instance *m = instance;
-    if (m && m->now.mode == INTERMEDIATE) {
+    if (m && m->now.mode & (UPDATING | UPDATED)) {
         fail(m, "fmi3FreeInstance is not allowed in the callback of a step");
         return;
     }
@@ -148,18 +151,6 @@ static void write_flags(fmi3Boolean *event, fmi3Boolean *end, fmi3Boolean *early
     if (early) *early = fmi3False;
 }
 
-/* The end of a step is the only point in between that is offered: values may be read, none is asked
-   for, and it is too late to return early. */
-static void update_host(Instance *m) {
-    fmi3Boolean wants_return = fmi3False;
-    fmi3Float64 return_time = m->now.time;
-    m->now.mode = INTERMEDIATE;
-    ((fmi3IntermediateUpdateCallback)m->update)(m->log.environment, m->now.time, fmi3False,
-                                                fmi3True, fmi3True, fmi3False, &wants_return,
-                                                &return_time);
-    m->now.mode = STEPPING;
-}
-
 /* What is pointed to is written in every case: hosts read it after errors too. */
 fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoint,
                       fmi3Float64 communicationStepSize,
@@ -173,11 +164,12 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
         *lastSuccessfulTime = known ? known->now.time : currentCommunicationPoint;
     }
     ENTER(fmi3DoStep);
+    ask_ahead(m, currentCommunicationPoint, communicationStepSize);
     m->last_step = advance(m, currentCommunicationPoint, communicationStepSize);
     if (lastSuccessfulTime) *lastSuccessfulTime = m->now.time;
     if (m->last_step != GOOD) return (fmi3Status)m->last_step;
     if (eventHandlingNeeded) *eventHandlingNeeded = m->has_events && m->happened;
     if (earlyReturn) *earlyReturn = m->is_early;
-    if (m->update) update_host(m);
+    show_end(m);
     return fmi3OK;
 }

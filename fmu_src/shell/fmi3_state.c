@@ -1,4 +1,4 @@
-/* FMI 3.0 co-simulation: states and derivatives, translated. */
+/* FMI 3.0 co-simulation: states, derivatives and inputs within a step, translated. */
 #include "fmi3_shell.h"
 
 fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
@@ -66,4 +66,56 @@ fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueRefere
     AS_MANY(fmi3GetAdjointDerivative, nKnowns, nSensitivity);
     const Direction d = {unknowns, knowns, nUnknowns, nKnowns, seed};
     return (fmi3Status)adjoint(m, &d, sensitivity);
+}
+
+/* Between communication points: inputs at the end of a step are asked for at its start, outputs may be
+   read at its end. It is too late there to return early. */
+
+int begin_updates(Instance *m, const fmi3ValueReference wanted[], size_t n,
+                  fmi3IntermediateUpdateCallback update) {
+    m->update = (void (*)(void))update;
+    m->shows = n == 0;
+    if (n == 0) return GOOD;
+    if (!wanted || !update) {
+        return fail(m, "intermediate variables are required, but %s is NULL",
+                    wanted ? "intermediateUpdate" : "the array of them");
+    }
+    for (size_t i = 0; i < n; i++) {
+        const Variable *v = find(m, wanted[i]);
+        if (!v) return BAD;
+        m->asks |= v->cause == CAUSE_INPUT;
+        m->shows |= v->cause == CAUSE_OUTPUT;
+        if (v->type == TYPE_REAL && (v->cause == CAUSE_INPUT || v->cause == CAUSE_OUTPUT)) continue;
+        return fail(m, "%s is required between communication points, allowed: Float64 inputs and "
+                    "outputs", v->name);
+    }
+    return GOOD;
+}
+
+void ask_ahead(Instance *m, double t, double h) {
+    Snap *s = &m->now;
+    double start[AT_LEAST_ONE(NINP)], early_time = t;
+    const int32_t dirty = s->dirty, latch = s->latch, unsolved = m->unsolved;
+    fmi3Boolean early = fmi3False;
+    if (!m->asks || !(h > 0.0) || !is_finite(t + h)) return;
+    memcpy(start, s->inp, sizeof start);
+    s->mode = UPDATING;
+    ((fmi3IntermediateUpdateCallback)m->update)(m->log.environment, t + h, fmi3True, fmi3False,
+                                                fmi3False, fmi3False, &early, &early_time);
+    s->mode = STEPPING;
+    for (int i = 0; i < NINP; i++) s->inp[NINP + i] = (s->inp[i] - start[i]) / h;
+    memcpy(s->inp, start, sizeof start);
+    s->dirty = dirty;
+    m->unsolved = unsolved;
+    if (!s->n_refused) s->latch = latch;
+}
+
+void show_end(Instance *m) {
+    fmi3Boolean early = fmi3False;
+    double early_time = m->now.time;
+    if (!m->update || !m->shows) return;
+    m->now.mode = UPDATED;
+    ((fmi3IntermediateUpdateCallback)m->update)(m->log.environment, m->now.time, fmi3False,
+                                                fmi3True, fmi3True, fmi3False, &early, &early_time);
+    m->now.mode = STEPPING;
 }

@@ -77,9 +77,8 @@ Instance *enter(void *instance, int call) {
         fail(m, "%s is not offered: %s", c->name, c->declined);
         return NULL;
     }
-    if (!(c->modes & m->now.mode) && m->now.mode == INTERMEDIATE) {
-        fail(m, "%s is not allowed in state %s; return from the callback first", c->name,
-             mode_name(INTERMEDIATE));
+    if (m->now.mode & (UPDATING | UPDATED) && !(c->modes & m->now.mode)) {
+        fail(m, "%s is not allowed within intermediateUpdate; return from it first", c->name);
         return NULL;
     }
     if (!(c->modes & m->now.mode)) {
@@ -140,11 +139,15 @@ static void copy_solution(Solution *to, const Solution *from) {
     memcpy(to->iout, from->iout, sizeof to->iout);
 }
 
-void put_back(Instance *m) { copy_solution(&m->now.solution, &m->undo); }
+void put_back(Instance *m) {
+    copy_solution(&m->now.solution, &m->undo);
+    memcpy(m->now.inp, m->given, sizeof m->given);
+}
 
 int solve(Instance *m, double t, double h) {
     Solution *s = &m->now.solution;
     copy_solution(&m->undo, s);
+    memcpy(m->given, m->now.inp, sizeof m->given);
     int rc = tw_step(m->now.par, m->now.inp, s->state, m->work, s->out, s->iout, t, h);
     if (rc < 0 || (rc < FIRST_FAILURE && !all_finite(s->out, NOUT))) rc = STATUS_NOT_FINITE;
     m->work_fits = rc < FIRST_FAILURE && h == 0.0; /* derivatives hold the memory */
@@ -218,14 +221,14 @@ static int is_step(Instance *m, double t, double h) {
 int advance(Instance *m, double t, double h) {
     if (!is_step(m, t, h) || !is_complete(m, "no step", t, ~0u) || prepare(m)) return BAD;
     const double expected = m->now.time, asked = h;
-    int rc = m->before ? solve_to_event(m, t, &h) : solve(m, t, h);
+    int rc = m->before ? follow_to_event(m, t, &h) : follow(m, t, h);
     if (rc) {
         m->now.latch = rc;
         tell_failure(m, rc, t, h);
         return BAD;
     }
     m->now.time = t + h;
-    m->now.dirty = m->now.latch = m->unsolved = 0;
+    m->now.latch = m->unsolved = 0;
     if (fabs(t - expected) > 1e-6 * asked) tell_late_step(m, t, expected);
     m->happened = has_changed(m);
     m->is_early = h < asked;

@@ -24,7 +24,7 @@ typedef struct {
 
 /* All that decides what comes next: an FMU state is a copy of it. */
 typedef struct {
-    double par[NPAR], inp[AT_LEAST_ONE(NINP)], time;
+    double par[NPAR], inp[2 * AT_LEAST_ONE(NINP)], time; /* inputs, then their rates [unit/s] */
     Solution solution;
     uint32_t mode;
     int32_t latch;     /* the failure to be seen in solver_status until something changes */
@@ -58,6 +58,7 @@ typedef struct {
 typedef struct {
     Snap now;
     Solution undo;
+    double given[2 * AT_LEAST_ONE(NINP)]; /* the inputs and rates of the last solve */
     Log log;
     Part part;
     int32_t unsolved;  /* the failure of the solve at the present values, or 0 */
@@ -68,7 +69,8 @@ typedef struct {
     int32_t has_events; /* the host goes through event mode; FMI 3 only */
     Solution *before;   /* ... and lets steps end early: room for the solution at a step's start */
     int32_t happened, is_early; /* of the last step: a Boolean output changed, it ended early */
-    void (*update)(void); /* the host's callback at the end of a step; FMI 3 only, may be NULL */
+    void (*update)(void); /* the host's intermediateUpdate, or NULL; FMI 3 only ... */
+    int32_t asks, shows;  /* ... it is called for inputs before a step, to read after it */
     int32_t table_ready; /* the table in `work` is that of the present parameters, or not wanted */
     char resources[TEXT_LENGTH]; /* the folder, in UTF-8 */
     char refusal[TEXT_LENGTH];
@@ -93,11 +95,12 @@ int prepare(Instance *m);
 int refresh(Instance *m);
 int advance(Instance *m, double t, double h);
 int solve(Instance *m, double t, double h); /* 0 or a failure, which changes nothing */
-void put_back(Instance *m); /* outputs and memory as before the last solve, one of h = 0 if large */
+/* Outputs, memory, inputs as before the last solve; memory that is large: if h was 0. */
+void put_back(Instance *m);
 
 /* events.c */
 int has_changed(const Instance *m); /* a Boolean output, since the last communication point */
-int solve_to_event(Instance *m, double t, double *h);
+int follow_to_event(Instance *m, double t, double *h); /* as `follow`; *h may get shorter */
 
 /* By the bits: NaN raises no exception here, even where the host has unmasked them. */
 static inline int is_finite(double x) {
@@ -105,6 +108,12 @@ static inline int is_finite(double x) {
     memcpy(&bits, &x, sizeof bits);
     return bits << 1 < (uint64_t)0x7ff << 53;
 }
+
+/* course.c */
+/* Rates of inputs for the next step; `orders` of derivatives, of which there is the first. */
+int set_rates(Instance *m, int call, const uint32_t *references, size_t n, const int32_t *orders,
+              const double *rates);
+int follow(Instance *m, double t, double h); /* as solve, h > 0, along the inputs' rates */
 
 /* resource.c */
 int load_part(Instance *m, const char *location, const char *guid); /* BAD: and said so */

@@ -188,6 +188,7 @@ static int is_sound(const Snap *s) {
         if (v->store == STORE_INP) good &= is_inside(v, s->inp[v->slot]);
     }
     for (int i = 0; i < NOUT; i++) good &= is_finite(s->solution.out[i]);
+    for (int i = 0; i < NINP; i++) good &= is_finite(s->inp[NINP + i]);
     return good && refused == s->n_refused;
 }
 

@@ -7,7 +7,7 @@
 /* Where an instance is in its life; the bits of Call.modes and Access. */
 enum {
     INSTANTIATED = 1, INITIALIZING = 2, STEPPING = 4, TERMINATED = 8, EVENTS = 16,
-    INTERMEDIATE = 32 /* in the host's callback at the end of a step */
+    UPDATING = 32, UPDATED = 64 /* within intermediateUpdate: before a step, after it */
 };
 
 enum { TYPE_REAL, TYPE_INTEGER, TYPE_BOOLEAN, TYPE_ENUMERATION };

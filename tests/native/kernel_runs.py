@@ -76,7 +76,9 @@ class Run:
         return self.entries.call("derive", self.par)
 
     def step(self, inputs, t: float, dt: float) -> int:
-        inp = np.array(inputs, dtype=float)
+        inp = np.zeros(2 * len(inputs))  # the shell's has rates behind the inputs
+        inp[: len(inputs)] = inputs
+        inp = inp if hasattr(self.entries.module, "NRATES") else inp[: len(inputs)]
         return self.entries.call(
             "step", self.par, inp, self.state, self.work, self.out, self.iout, t, dt
         )

@@ -169,7 +169,9 @@ def contents(shown: Interface, folder: Path, order: Order, *, reference: bool) -
         own = _python_contents(shown, folder, guid)
     order.note(f"{spec.name}: {'reference results and documents' if reference else 'documents'}")
     derivatives = native and has_derivatives(spec)
-    described = description(shown, fmi=order.fmi, guid=guid, derivatives=derivatives)
+    described = description(
+        shown, fmi=order.fmi, guid=guid, derivatives=derivatives, moving=native
+    )
     try:
         results = reference_files(spec) if reference else {}
         text = page(shown, folder, order, guid, runs=reference)

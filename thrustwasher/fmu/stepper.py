@@ -111,6 +111,12 @@ class Instance(Stepped):
         self._put(self._inputs)
         self.wall_time += perf_counter() - start
 
+    def set_rates(self, rates: Sequence[float]) -> None:
+        """Let the inputs, in their order, move straight in the next step [their unit/s]; FMI 2."""
+        if self.description.fmiVersion.startswith("3"):
+            raise ParameterError("rates of inputs: FMI 2.0 only; FMI 3.0 asks for the inputs itself")
+        self._judge(self._protocol.set_rates(self._inputs, rates), *STAGES["set"])
+
     def step(self, t: float, h: float) -> None:
         """Advance from ``t`` to ``t + h``; SolveError if there is no solution."""
         start = perf_counter()

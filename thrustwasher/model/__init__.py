@@ -24,6 +24,7 @@ Python FMU and the native FMU call the same code:
 ``N_PARAM``            parameters the caller fills in: dataclass fields in order, then the fidelity
 ``NPAR``               length of ``par``: the parameters, then constants that ``derive`` computes
 ``NINP .. NIOUT``      lengths of ``inp``, ``state``, ``work``, ``out``, ``iout``
+``NRATES``             NINP where ``inp`` may have the inputs' rates behind them; else it is left out
 ``derive(par)``        fill ``par[N_PARAM:]``; return a status; called once per parameter change
 ``broken_rule(par)``   number of the first broken rule between parameters, 0 if there is none
 ``step(...)``          ``step(par, inp, state, work, out, iout, t, dt)`` returns a status
@@ -37,6 +38,10 @@ come back and ``state`` stays as it was to the bit. ``work`` belongs to the call
 holds on entry, the result is the same. ``out`` holds the real outputs, ``iout`` (int32) the
 enumerations and Booleans, both in the order of the model's list of outputs. A step that fails
 leaves ``state`` as it was to the bit; ``out`` and ``iout`` may hold anything then.
+
+With rates [unit/s] in ``inp[NINP:2 * NINP]`` an input has its value at the start of the step and
+runs straight; ``out`` then belongs to the inputs at the end. Rates of 0, or an ``inp`` without them,
+hold the inputs. From the FMU's shell ``inp`` always has them.
 
 ``sens`` fills ``dout`` with the change of the real outputs of a step with ``dt = 0`` when the
 inputs change by ``seed`` and ``state`` is held; ``work`` must be as the last successful step with

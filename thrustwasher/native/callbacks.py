@@ -15,8 +15,8 @@ from ..errors import EnvironmentProblem
 from .entries import ITEMS, Entry, Kind, entries
 
 # Entries of the step ABI: name in the kernel module -> name in the FMU's shell, lengths of the
-# arrays ("": a number).
-_ARRAYS = ("NPAR", "NINP", "NSTATE", "NWORK")
+# arrays ("": a number). NGIVEN: inputs, and their rates behind them where the model takes them.
+_ARRAYS = ("NPAR", "NGIVEN", "NSTATE", "NWORK")
 ABI: dict[str, tuple[str, tuple[str, ...]]] = {
     "derive": ("tw_derive", ("NPAR",)),
     "broken_rule": ("tw_rule", ("NPAR",)),
@@ -53,7 +53,8 @@ def abi_callback(kernel: ModuleType, name: str, symbol: str, sizes: tuple[str, .
     given = [f"carray({n}, {size})" if size else n for n, size in zip(names, sizes, strict=True)]
     source = f"def entry({', '.join(names)}):\n return function({', '.join(given)})\n"
     scope = {"function": getattr(kernel, name)}
-    scope |= {size: getattr(kernel, size) for size in sizes if size}
+    lengths = {"NGIVEN": kernel.NINP + getattr(kernel, "NRATES", 0)}
+    scope |= {size: lengths.get(size) or getattr(kernel, size, 0) for size in sizes if size}
     return Callback(symbol, kinds, source, scope)
 
 

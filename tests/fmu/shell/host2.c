@@ -14,7 +14,7 @@
     DO(SetBoolean) DO(SetString) DO(GetFMUstate) DO(SetFMUstate) DO(FreeFMUstate)                  \
     DO(SerializedFMUstateSize) DO(SerializeFMUstate) DO(DeSerializeFMUstate) DO(GetStatus)         \
     DO(GetRealStatus) DO(GetIntegerStatus) DO(GetBooleanStatus) DO(GetStringStatus)                \
-    DO(SetDebugLogging) DO(GetDirectionalDerivative)
+    DO(SetDebugLogging) DO(GetDirectionalDerivative) DO(SetRealInputDerivatives)
 #define DECLARE(name) static fmi2##name##TYPE *name;
 #define FIND(name) name = (fmi2##name##TYPE *)dlsym(library, "fmi2" #name);
 EACH(DECLARE)
@@ -66,7 +66,9 @@ int put(void *m, Type type, const uint32_t *references, size_t n, const double *
 {
     int whole[MOST];
     for (size_t i = 0; i < n && type != REAL; i++)
-        whole[i] = (int)values[i];
+        whole[i] = type >= RATE ? (int)(type - RATE + 1) : (int)values[i];
+    if (type >= RATE)
+        return SetRealInputDerivatives(m, references, n, whole, values);
     if (type == REAL)
         return SetReal(m, references, n, values);
     return (type == BOOLEAN ? SetBoolean : SetInteger)(m, references, n, whole);
@@ -111,6 +113,7 @@ int derive(void *m, int adjoint, const uint32_t *unknowns, size_t n_unknowns,
 static int no_arrays(void *m, double *n)
 {
     const fmi2ValueReference vr[3] = {1, 2, 3};
+    const int whole[3] = {1, 1, 1};
     double x[3] = {0};
     int rcs[] = {
         SetReal(m, NULL, 3, x), SetReal(m, vr, 3, NULL), GetReal(m, NULL, 3, x),
@@ -118,6 +121,9 @@ static int no_arrays(void *m, double *n)
         SerializedFMUstateSize(m, NULL, NULL), SerializeFMUstate(m, NULL, NULL, 9),
         DeSerializeFMUstate(m, NULL, 9, NULL), GetDirectionalDerivative(m, vr, 3, NULL, 1, x, x),
         SetDebugLogging(m, 1, 2, NULL), SetInteger(m, NULL, 1, NULL), GetBoolean(m, vr, 1, NULL),
+        SetRealInputDerivatives(m, NULL, 1, whole, x),
+        SetRealInputDerivatives(m, vr, 1, NULL, x),
+        SetRealInputDerivatives(m, vr, 1, whole, NULL),
     };
     int others = 0;
     for (*n = 0; *n < sizeof rcs / sizeof *rcs; *n += 1)

@@ -1,5 +1,6 @@
 /* The commands of a script, on an FMU of FMI 3.0. */
 #include <dlfcn.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "fmi3Functions.h"
@@ -21,6 +22,14 @@ EACH(DECLARE)
 static int early, happened, wants_events, said_wrongly;
 static void *stepping; /* the instance whose step calls back */
 static double heard[4]; /* in the callback: calls, time, a value, statuses of what is refused */
+
+/* What is set when the FMU asks for inputs within a step: once, then nothing. */
+static struct {
+    void *instance;
+    size_t n;
+    uint32_t references[MOST];
+    double values[MOST], asked_for;
+} later;
 static double last_time;
 
 void open_library(void *library) { EACH(FIND) }
@@ -53,11 +62,26 @@ static void updated(fmi3InstanceEnvironment environment, fmi3Float64 time, fmi3B
     *at = time;
 }
 
+static void update(fmi3InstanceEnvironment environment, fmi3Float64 time, fmi3Boolean set,
+                   fmi3Boolean get, fmi3Boolean finished, fmi3Boolean may_end,
+                   fmi3Boolean *ends, fmi3Float64 *end_time)
+{
+    char text[80];
+    said_wrongly += !set || get || finished || may_end || *ends || !environment || !end_time;
+    later.asked_for = time;
+    int rc = SetFloat64(later.instance, later.references, later.n, later.values, later.n);
+    int others = GetFloat64(later.instance, later.references, 1, later.values, 1) != 3;
+    others += Reset(later.instance) != 3;
+    snprintf(text, sizeof text, "set within the step: %d, also done: %d", rc, others);
+    hear(environment, rc, "host", text);
+    later.n = 0;
+}
+
 void *make(const char *name, const char *guid, int logging, const char *oddity)
 {
     static char title[64];
     fmi3LogMessageCallback log = oddity && oddity[0] == 'l' ? NULL : logger;
-    const fmi3ValueReference wanted[] = {4};
+    const fmi3ValueReference wanted[] = {4}, inputs[] = {1, 2, 3}, read[] = {14};
     strncpy(title, name ? name : "NULL", sizeof title - 1);
     switch (oddity ? oddity[0] : 0) {
     case 'm': return InstantiateModelExchange(name, guid, NULL, 0, logging, title, log);
@@ -72,9 +96,18 @@ void *make(const char *name, const char *guid, int logging, const char *oddity)
         wants_events = 1;
         return InstantiateCoSimulation(name, guid, resources, 0, logging, 1, 1, NULL, 0, title,
                                        log, NULL);
-    case 'i':
-        return InstantiateCoSimulation(name, guid, resources, 0, logging, 0, 1, wanted, 1, title,
-                                       log, updated);
+    case 'a': /* to be read after steps */
+        return InstantiateCoSimulation(name, guid, resources, 0, logging, 0, 1, read, 1, title, log,
+                                       updated);
+    case 'i': /* no input */
+        return InstantiateCoSimulation(name, guid, resources, 0, logging, 0, 0, wanted, 1, title,
+                                       log, update);
+    case 'n':
+        return InstantiateCoSimulation(name, guid, resources, 0, logging, 0, 0, inputs, 3, title,
+                                       log, NULL);
+    case 'u':
+        return later.instance = InstantiateCoSimulation(name, guid, resources, 0, logging, 0, 0,
+                                                        inputs, 3, title, log, update);
     default:
         return InstantiateCoSimulation(name, guid, resources, 0, logging, 0, 1, NULL, 0, title,
                                        log, NULL);
@@ -110,6 +143,12 @@ int put(void *m, Type type, const uint32_t *references, size_t n, const double *
     int64_t wide[MOST];
     int32_t whole[MOST];
     fmi3Boolean truth[MOST];
+    if (type == RATE) {
+        memcpy(later.references, references, n * sizeof *references);
+        memcpy(later.values, values, n * sizeof *values);
+        later.n = n;
+        return 0;
+    }
     for (size_t i = 0; i < n && type != REAL; i++) {
         wide[i] = (int64_t)values[i];
         whole[i] = (int32_t)values[i];
@@ -189,7 +228,9 @@ int extra(void *m, const char *what, const uint32_t *references, size_t n, doubl
     *n_values = 1;
     if (strcmp(what, "no-arrays") == 0)
         return no_arrays(m, values);
-    if (strcmp(what, "last-time") == 0)
+    if (strcmp(what, "asked-for") == 0)
+        values[0] = later.asked_for;
+    else if (strcmp(what, "last-time") == 0)
         values[0] = last_time;
     else if (strcmp(what, "heard") == 0)
         memcpy(values, heard, (*n_values = 4) * sizeof *values);

@@ -55,7 +55,8 @@ static void answer(int status, const double *values, size_t n)
 
 static int type_of(const char *name)
 {
-    return name[0] == 'r' ? REAL : name[0] == 'w' ? WHOLE : name[0] == 'e' ? ENUMERATION : BOOLEAN;
+    const char *letters = "rwebdc", *found = strchr(letters, name[0]); /* d: derivative, c: curve */
+    return found ? (int)(found - letters) : BOOLEAN;
 }
 
 static int is_state_command(const char *name, void **m)

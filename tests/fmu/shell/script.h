@@ -7,7 +7,9 @@
 
 #define MOST 256 /* values in a call */
 
-typedef enum { REAL, WHOLE, ENUMERATION, BOOLEAN } Type;
+/* RATE, CURVE: derivatives of inputs, of order 1 and 2; in FMI 3 RATE is the value that the host gives
+   when it is asked within a step. */
+typedef enum { REAL, WHOLE, ENUMERATION, BOOLEAN, RATE, CURVE } Type;
 
 extern const char *resources; /* the folder */
 

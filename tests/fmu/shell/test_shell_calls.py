@@ -120,6 +120,9 @@ def test_a_description_of_another_build_is_refused_and_both_are_named(fmi, guid)
         (2, "m", "not for model exchange"),
         (3, "m", "not for model exchange"),
         (3, "s", "not for scheduled execution"),
+        (3, "i", "inner_radius is required between communication points, allowed: Float64 inputs "
+         "and outputs"),
+        (3, "n", "intermediateUpdate is NULL"),
     ],
 )
 def test_what_the_fmu_is_not_for_is_refused_at_once(fmi, oddity, text):

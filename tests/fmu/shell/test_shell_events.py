@@ -87,13 +87,13 @@ def test_after_eight_early_returns_in_a_row_a_step_is_whole():
 
 
 def test_at_the_end_of_a_step_the_host_is_called_back_and_may_read():
-    made = f"make toy {GUID} 1 i\nenter 0\n" + putting(**HOT) + "leave\n"
+    made = f"make toy {GUID} 1 a\nenter 0\n" + putting(**HOT) + "leave\n"
     script = made + step(0.0, H) + step(H, H) + taking(["energy", "time"]) + "extra heard\n"
     replies = run(3, toy_library(), script)
     energy, time = replies[-2].values
     assert replies[-1].values == [2, time, energy, 1]
-    said = [m for r in replies for m in r.messages if "intermediate update mode" in m]
-    assert len(said) == 6 and all(m.endswith("return from the callback first") for m in said)
+    said = [m for r in replies for m in r.messages if "not allowed within intermediateUpdate" in m]
+    assert len(said) == 6 and all(m.endswith("return from it first") for m in said)
     refused = [m for r in replies for m in r.messages if "fmi3FreeInstance is not allowed" in m]
     assert len(refused) == 2
 

@@ -45,6 +45,12 @@ class Twin:
                 lambda r=references, g=given, k=kind: self.core.set(r, g, k),
             )
 
+    def move(self, **rates):
+        """Set rates of inputs; FMI 2 only."""
+        found = [(self.variables[name].reference, float(x)) for name, x in rates.items()]
+        pairs = " ".join(f"{reference} {x.hex()}" for reference, x in found)
+        self._ask(f"put derivative {pairs}", lambda: self.core.set_rates(*zip(*found, strict=True)))
+
     def take(self, names=None):
         early = self.core.mode == Mode.INSTANTIATED  # the shell says that outputs come later
         known = [v.name for v in self.variables.values() if v.causality != "output" or not early]

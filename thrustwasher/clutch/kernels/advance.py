@@ -106,10 +106,15 @@ def settle(par: Array, ramp: Ramp, duration: float, power_start: float, work: Ar
         par, ramp[3], work[np.uintp(L.W_NOW + L.Y_FILM)]
     )
     end = settled_power(par, ramp[3], ramp[4], work)
-    held = ramp[0] == ramp[3] and ramp[1] == ramp[4]
     cooling = settled_cooling(par, ramp[3])
-    warm_up(par, 0, end if held else power_start, end, ramp[2], cooling, duration, work)
+    warm_up(par, 0, end if is_held(ramp) else power_start, end, ramp[2], cooling, duration, work)
     return status
+
+
+@kernel
+def is_held(ramp: Ramp) -> bool:
+    """Tell if load and slip stay as they are."""
+    return ramp[0] == ramp[3] and ramp[1] == ramp[4]
 
 
 @kernel

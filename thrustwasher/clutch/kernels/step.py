@@ -6,6 +6,9 @@ outputs at its end. Linear: they run straight from one communication point to th
 first brings film and heat from the last point to the present one, whose inputs are known now, gives
 the friction there, and books heat in advance with the present power; the next step replaces that
 advance. This couples with second order to a partner that looks ahead by itself.
+
+With rates of the inputs behind them a step with held inputs follows them: they run straight from
+their values to those at the step's end, which the outputs belong to. A linear course takes no rates.
 """
 
 import math
@@ -13,10 +16,19 @@ import math
 import numpy as np
 
 from ...numerics.arrays import are_finite, copy
+from ...numerics.courses import value_at
 from ...numerics.jit import Array, Ints, kernel
 from ...numerics.status import BAD_INPUT, HOT, NOT_FINITE, OK, OUTSIDE_VERIFIED
 from . import layout as L
-from .advance import advance, load_memory, settle_film, store_memory, warm_up
+from .advance import (
+    advance,
+    is_held,
+    load_memory,
+    settle_film,
+    settled_power,
+    store_memory,
+    warm_up,
+)
 from .constants import broken_rule as broken_rule
 from .constants import derive as derive
 from .directional_derivative import directional_derivative
@@ -26,6 +38,7 @@ from .rates import n_unknowns, pack_rates, surfaces
 
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
 NOUT, NIOUT, sens = L.NOUT, L.NIOUT, directional_derivative
+NRATES = NINP
 
 
 @kernel
@@ -37,15 +50,17 @@ def step(
     Returns 0 or the status of a failure; advice stands in ``iout`` only. In rings ``temperature``
     is their area mean; the advice HOT goes by the hottest one.
     """
-    load, slip, oil, drum = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL], inp[L.I_DRUM]
-    if not (are_finite(inp) and load >= 0.0 and oil > 0.0 and math.isfinite(dt) and dt >= 0.0):
+    linear = par[L.P_INPUT_COURSE] == L.LINEAR_COURSE
+    before, ahead = point_at(inp, 0.0), 0.0 if linear else dt
+    load, slip, oil, drum = point_at(inp, ahead)
+    good = are_finite(inp) and math.isfinite(dt) and dt >= 0.0
+    if not (good and min(before[0], load) >= 0.0 and min(before[2], oil) > 0.0):
         iout[L.IO_STATUS] = BAD_INPUT
         return BAD_INPUT
     started = state[L.S_STARTED] != 0.0
-    linear = par[L.P_INPUT_COURSE] == L.LINEAR_COURSE
     work[L.W_SUBSTEPS] = work[L.W_REFUSED] = 0.0
     work[L.W_PROPOSED], work[L.W_DURATION] = state[L.S_SUBSTEP], dt
-    status = load_memory(par, load, oil, state, work)
+    status = load_memory(par, before[0], before[2], state, work)
     if linear:
         if started and status == OK:
             ramp = (
@@ -62,8 +77,9 @@ def step(
                 par, ramp, state[L.S_DURATION], state[L.S_POWER], state[L.S_SUBSTEP], work
             )
     elif dt > 0.0 and status == OK:
-        ramp = (load, slip, oil, load, slip, oil, drum, drum)
-        status = advance(par, ramp, dt, 0.0, state[L.S_SUBSTEP], work)
+        ramp = (before[0], before[1], before[2], load, slip, oil, before[3], drum)
+        power = 0.0 if is_held(ramp) else settled_power(par, before[0], before[1], work)
+        status = advance(par, ramp, dt, power, state[L.S_SUBSTEP], work)
     if status == OK:
         status = settle_film(par, load, work)
     fill_outputs(par, load, slip, drum, work, out)
@@ -84,7 +100,7 @@ def step(
     if energy < state[L.S_SHOWN_ENERGY]:
         energy = state[L.S_SHOWN_ENERGY]  # heat does not come back: a too large advance waits
     out[L.O_TEMPERATURE], out[L.O_ENERGY] = temperature, energy
-    first = state[L.S_FIRST] if started else oil
+    first = state[L.S_FIRST] if started else before[2]
     out[L.O_OIL_HEAT], out[L.O_STORED_HEAT] = state[L.S_SHOWN_OIL_HEAT], state[L.S_SHOWN_STORED]
     if dt > 0.0:  # what was made and is not stored went into the oil
         out[L.O_STORED_HEAT] = stored_heat(par, work, first)
@@ -108,6 +124,17 @@ def step(
         advice = HOT
     iout[L.IO_STATUS] = advice if status == OK else status
     return status
+
+
+@kernel
+def point_at(inp: Array, s: float) -> tuple[float, float, float, float]:
+    """Return load [N], slip [rad/s], oil temperature [K], drum speed [rad/s] ``s`` seconds on."""
+    return (
+        value_at(inp, L.NINP, L.I_LOAD, s),
+        value_at(inp, L.NINP, L.I_SPEED, s),
+        value_at(inp, L.NINP, L.I_OIL, s),
+        value_at(inp, L.NINP, L.I_DRUM, s),
+    )
 
 
 @kernel

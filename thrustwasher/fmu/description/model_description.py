@@ -36,21 +36,32 @@ REAL_TYPES: dict[str, dict[str, Any]] = table_beside(__file__, "real_types.toml"
 DECLARED = {(a["unit"], "relativeQuantity" in a): name for name, a in REAL_TYPES.items()}
 
 
-def description(shown: Interface, *, fmi: int, guid: str, derivatives: bool = False) -> bytes:
-    """Return the model description; ``derivatives``: the binary has directional ones."""
+def description(
+    shown: Interface, *, fmi: int, guid: str, derivatives: bool = False, moving: bool = False
+) -> bytes:
+    """Return the model description; ``derivatives``: the binary has directional ones.
+
+    ``moving``: it lets inputs move within a step.
+    """
     found = shown.variables
+
+    def between(v: Variable) -> Attributes:
+        is_there = v.store == "out" or (moving and v.causality == "input")
+        return {"intermediateUpdate": "true"} if is_there and fmi == 3 else {}
+
     return filled(
         HERE / "modelDescription.xml.jinja",
         shown=shown,
         fmi=fmi,
         guid=guid,
         derivatives=str(derivatives).lower(),
+        moving=str(moving and bool(shown.inputs)).lower(),
         head=head(shown),
         units=units(found),
         types=types(found),
         kinds=TYPES,
         structure=structure(shown),
-        variables=[(v, head_attributes(v), value_attributes(v)) for v in found],
+        variables=[(v, head_attributes(v) | between(v), value_attributes(v)) for v in found],
     )
 
 

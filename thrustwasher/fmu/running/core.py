@@ -51,13 +51,16 @@ class Core:
         self.shown, self.spec, self._derive = shown, shown.spec, kernel.derive
         self._broken_rule = getattr(kernel, "broken_rule", None)
         self.variables = shown.variables
-        self.par, self.inp = np.zeros(kernel.NPAR), np.zeros(kernel.NINP)
+        self.par, given = np.zeros(kernel.NPAR), np.zeros(2 * kernel.NINP)
+        self.inp, self.rates = given[: kernel.NINP], given[kernel.NINP :]  # rates: [unit/s]
+        self._takes_rates = hasattr(kernel, "NRATES")
         self.state, self.work = np.zeros(kernel.NSTATE), np.zeros(kernel.NWORK)
         self.out, self.iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
-        self._step_into = partial(kernel.step, self.par, self.inp, self.state, self.work)
-        names = ("par", "inp", "state", "work", "out", "iout")
-        self._arrays = {name: getattr(self, name) for name in names}
-        self._step = bound(kernel.step, **self._arrays)
+        taken = given if self._takes_rates else self.inp
+        self._step_into = partial(kernel.step, self.par, taken, self.state, self.work)
+        self._arrays = {name: getattr(self, name) for name in (*ARRAYS, "work")}
+        handed = {name: a for name, a in self._arrays.items() if name != "rates"}
+        self._step = bound(kernel.step, **handed | {"inp": taken})
         self._undo = self.state.copy(), self.out.copy(), self.iout.copy()
         self._zeros = np.zeros(kernel.NOUT)
         self._ranges = shown.ranges()
@@ -95,6 +98,22 @@ class Core:
                 self.prepared = self.prepared and v.store != "par"
             if self.refused.pop(v.reference, None) is not None and not self.refused:
                 self.latch = 0
+
+    def set_rates(self, references: Sequence[int], rates: Sequence[float]) -> None:
+        """Let inputs move in the next step, straight, all or none of them (ParameterError)."""
+        found = [self._find(reference, "Real") for reference in references]
+        for v, rate in zip(found, rates, strict=True):
+            problem = ""
+            if v.causality != "input":
+                problem = f"{v.name}: only Real inputs have a rate of change"
+            elif not isfinite(rate):
+                text = f"{rate!r} {v.unit}/s, allowed: a finite number"
+                problem = f"{v.name}: rate of change = {text}"
+            if problem:
+                self.latch = Status.BAD_INPUT
+                raise ParameterError(problem)
+        for v, rate in zip(found, rates, strict=True):
+            self.rates[v.slot] = rate
 
     def _refuse(self, references: Sequence[int], problem: str) -> None:
         """Remember that the values of this call are missing: no step until they are set."""
@@ -241,11 +260,11 @@ class Core:
         if not self.prepared:
             self.prepare()
         before, self.time = self.time, t
-        rc = self._solve(h)
+        rc = self._follow(h)
         if rc:
             self.time, self.latch = before, rc
             raise SolveError(self._story(rc, f"t = {t:g} s, step {h:g} s"))
-        self.time, self.dirty, self.latch, self._unsolved = t + h, False, 0, ""
+        self.time, self.latch, self._unsolved = t + h, 0, ""
         self.late = ""
         if abs(t - before) > 1e-6 * h:
             self.late = f"step from t = {t:g} s, but the last one ended at {before:g} s; "
@@ -292,6 +311,31 @@ class Core:
             return 0
         self.state[:], self.out[:], self.iout[:] = state, out, iout
         return int(rc)
+
+    def _follow(self, h: float) -> int:
+        """Step along the inputs' rates; then they are those at the end and have no rates.
+
+        A model that takes no rates steps with the inputs at the middle; its outputs are solved anew
+        when they are read. What would leave its range ends where the range does.
+        """
+        if not self.rates.any():
+            rc = self._solve(h)
+            self.dirty = self.dirty and rc != 0
+            return rc
+        given, rates = self.inp.copy(), self.rates.copy()
+        for v in self.shown.inputs:
+            low, high = v.bounds
+            value, rate = given.item(v.slot), rates.item(v.slot)
+            if rate != 0.0 and not low <= value + rate * h <= high:
+                end = high if rate > 0.0 else low
+                self.rates[v.slot] = (1.0 - 1e-15) * (end - value) / h
+        moved = np.where(self.rates == 0.0, given, given + self.rates * h)
+        if not self._takes_rates:
+            self.inp[:] = np.where(self.rates == 0.0, given, given + 0.5 * self.rates * h)
+        rc = self._solve(h)
+        self.inp[:], self.rates[:] = (given, rates) if rc else (moved, 0.0)
+        self.dirty = self.dirty if rc else not self._takes_rates
+        return rc
 
     def solve_aside(self) -> None:
         """Let ``work`` belong to the present point; outputs and memory stay as they are."""

@@ -80,6 +80,10 @@ class DirectInstance(Stepped):
         self.core.set(self._inputs[: len(values)], values, "Real")
         self.wall_time += perf_counter() - start
 
+    def set_rates(self, rates: Sequence[float]) -> None:
+        """Let the inputs, in their order, move straight in the next step [their unit/s]."""
+        self.core.set_rates(self._inputs[: len(rates)], rates)
+
     def step(self, t: float, h: float) -> None:
         """Advance from ``t`` to ``t + h``; SolveError if there is no solution."""
         start = perf_counter()

@@ -53,6 +53,13 @@ class Protocol:
         """Advance and return the status."""
         return self._do_step(self.fmu.component, t, h, *self._rest)
 
+    def set_rates(self, inputs: "Table", rates: Sequence[float]) -> int:
+        """Set the first derivatives of inputs, of FMI 2, and return the status."""
+        n, group = len(rates), inputs.groups[0]
+        values, orders = (c_double * n)(*rates), (c_int * n)(*[1] * n)
+        set_them = self.function("SetRealInputDerivatives")
+        return set_them(self.fmu.component, group.references, n, orders, values)
+
     def function(self, name: str) -> Callable[..., int]:
         """Return a function of the library; it returns the status as a number."""
         found: Callable[..., int] = getattr(self.fmu.dll, f"fmi{self._version}{name}")

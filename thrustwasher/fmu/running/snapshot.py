@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from ...errors import ParameterError
 
-ARRAYS = ("par", "inp", "state", "out", "iout")
-TYPES = dict.fromkeys(ARRAYS[:4], float) | dict.fromkeys(("iout", "refused", "seen"), np.int32)
+ARRAYS = ("par", "inp", "rates", "state", "out", "iout")
+TYPES = dict.fromkeys(ARRAYS[:5], float) | dict.fromkeys(("iout", "refused", "seen"), np.int32)
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,6 +20,7 @@ class Snapshot:
     identity: str
     par: NDArray[np.float64]
     inp: NDArray[np.float64]
+    rates: NDArray[np.float64]  # of the inputs in the next step
     state: NDArray[np.float64]
     out: NDArray[np.float64]
     iout: NDArray[np.int32]

@@ -24,7 +24,7 @@ MOST_INPUTS = 32  # dependencies are bits of one word
 # The C files of a native FMU beside the generated ones and the dispatch to the kernels.
 SHELL_FILES = tuple(
     """
-    lifecycle.c events.c resource.c values.c text.c messages.c state.c derivative.c fmi2.c
+    lifecycle.c course.c events.c resource.c values.c text.c messages.c state.c derivative.c fmi2.c
     fmi2_values.c fmi3.c fmi3_values.c fmi3_state.c fmi3_declined.c
     """.split()
 )
@@ -134,6 +134,7 @@ def _header(shown: Interface, lists: dict[str, tuple[str, list[str]]]) -> str:
     status = -1 if shown.status_slot is None else shown.status_slot
     numbers = {
         **{name: getattr(kernel, name) for name in SIZES},
+        "NRATES": getattr(kernel, "NRATES", 0),
         "IO_STATUS": status,
         "FIRST_FAILURE": FIRST_FAILURE,
         "RUNG": next(v.slot for v in shown.parameters if v.name == "fidelity"),

@@ -6,10 +6,11 @@ in every mode. A mode there is a name of here in small letters.
 
 from ...model.toml_tables import table_beside
 
-INSTANTIATED, INITIALIZING, STEPPING, TERMINATED, EVENTS, INTERMEDIATE = 1, 2, 4, 8, 16, 32
+INSTANTIATED, INITIALIZING, STEPPING, TERMINATED, EVENTS = 1, 2, 4, 8, 16
+UPDATING, UPDATED = 32, 64  # within the host's intermediateUpdate before and after a step, FMI 3
 NEVER = 0
 ALWAYS = INSTANTIATED | INITIALIZING | STEPPING | TERMINATED | EVENTS
-READABLE = ALWAYS | INTERMEDIATE
+READABLE = ALWAYS | UPDATED
 SOLVABLE = INITIALIZING | STEPPING | EVENTS  # events: FMI 3 only
 
 # What a mode is called in messages, and the function (without "fmi2", "fmi3") that leads out of it.
@@ -18,16 +19,15 @@ MODES = {
     INITIALIZING: ("initialization mode", "ExitInitializationMode"),
     STEPPING: ("step mode", "Terminate"),
     EVENTS: ("event mode", "EnterStepMode"),
-    INTERMEDIATE: ("intermediate update mode", ""),  # the way out is to return from the callback
     TERMINATED: ("terminated", "Reset"),
 }
 
 # Causality, in the order of tables.h -> modes in which a value may be set, and may be read.
 ACCESS = {
     "independent": (NEVER, READABLE),
-    "input": (INSTANTIATED | SOLVABLE, READABLE),
+    "input": (INSTANTIATED | SOLVABLE | UPDATING, READABLE),
     "parameter": (INSTANTIATED | INITIALIZING, READABLE),
-    "output": (NEVER, SOLVABLE | TERMINATED | INTERMEDIATE),
+    "output": (NEVER, SOLVABLE | TERMINATED | UPDATED),
 }
 
 _TABLE = table_beside(__file__, "calls.toml")

@@ -53,6 +53,7 @@ def begin_stretch(par: Array, work: Array, t: float, s: float, end: float) -> No
     else:
         on = t + middle >= par[L.P_ENGINE_START_TIME]
         start, slope = par[L.P_ENGINE_TORQUE] if on else 0.0, 0.0
+    slope += work[L.W_ENGINE_RATE]
     work[L.W_ENGINE_START], work[L.W_ENGINE_SLOPE] = start + work[L.W_ENGINE_GIVEN], slope
     work[L.W_ENGINE] = work[L.W_ENGINE_START] + slope * middle
     clutch = work[L.W_CLUTCH_START] + work[L.W_CLUTCH_SLOPE] * middle

@@ -186,7 +186,8 @@ W_NEW = W_Y + N_Y
 W_STAGE = W_NEW + N_Y
 W_SLOPES = W_STAGE + N_Y
 N_STAGES = 7
-NWORK = W_SLOPES + N_STAGES * N_Y
+W_ENGINE_RATE = W_SLOPES + N_STAGES * N_Y  # of the engine torque from outside
+NWORK = W_ENGINE_RATE + 1
 
 # Real outputs, in the order of SPEC.outputs.
 (

@@ -1,11 +1,17 @@
 # mypy: disable-error-code="no-any-return"
-"""One co-simulation step of the shift transmission: received torques in, speeds and loads out."""
+"""One co-simulation step of the shift transmission: received torques in, speeds and loads out.
+
+With rates of the inputs behind them capacities, engine torque and pressures run straight over the
+step from the values at its start; the other inputs count with their value at the middle. What is
+shown belongs to the inputs at the end.
+"""
 
 import math
 
 import numpy as np
 
 from ...numerics.arrays import are_finite, clear, copy
+from ...numerics.courses import rate_of, value_at
 from ...numerics.jit import Array, Ints, kernel
 from ...numerics.status import BAD_INPUT, NOT_FINITE, OK, STALLED
 from . import dynamics, piston
@@ -16,6 +22,7 @@ from .thrust_bearings import bearing_power, bearing_torque
 
 N_PARAM, NPAR, NINP, NSTATE = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE
 NWORK, NOUT, NIOUT = L.NWORK, L.NOUT, L.NIOUT
+NRATES = NINP
 derive, broken_rule, sens = dynamics.derive, dynamics.broken_rule, directional_derivative
 
 
@@ -52,26 +59,40 @@ def begin(par: Array, inp: Array, state: Array, work: Array) -> None:
 
 
 @kernel
+def take_torques(par: Array, inp: Array, work: Array, s: float) -> None:
+    """Take the torques that hold over a step as they are ``s`` seconds into it."""
+    r = par[L.D_RATIO]
+    work[L.W_LOAD_GIVEN] = value_at(inp, L.NINP, L.I_LOAD, s)
+    work[L.W_WASHERS] = par[L.P_WASHERS] * abs(value_at(inp, L.NINP, L.I_WASHER, s))
+    ring = par[L.D_RING_MESHES] * abs(value_at(inp, L.NINP, L.I_RING_MESH, s))
+    work[L.W_MESHES] = par[L.D_MESHES] * abs(value_at(inp, L.NINP, L.I_MESH, s)) + ring
+    drag = (work[L.W_WASHERS] + work[L.W_MESHES]) * par[L.D_SPIN]
+    work[L.W_DRAG] = drag * r / (1.0 + r)
+    for k in range(2):
+        given = value_at(inp, L.NINP, L.I_CLUTCH + k, s)
+        taken = par[L.P_COUPLING] == L.TORQUE_COUPLING
+        work[np.uintp(L.W_CLUTCH_GIVEN + k)] = given if taken else 0.0
+
+
+@kernel
 def receive(par: Array, inp: Array, state: Array, work: Array, dt: float) -> None:
     """Turn the received torques into capacities over the step, or torques taken as they are.
 
     Capacities arrive once per step and would be up to a step old at its end. They go on changing
     as they did in the last step, from the instant they belong to (``torque_age`` steps ago): the
     error then falls with the square of the step. Where the friction law has a kink the capacity
-    overshoots for one step (a few percent just before lock-up at 1 ms).
+    overshoots for one step (a few percent just before lock-up at 1 ms). A capacity whose rate is
+    given goes on with that rate, from the start of the step.
     """
-    r = par[L.D_RATIO]
-    work[L.W_ENGINE_GIVEN], work[L.W_LOAD_GIVEN] = inp[L.I_ENGINE], inp[L.I_LOAD]
-    work[L.W_WASHERS] = par[L.P_WASHERS] * abs(inp[L.I_WASHER])
-    ring = par[L.D_RING_MESHES] * abs(inp[L.I_RING_MESH])
-    work[L.W_MESHES] = par[L.D_MESHES] * abs(inp[L.I_MESH]) + ring
-    drag = (work[L.W_WASHERS] + work[L.W_MESHES]) * par[L.D_SPIN]
-    work[L.W_DRAG] = drag * r / (1.0 + r)
+    take_torques(par, inp, work, 0.5 * dt)
+    work[L.W_ENGINE_GIVEN] = inp[L.I_ENGINE]
+    work[L.W_ENGINE_RATE] = rate_of(inp, L.NINP, L.I_ENGINE) if dt > 0.0 else 0.0
     for k in range(2):
-        given, start, slope = 0.0, 0.0, 0.0
-        if par[L.P_COUPLING] == L.TORQUE_COUPLING:
-            given = inp[np.uintp(L.I_CLUTCH + k)]
-        else:
+        start, slope = 0.0, 0.0
+        rate = rate_of(inp, L.NINP, L.I_CLUTCH + k) if dt > 0.0 else 0.0
+        if par[L.P_COUPLING] != L.TORQUE_COUPLING and rate != 0.0:
+            start, slope = inp[np.uintp(L.I_CLUTCH + k)], rate
+        elif par[L.P_COUPLING] != L.TORQUE_COUPLING:
             start = max(0.0, inp[np.uintp(L.I_CLUTCH + k)])
             last = max(0.0, state[np.uintp(L.S_LAST_CLUTCH + k)])
             if dt == 0.0 and state[L.S_STARTED] != 0.0 and start == last:
@@ -80,7 +101,6 @@ def receive(par: Array, inp: Array, state: Array, work: Array, dt: float) -> Non
                 slope = (start - last) / state[L.S_LAST_DURATION]
                 ahead = dt if dt > 0.0 else state[L.S_LAST_DURATION]
                 start += slope * par[L.P_TORQUE_AGE] * ahead
-        work[np.uintp(L.W_CLUTCH_GIVEN + k)] = given
         work[np.uintp(L.W_CLUTCH_START + 2 * k)] = start
         work[np.uintp(L.W_CLUTCH_SLOPE + 2 * k)] = slope if dt > 0.0 else 0.0
 
@@ -91,10 +111,11 @@ def press(par: Array, inp: Array, state: Array, work: Array, t: float, dt: float
     status = OK
     if par[L.P_ACTUATION] == L.PRESSURE:
         for k in range(2):
-            after = inp[np.uintp(L.I_PRESSURE + k)]
+            after = value_at(inp, L.NINP, L.I_PRESSURE + k, dt)
             before = state[np.uintp(L.S_LAST_PRESSURE + k)]
+            if state[L.S_STARTED] == 0.0 or rate_of(inp, L.NINP, L.I_PRESSURE + k) != 0.0:
+                before = inp[np.uintp(L.I_PRESSURE + k)]
             if state[L.S_STARTED] == 0.0:
-                before = after
                 piston.rest(par, work, k, piston.commanded(par, k, t, t, dt, before, after))
             if dt == 0.0:
                 piston.show_now(par, work, k, piston.commanded(par, k, t, t, dt, before, after))
@@ -122,15 +143,16 @@ def keep(inp: Array, state: Array, work: Array, start: float, dt: float, power: 
     state[L.S_KINETIC_START], state[L.S_BEARING_POWER] = start, power
     state[L.S_STARTED] = 1.0
     copy(work[L.W_Y :], state[L.S_Y : L.S_KINETIC_START])
-    state[L.S_LAST_CLUTCH], state[L.S_LAST_BRAKE] = inp[L.I_CLUTCH], inp[L.I_BRAKE]
+    state[L.S_LAST_CLUTCH] = value_at(inp, L.NINP, L.I_CLUTCH, dt)
+    state[L.S_LAST_BRAKE] = value_at(inp, L.NINP, L.I_BRAKE, dt)
     state[L.S_LAST_DURATION] = dt
     state[L.S_CLUTCH_NOW] = dynamics.capacity(work, 0, dt)
     state[L.S_BRAKE_NOW] = dynamics.capacity(work, 1, dt)
     state[L.S_CLUTCH_MODE], state[L.S_BRAKE_MODE] = work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE]
     copy(work[L.W_EVENTS :], state[L.S_LOCK_TIME : L.S_LAST_PRESSURE])
     copy(work[L.W_PISTON :], state[L.S_PISTON :])
-    state[L.S_LAST_PRESSURE] = inp[L.I_PRESSURE]
-    state[L.S_LAST_BRAKE_PRESSURE] = inp[L.I_BRAKE_PRESSURE]
+    state[L.S_LAST_PRESSURE] = value_at(inp, L.NINP, L.I_PRESSURE, dt)
+    state[L.S_LAST_BRAKE_PRESSURE] = value_at(inp, L.NINP, L.I_BRAKE_PRESSURE, dt)
 
 
 @kernel
@@ -150,8 +172,9 @@ def show_motion(par: Array, inp: Array, work: Array, out: Array, s: float) -> No
         out[L.O_CLUTCH_LOAD] = piston.force(par, work, 0, drum)
         out[L.O_BRAKE_LOAD] = piston.force(par, work, 1, drum)
     else:
-        out[L.O_CLUTCH_LOAD] = inp[L.I_COMMAND] * par[L.P_CLUTCH_FORCE]
-        out[L.O_BRAKE_LOAD] = (1.0 - inp[L.I_COMMAND]) * par[L.P_BRAKE_FORCE]
+        command = value_at(inp, L.NINP, L.I_COMMAND, s)
+        out[L.O_CLUTCH_LOAD] = command * par[L.P_CLUTCH_FORCE]
+        out[L.O_BRAKE_LOAD] = (1.0 - command) * par[L.P_BRAKE_FORCE]
     spin = par[L.D_SPIN] * (driven - carrier)
     out[L.O_CLUTCH_SPEED] = dynamics.clutch_slip(r, driven, carrier)
     out[L.O_BRAKE_SPEED] = drum
@@ -232,6 +255,15 @@ def show_energy(par: Array, start: float, work: Array, out: Array) -> None:
 
 
 @kernel
+def are_inside(inp: Array, s: float) -> bool:
+    """Tell if command and pressures are in their ranges ``s`` seconds into the step."""
+    good = 0.0 <= value_at(inp, L.NINP, L.I_COMMAND, s) <= 1.0
+    for k in range(2):
+        good = good and value_at(inp, L.NINP, L.I_PRESSURE + k, s) >= 0.0
+    return good
+
+
+@kernel
 def step(
     par: Array, inp: Array, state: Array, work: Array, out: Array, iout: Ints, t: float, dt: float
 ) -> int:
@@ -240,8 +272,7 @@ def step(
     Returns 0 or the status of a failure; STALLED is advice and stands in ``iout`` only.
     """
     good = are_finite(inp) and math.isfinite(t) and math.isfinite(dt) and dt >= 0.0
-    good = good and 0.0 <= inp[L.I_COMMAND] <= 1.0
-    if not (good and inp[L.I_PRESSURE] >= 0.0 and inp[L.I_BRAKE_PRESSURE] >= 0.0):
+    if not (good and are_inside(inp, 0.0) and are_inside(inp, dt)):
         iout[L.IO_STATUS] = BAD_INPUT
         return BAD_INPUT
     begin(par, inp, state, work)
@@ -249,6 +280,7 @@ def step(
     pressed = press(par, inp, state, work, t, dt)
     status = run(par, work, t, dt, state[L.S_STARTED] != 0.0 and dt > 0.0)
     start = kinetic_start(par, state, dt)
+    take_torques(par, inp, work, dt)
     show_motion(par, inp, work, out, dt)
     show_energy(par, start, work, out)
     power = mean_bearing_power(par, state, work, dt)

@@ -156,6 +156,13 @@ OUTPUTS = (
         depends=_TORQUES,
         help="how the last step was solved",
     ),
+    output(
+        "advised_step",
+        "s",
+        1e-3,
+        "step over which torques of slipping packs are off by 1 %, by the last one (0: none yet)",
+        low=0.0,
+    ),
 )
 
 

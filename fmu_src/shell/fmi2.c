@@ -30,7 +30,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
         tell(&log, BAD, LOG_ERROR, &text);
         return NULL;
     }
-    return instantiate(&log, fmuGUID, fmuResourceLocation);
+    return instantiate(&log, fmuGUID, fmuResourceLocation, 0);
 }
 
 void fmi2FreeInstance(fmi2Component c) { free_instance(c); }

@@ -30,9 +30,10 @@ fmi3Instance fmi3InstantiateCoSimulation(
     fmi3Boolean earlyReturnAllowed, const fmi3ValueReference requiredIntermediateVariables[],
     size_t nRequiredIntermediateVariables, fmi3InstanceEnvironment instanceEnvironment,
     fmi3LogMessageCallback logMessage, fmi3IntermediateUpdateCallback intermediateUpdate) {
-    (void)visible, (void)earlyReturnAllowed;
+    (void)visible; /* there is nothing to see */
     const Log log = open_log(instanceName, loggingOn, instanceEnvironment, logMessage);
-    Instance *m = instantiate(&log, instantiationToken, resourcePath);
+    const int ends_early = eventModeUsed && earlyReturnAllowed && N_SWITCHES > 0;
+    Instance *m = instantiate(&log, instantiationToken, resourcePath, ends_early);
     if (!m) return NULL;
     m->has_events = eventModeUsed != 0;
     if (begin_updates(m, requiredIntermediateVariables, nRequiredIntermediateVariables,
@@ -63,7 +64,15 @@ fmi3Instance fmi3InstantiateScheduledExecution(
     return refuse_instance(&log, "is for co-simulation, not for scheduled execution");
 }
 
-void fmi3FreeInstance(fmi3Instance instance) { free_instance(instance); }
+/* Not out of its own callback: the step that called back goes on with the instance. */
+void fmi3FreeInstance(fmi3Instance instance) {
+    Instance *m = instance;
+    if (m && m->now.mode & (UPDATING | UPDATED)) {
+        fail(m, "fmi3FreeInstance is not allowed in the callback of a step");
+        return;
+    }
+    free_instance(m);
+}
 
 fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean loggingOn, size_t nCategories,
                                const fmi3String categories[]) {
@@ -90,7 +99,8 @@ fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
     return fmi3OK;
 }
 
-/* Event mode is there for tunable parameters: the model itself has no events. */
+/* Nothing is left to do in event mode: what changes has changed. It is the place for tunable
+   parameters. */
 fmi3Status fmi3EnterEventMode(fmi3Instance instance) {
     ENTER(fmi3EnterEventMode);
     if (!m->has_events) {
@@ -157,5 +167,9 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
     ask_ahead(m, currentCommunicationPoint, communicationStepSize);
     m->last_step = advance(m, currentCommunicationPoint, communicationStepSize);
     if (lastSuccessfulTime) *lastSuccessfulTime = m->now.time;
-    return (fmi3Status)m->last_step;
+    if (m->last_step != GOOD) return (fmi3Status)m->last_step;
+    if (eventHandlingNeeded) *eventHandlingNeeded = m->has_events && m->happened;
+    if (earlyReturn) *earlyReturn = m->is_early;
+    show_end(m);
+    return fmi3OK;
 }

@@ -24,6 +24,7 @@ int begin_updates(Instance *m, const fmi3ValueReference wanted[], size_t n,
                   fmi3IntermediateUpdateCallback update);
 /* Ask the host for the inputs at the end of a step before it is made; they give the rates. */
 void ask_ahead(Instance *m, double t, double h);
+void show_end(Instance *m); /* Let the host read values at the end of a step. */
 
 static inline int uneven(const Instance *m, int call, size_t n, size_t n_values) {
     return fail(m, "%s: %lu values for %lu scalar variables", CALLS[call].name,

@@ -68,10 +68,13 @@ fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueRefere
     return (fmi3Status)adjoint(m, &d, sensitivity);
 }
 
-/* Inputs at the end of a step, asked for at its start. */
+/* Between communication points: inputs at the end of a step are asked for at its start, outputs may be
+   read at its end. It is too late there to return early. */
 
 int begin_updates(Instance *m, const fmi3ValueReference wanted[], size_t n,
                   fmi3IntermediateUpdateCallback update) {
+    m->update = (void (*)(void))update;
+    m->shows = n == 0;
     if (n == 0) return GOOD;
     if (!wanted || !update) {
         return fail(m, "intermediate variables are required, but %s is NULL",
@@ -80,11 +83,12 @@ int begin_updates(Instance *m, const fmi3ValueReference wanted[], size_t n,
     for (size_t i = 0; i < n; i++) {
         const Variable *v = find(m, wanted[i]);
         if (!v) return BAD;
-        if (v->cause == CAUSE_INPUT && v->type == TYPE_REAL) continue;
-        return fail(m, "%s is required between communication points, allowed: Float64 inputs",
-                    v->name);
+        m->asks |= v->cause == CAUSE_INPUT;
+        m->shows |= v->cause == CAUSE_OUTPUT;
+        if (v->type == TYPE_REAL && (v->cause == CAUSE_INPUT || v->cause == CAUSE_OUTPUT)) continue;
+        return fail(m, "%s is required between communication points, allowed: Float64 inputs and "
+                    "outputs", v->name);
     }
-    m->update = (void (*)(void))update;
     return GOOD;
 }
 
@@ -93,7 +97,7 @@ void ask_ahead(Instance *m, double t, double h) {
     double start[AT_LEAST_ONE(NINP)], early_time = t;
     const int32_t dirty = s->dirty, latch = s->latch, unsolved = m->unsolved;
     fmi3Boolean early = fmi3False;
-    if (!m->update || !(h > 0.0) || !is_finite(t + h)) return;
+    if (!m->asks || !(h > 0.0) || !is_finite(t + h)) return;
     memcpy(start, s->inp, sizeof start);
     s->mode = UPDATING;
     ((fmi3IntermediateUpdateCallback)m->update)(m->log.environment, t + h, fmi3True, fmi3False,
@@ -104,4 +108,14 @@ void ask_ahead(Instance *m, double t, double h) {
     s->dirty = dirty;
     m->unsolved = unsolved;
     if (!s->n_refused) s->latch = latch;
+}
+
+void show_end(Instance *m) {
+    fmi3Boolean early = fmi3False;
+    double early_time = m->now.time;
+    if (!m->update || !m->shows) return;
+    m->now.mode = UPDATED;
+    ((fmi3IntermediateUpdateCallback)m->update)(m->log.environment, m->now.time, fmi3False,
+                                                fmi3True, fmi3True, fmi3False, &early, &early_time);
+    m->now.mode = STEPPING;
 }

@@ -12,6 +12,7 @@ int reset(Instance *m) {
     m->now.dirty = 1;
     memset(m->beyond, 0, sizeof m->beyond);
     m->unsolved = m->work_fits = m->last_step = m->table_ready = 0;
+    m->happened = m->is_early = 0;
     m->warned = -1;
     for (int i = 0; i < N_VARIABLES; i++) {
         const Variable *v = &VARIABLES[i];
@@ -29,15 +30,17 @@ void name_log(Log *log, const char *name, int on, int fmi) {
 }
 
 /* The only memory an instance takes; NULL, and the reason in the log, if it cannot be. */
-Instance *instantiate(const Log *log, const char *guid, const char *resources) {
-    Instance *m = calloc(1, sizeof *m);
+Instance *instantiate(const Log *log, const char *guid, const char *resources, int ends_early) {
+    const size_t size = sizeof(Instance) + (ends_early ? sizeof(Solution) : 0);
+    Instance *m = calloc(1, size);
     if (!m) {
         Text text = {0};
-        add(&text, "%lu bytes of memory are wanted and not to be had", (unsigned long)sizeof *m);
+        add(&text, "%lu bytes of memory are wanted and not to be had", (unsigned long)size);
         tell(log, BAD, LOG_ERROR, &text);
         return NULL;
     }
     m->log = *log;
+    if (ends_early) m->before = (Solution *)(m + 1);
     if (load_part(m, resources, guid)) {
         free(m);
         return NULL;
@@ -74,7 +77,7 @@ Instance *enter(void *instance, int call) {
         fail(m, "%s is not offered: %s", c->name, c->declined);
         return NULL;
     }
-    if (m->now.mode == UPDATING && !(c->modes & UPDATING)) {
+    if (m->now.mode & (UPDATING | UPDATED) && !(c->modes & m->now.mode)) {
         fail(m, "%s is not allowed within intermediateUpdate; return from it first", c->name);
         return NULL;
     }
@@ -217,8 +220,8 @@ static int is_step(Instance *m, double t, double h) {
 /* Step from t to t + h, or leave everything as it was but for the status that tells why. */
 int advance(Instance *m, double t, double h) {
     if (!is_step(m, t, h) || !is_complete(m, "no step", t, ~0u) || prepare(m)) return BAD;
-    double expected = m->now.time;
-    int rc = follow(m, t, h);
+    const double expected = m->now.time, asked = h;
+    int rc = m->before ? follow_to_event(m, t, &h) : follow(m, t, h);
     if (rc) {
         m->now.latch = rc;
         tell_failure(m, rc, t, h);
@@ -226,7 +229,9 @@ int advance(Instance *m, double t, double h) {
     }
     m->now.time = t + h;
     m->now.latch = m->unsolved = 0;
-    if (fabs(t - expected) > 1e-6 * h) tell_late_step(m, t, expected);
+    if (fabs(t - expected) > 1e-6 * asked) tell_late_step(m, t, expected);
+    m->happened = has_changed(m);
+    m->is_early = h < asked;
     if (N_SWITCHES > 0) tell_switches(m);
     note_switches(m);
     if (N_COUNTS > 0) tell_effort(m);

@@ -31,6 +31,8 @@ typedef struct {
     int32_t dirty;     /* the outputs are not those of the present values */
     int32_t prepared;  /* rules checked and derived constants computed */
     int32_t n_refused; /* inputs, parameters whose last value was not taken over ... */
+    int32_t n_early;   /* early returns in a row, which began with a step to ... */
+    double row_end;    /* ... this time [s] */
     int32_t seen[N_SWITCHES + 1]; /* Boolean outputs at the last communication point */
     uint8_t refused[N_VARIABLES]; /* ... 1: by the refusal kept as a text, 2: by an earlier one */
 } Snap;
@@ -65,7 +67,10 @@ typedef struct {
     int32_t work_fits; /* `work` belongs to the present solution */
     int32_t last_step; /* what the last step returned */
     int32_t has_events; /* the host goes through event mode; FMI 3 only */
-    void (*update)(void); /* the host's, to be asked for inputs at the end of a step, or NULL */
+    Solution *before;   /* ... and lets steps end early: room for the solution at a step's start */
+    int32_t happened, is_early; /* of the last step: a Boolean output changed, it ended early */
+    void (*update)(void); /* the host's intermediateUpdate, or NULL; FMI 3 only ... */
+    int32_t asks, shows;  /* ... it is called for inputs before a step, to read after it */
     int32_t table_ready; /* the table in `work` is that of the present parameters, or not wanted */
     char resources[TEXT_LENGTH]; /* the folder, in UTF-8 */
     char refusal[TEXT_LENGTH];
@@ -79,7 +84,8 @@ enum { FORM_DOUBLE, FORM_INT32, FORM_INT64, FORM_BYTE, FORM_NONE };
 /* lifecycle.c */
 /* Switched on: every category. */
 void name_log(Log *log, const char *name, int on, int fmi);
-Instance *instantiate(const Log *log, const char *guid, const char *resources);
+/* `ends_early`: steps may end at events, which takes memory for another solution. */
+Instance *instantiate(const Log *log, const char *guid, const char *resources, int ends_early);
 void free_instance(void *instance);
 Instance *enter(void *instance, int call); /* NULL: not allowed now, and said so */
 int begin(Instance *m, double start_time);
@@ -91,6 +97,10 @@ int advance(Instance *m, double t, double h);
 int solve(Instance *m, double t, double h); /* 0 or a failure, which changes nothing */
 /* Outputs, memory, inputs as before the last solve; memory that is large: if h was 0. */
 void put_back(Instance *m);
+
+/* events.c */
+int has_changed(const Instance *m); /* a Boolean output, since the last communication point */
+int follow_to_event(Instance *m, double t, double *h); /* as `follow`; *h may get shorter */
 
 /* By the bits: NaN raises no exception here, even where the host has unmasked them. */
 static inline int is_finite(double x) {

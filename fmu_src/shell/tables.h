@@ -5,7 +5,10 @@
 #include <stdint.h>
 
 /* Where an instance is in its life; the bits of Call.modes and Access. */
-enum { INSTANTIATED = 1, INITIALIZING = 2, STEPPING = 4, TERMINATED = 8, EVENTS = 16, UPDATING = 32 };
+enum {
+    INSTANTIATED = 1, INITIALIZING = 2, STEPPING = 4, TERMINATED = 8, EVENTS = 16,
+    UPDATING = 32, UPDATED = 64 /* within intermediateUpdate: before a step, after it */
+};
 
 enum { TYPE_REAL, TYPE_INTEGER, TYPE_BOOLEAN, TYPE_ENUMERATION };
 enum { CAUSE_INDEPENDENT, CAUSE_INPUT, CAUSE_PARAMETER, CAUSE_OUTPUT, N_CAUSES };
@@ -32,8 +35,9 @@ typedef struct { const char *name; int32_t n; const Item *items; } Enumeration;
 /* How a solution was obtained; from FIRST_FAILURE on there is none. */
 typedef struct { int32_t number; const char *name, *advice; } StatusText;
 
-/* A Boolean output whose changes are events: what happens when it becomes true, then false. */
-typedef struct { int32_t slot; const char *on, *off; } Switch;
+/* A Boolean output whose changes are events: what happens when it becomes true, then false, and the
+   places in `out` of the times [s] of both, -1: not told. */
+typedef struct { int32_t slot; const char *on, *off; int32_t instant[2]; } Switch;
 
 /* What the solver counts, and where in `work` the number lies. */
 typedef struct { const char *text; int32_t place; } Count;

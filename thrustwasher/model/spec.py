@@ -24,7 +24,8 @@ class Signal:
     ``kind`` is "real", "boolean", "integer" or "enumeration" (then ``type`` names the enumeration,
     e.g. "Regime", "SolverStatus"). ``start`` is for inputs only. ``depends`` lists the inputs that
     enter an output at once, at the same time point; an output that is an integral of the past
-    has none. ``events``, of a Boolean output, says what happens when it becomes true, then false.
+    has none. ``events``, of a Boolean output, says what happens when it becomes true, then false;
+    ``instants`` names the outputs that tell when [s], where there are any.
     ``limit`` is the temperature [K] that an output should stay below.
     ``verified`` is the range of an input for which the accuracy was verified; empty: all of it.
     """
@@ -42,6 +43,7 @@ class Signal:
     relative: bool = False  # a temperature difference, no absolute temperature
     optional: bool = False  # an input that may be left out: it is at its start then
     events: tuple[str, str] | None = None
+    instants: tuple[str, str] = ("", "")
     limit: float | None = None
     verified: tuple[float, ...] = ()
     at_zero: str = ""  # another input, whose value counts where this one is 0

@@ -36,10 +36,18 @@ _PACKS = (*_TORQUES[:2], *_ENGINE, *_LOAD)
 _PRESSED = {pack: ("shift_command", f"{pack}_pressure") for pack in ("clutch", "brake")}
 
 
-def _flag(name: str, text: str, events: str, depends: tuple[str, ...]) -> Signal:
+def _flag(
+    name: str, text: str, events: str, depends: tuple[str, ...], instants: tuple[str, str]
+) -> Signal:
     rises, _, falls = events.partition(", ")
     return Signal(
-        name=name, unit="1", kind="boolean", help=text, depends=depends, events=(rises, falls)
+        name=name,
+        unit="1",
+        kind="boolean",
+        help=text,
+        depends=depends,
+        events=(rises, falls),
+        instants=instants,
     )
 
 
@@ -64,7 +72,8 @@ def _bearing_torque(gear: str) -> Signal:
 
 def _filled(pack: str) -> Signal:
     text = f"the {pack}'s piston has all its oil and can press"
-    return _flag(f"{pack}_filled", text, f"{pack} filled, {pack} empties", (f"{pack}_pressure",))
+    events, instants = f"{pack} filled, {pack} empties", (f"{pack}_filled_time", "")
+    return _flag(f"{pack}_filled", text, events, (f"{pack}_pressure",), instants)
 
 
 OUTPUTS = (
@@ -128,12 +137,14 @@ OUTPUTS = (
         "the clutch sticks, its slip is exactly zero",
         "clutch locked, clutch broke away",
         _TORQUES,
+        ("lock_time", ""),
     ),
     _flag(
         "brake_locked",
         "the brake sticks, the drum stands still",
         "brake locked, brake broke away",
         _TORQUES,
+        ("", "release_time"),
     ),
     *map(_filled, ("clutch", "brake")),
     Signal(name="events", unit="1", kind="integer", help="lock-ups and break-aways located so far"),
@@ -144,6 +155,13 @@ OUTPUTS = (
         type="SolverStatus",
         depends=_TORQUES,
         help="how the last step was solved",
+    ),
+    output(
+        "advised_step",
+        "s",
+        1e-3,
+        "step over which torques of slipping packs are off by 1 %, by the last one (0: none yet)",
+        low=0.0,
     ),
 )
 

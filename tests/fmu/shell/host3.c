@@ -19,7 +19,9 @@
 #define FIND(name) name = (fmi3##name##TYPE *)dlsym(library, "fmi3" #name);
 EACH(DECLARE)
 
-static int early, said_wrongly;
+static int early, happened, wants_events, said_wrongly;
+static void *stepping; /* the instance whose step calls back */
+static double heard[4]; /* in the callback: calls, time, a value, statuses of what is refused */
 
 /* What is set when the FMU asks for inputs within a step: once, then nothing. */
 static struct {
@@ -36,6 +38,28 @@ static void logger(fmi3InstanceEnvironment environment, fmi3Status status, fmi3S
                    fmi3String text)
 {
     hear(environment, status, category, text);
+}
+
+/* Reads, and tries what is not allowed there. */
+static void updated(fmi3InstanceEnvironment environment, fmi3Float64 time, fmi3Boolean set,
+                    fmi3Boolean get, fmi3Boolean finished, fmi3Boolean can_return,
+                    fmi3Boolean *wants, fmi3Float64 *at)
+{
+    const fmi3ValueReference energy[] = {14}, load[] = {1};
+    const double more = 7.0;
+    fmi3Boolean flag;
+    double end;
+    (void)environment;
+    heard[0] += 1.0;
+    heard[1] = get && finished && !set && !can_return ? time : -1.0;
+    if (GetFloat64(stepping, energy, 1, &heard[2], 1))
+        heard[2] = -1.0;
+    heard[3] = SetFloat64(stepping, load, 1, &more, 1) == fmi3Error
+               && DoStep(stepping, time, 1e-3, 1, &flag, &flag, &flag, &end) == fmi3Error
+               && Reset(stepping) == fmi3Error;
+    FreeInstance(stepping);
+    *wants = 1;
+    *at = time;
 }
 
 static void update(fmi3InstanceEnvironment environment, fmi3Float64 time, fmi3Boolean set,
@@ -57,7 +81,7 @@ void *make(const char *name, const char *guid, int logging, const char *oddity)
 {
     static char title[64];
     fmi3LogMessageCallback log = oddity && oddity[0] == 'l' ? NULL : logger;
-    const fmi3ValueReference wanted[] = {4}, inputs[] = {1, 2, 3};
+    const fmi3ValueReference wanted[] = {4}, inputs[] = {1, 2, 3}, read[] = {14};
     strncpy(title, name ? name : "NULL", sizeof title - 1);
     switch (oddity ? oddity[0] : 0) {
     case 'm': return InstantiateModelExchange(name, guid, NULL, 0, logging, title, log);
@@ -65,8 +89,16 @@ void *make(const char *name, const char *guid, int logging, const char *oddity)
         return InstantiateScheduledExecution(name, guid, NULL, 0, logging, title, log, NULL, NULL,
                                              NULL);
     case 'e':
+        wants_events = 1;
         return InstantiateCoSimulation(name, guid, resources, 0, logging, 1, 0, NULL, 0, title,
                                        log, NULL);
+    case 'r':
+        wants_events = 1;
+        return InstantiateCoSimulation(name, guid, resources, 0, logging, 1, 1, NULL, 0, title,
+                                       log, NULL);
+    case 'a': /* to be read after steps */
+        return InstantiateCoSimulation(name, guid, resources, 0, logging, 0, 1, read, 1, title, log,
+                                       updated);
     case 'i': /* no input */
         return InstantiateCoSimulation(name, guid, resources, 0, logging, 0, 0, wanted, 1, title,
                                        log, update);
@@ -98,9 +130,11 @@ int step(void *m, double t, double h)
 {
     fmi3Boolean event = 1, over = 1, returned = 1;
     last_time = -777.0;
+    stepping = m;
     int rc = DoStep(m, t, h, 1, &event, &over, &returned, &last_time);
-    said_wrongly += event || over || returned || last_time == -777.0;
+    said_wrongly += ((event || returned) && !wants_events) || over || last_time == -777.0;
     early = returned;
+    happened = event;
     return rc;
 }
 
@@ -198,7 +232,14 @@ int extra(void *m, const char *what, const uint32_t *references, size_t n, doubl
         values[0] = later.asked_for;
     else if (strcmp(what, "last-time") == 0)
         values[0] = last_time;
-    else if (strcmp(what, "pointers") == 0)
+    else if (strcmp(what, "heard") == 0)
+        memcpy(values, heard, (*n_values = 4) * sizeof *values);
+    else if (strcmp(what, "ended") == 0) {
+        values[0] = happened;
+        values[1] = early;
+        values[2] = last_time;
+        *n_values = 3;
+    } else if (strcmp(what, "pointers") == 0)
         values[0] = said_wrongly;
     else if (strcmp(what, "version") == 0)
         return strcmp(GetVersion(), "3.0");

@@ -120,8 +120,12 @@ S_STARTED, S_FILM, S_ENERGY, S_HEAT = range(4)  # the last three: unknowns in th
     S_DRUM,
     S_DURATION,
     S_SUBSTEP,
+    S_CAPACITY,
+    S_CAPACITY_CHANGE,
+    S_CAPACITY_SPAN,
+    S_ADVISED,
     NSTATE,
-) = range(S_HEAT + N_HEAT, S_HEAT + N_HEAT + 13)
+) = range(S_HEAT + N_HEAT, S_HEAT + N_HEAT + 17)
 
 N_STAGES = 6
 W_NOW, W_TRIAL, W_RATE, W_STAGES = 0, NY, 2 * NY, 3 * NY
@@ -190,8 +194,9 @@ W_SURFACE = W_VARIED_STAGES + N_STAGES * NY
     O_VISCOSITY,
     O_OIL_HEAT,
     O_STORED_HEAT,
+    O_ADVISED,
     NOUT,
-) = range(16)
+) = range(17)
 IO_REGIME, IO_STATUS, NIOUT = range(3)
 
 CLOSED, STRIBECK, FIELD, FINE = 1, 3, 4, 5  # fidelity; 2 had no heat and runs as STRIBECK

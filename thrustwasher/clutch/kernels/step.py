@@ -19,6 +19,7 @@ from ...numerics.arrays import are_finite, copy
 from ...numerics.courses import value_at
 from ...numerics.jit import Array, Ints, kernel
 from ...numerics.status import BAD_INPUT, HOT, NOT_FINITE, OK, OUTSIDE_VERIFIED
+from ...numerics.step_size import advised_step
 from . import layout as L
 from .advance import (
     advance,
@@ -39,6 +40,9 @@ from .rates import n_unknowns, pack_rates, surfaces
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
 NOUT, NIOUT, sens = L.NOUT, L.NIOUT, directional_derivative
 NRATES = NINP
+# What a partner may be off by over a step: a share of the capacity, or of that of a pack pressed a
+# little [Pa] whose coefficient is low.
+ADVISED_SHARE, LEAST_PRESSURE, LEAST_COEFFICIENT = 0.01, 1e5, 0.1
 
 
 @kernel
@@ -106,6 +110,11 @@ def step(
         out[L.O_STORED_HEAT] = stored_heat(par, work, first)
         more = out[L.O_STORED_HEAT] - state[L.S_SHOWN_STORED]
         out[L.O_OIL_HEAT] = (energy - state[L.S_SHOWN_ENERGY] - more) / dt
+    out[L.O_ADVISED] = state[L.S_ADVISED]
+    span, straight = dt, linear or before != (load, slip, oil, drum)
+    if dt > 0.0:
+        span = state[L.S_DURATION] if linear and started else dt
+        out[L.O_ADVISED] = advise(par, state, span, straight, out[L.O_CAPACITY])
     if status == OK and not _is_finite(par, work, unknowns, out):
         status = NOT_FINITE
     if dt > 0.0 and status == OK:
@@ -116,6 +125,7 @@ def step(
         state[L.S_SHOWN_TEMPERATURE], state[L.S_SHOWN_ENERGY] = temperature, energy
         state[L.S_SHOWN_OIL_HEAT] = out[L.O_OIL_HEAT]
         state[L.S_SHOWN_STORED] = out[L.O_STORED_HEAT]
+        note_capacity(state, span if started else 0.0, out)
     iout[L.IO_REGIME] = regime_of(par, out[L.O_RATIO], slip)
     advice = OK
     if out[L.O_RATIO] < L.LEAST_RATIO:
@@ -124,6 +134,34 @@ def step(
         advice = HOT
     iout[L.IO_STATUS] = advice if status == OK else status
     return status
+
+
+@kernel
+def advise(par: Array, state: Array, span: float, straight: bool, capacity: float) -> float:
+    """Return the step [s] whose change of the capacity a partner can do without.
+
+    Over the last ``span`` [s] the capacity was held or, with inputs that move ``straight``, carried
+    on as it had changed before; it may be off by a share of itself.
+    """
+    order, expected = 1.0, state[L.S_CAPACITY]
+    if straight:
+        if state[L.S_CAPACITY_SPAN] == 0.0:
+            return span
+        order = 2.0
+        expected += state[L.S_CAPACITY_CHANGE] / state[L.S_CAPACITY_SPAN] * span
+    if state[L.S_STARTED] == 0.0:
+        return span
+    pressed = LEAST_PRESSURE * LEAST_COEFFICIENT * par[L.D_AREA] * par[L.D_RADIUS] * par[L.P_FACES]
+    allowed = ADVISED_SHARE * max(capacity, pressed)
+    return advised_step(span, abs(capacity - expected), allowed, order)
+
+
+@kernel
+def note_capacity(state: Array, span: float, out: Array) -> None:
+    """Keep the capacity and how it has changed over ``span`` [s], 0 at the start."""
+    state[L.S_CAPACITY_CHANGE] = out[L.O_CAPACITY] - state[L.S_CAPACITY]
+    state[L.S_CAPACITY], state[L.S_CAPACITY_SPAN] = out[L.O_CAPACITY], span
+    state[L.S_ADVISED] = out[L.O_ADVISED]
 
 
 @kernel

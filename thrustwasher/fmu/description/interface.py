@@ -99,6 +99,13 @@ class Interface:
         pairs = zip(self.outputs, self.spec.outputs, strict=True)
         return tuple((v.slot, signal.events) for v, signal in pairs if signal.events)
 
+    def instants(self, slot: int) -> tuple[int, int]:
+        """Return the places in ``out`` of the times of both events of a switch, -1: not told."""
+        pairs = zip(self.outputs, self.spec.outputs, strict=True)
+        named = next(s.instants for v, s in pairs if s.events and v.slot == slot)
+        places = {v.name: v.slot for v in self.outputs if v.store == "out"}
+        return places.get(named[0], -1), places.get(named[1], -1)
+
     @cached_property
     def counts(self) -> tuple[tuple[str, int], ...]:
         """What the model's solver counts: text, place in ``work``."""

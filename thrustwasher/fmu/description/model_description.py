@@ -46,8 +46,8 @@ def description(
     found = shown.variables
 
     def between(v: Variable) -> Attributes:
-        set_there = moving and fmi == 3 and v.causality == "input"
-        return {"intermediateUpdate": "true"} if set_there else {}
+        is_there = v.store == "out" or (moving and v.causality == "input")
+        return {"intermediateUpdate": "true"} if is_there and fmi == 3 else {}
 
     return filled(
         HERE / "modelDescription.xml.jinja",

@@ -24,7 +24,7 @@ MOST_INPUTS = 32  # dependencies are bits of one word
 # The C files of a native FMU beside the generated ones and the dispatch to the kernels.
 SHELL_FILES = tuple(
     """
-    lifecycle.c course.c resource.c values.c text.c messages.c state.c derivative.c fmi2.c
+    lifecycle.c course.c events.c resource.c values.c text.c messages.c state.c derivative.c fmi2.c
     fmi2_values.c fmi3.c fmi3_values.c fmi3_state.c fmi3_declined.c
     """.split()
 )
@@ -85,7 +85,7 @@ def _lists(shown: Interface) -> dict[str, tuple[str, list[str]]]:
             [(n, len(items), _Code(f"ITEMS_{n}")) for n, items in shown.enumerations.items()],
         ),
         "STATUSES": ("StatusText", [(int(s), s.name, s.advice) for s in sorted(Status)]),
-        "SWITCHES": ("Switch", [(slot, *events) for slot, events in shown.switches]),
+        "SWITCHES": ("Switch", [_switch(shown, slot, events) for slot, events in shown.switches]),
         "COUNTS": ("Count", shown.counts),
         "RULES": ("Rule", [(rule.text,) for rule in shown.spec.rules]),
         "GONE_RUNGS": ("Item", [(k, t) for k, name in rungs for t in gone_rung(shown.spec, name)]),
@@ -123,6 +123,10 @@ def _variable(v: Variable, inputs: Sequence[str], names: Sequence[str]) -> list[
         int(v.variability == "tunable"),
         _Code(f"TYPE_BIT({kind}) | CAUSE_BIT({cause})"),
     ]
+
+
+def _switch(shown: Interface, slot: int, events: tuple[str, str]) -> list[Any]:
+    return [slot, *events, _Code(f"{{{', '.join(map(str, shown.instants(slot)))}}}")]
 
 
 def _header(shown: Interface, lists: dict[str, tuple[str, list[str]]]) -> str:

@@ -7,9 +7,10 @@ in every mode. A mode there is a name of here in small letters.
 from ...model.toml_tables import table_beside
 
 INSTANTIATED, INITIALIZING, STEPPING, TERMINATED, EVENTS = 1, 2, 4, 8, 16
-UPDATING = 32  # within the host's intermediateUpdate, FMI 3 only
+UPDATING, UPDATED = 32, 64  # within the host's intermediateUpdate before and after a step, FMI 3
 NEVER = 0
 ALWAYS = INSTANTIATED | INITIALIZING | STEPPING | TERMINATED | EVENTS
+READABLE = ALWAYS | UPDATED
 SOLVABLE = INITIALIZING | STEPPING | EVENTS  # events: FMI 3 only
 
 # What a mode is called in messages, and the function (without "fmi2", "fmi3") that leads out of it.
@@ -23,10 +24,10 @@ MODES = {
 
 # Causality, in the order of tables.h -> modes in which a value may be set, and may be read.
 ACCESS = {
-    "independent": (NEVER, ALWAYS),
-    "input": (INSTANTIATED | SOLVABLE | UPDATING, ALWAYS),
-    "parameter": (INSTANTIATED | INITIALIZING, ALWAYS),
-    "output": (NEVER, SOLVABLE | TERMINATED),
+    "independent": (NEVER, READABLE),
+    "input": (INSTANTIATED | SOLVABLE | UPDATING, READABLE),
+    "parameter": (INSTANTIATED | INITIALIZING, READABLE),
+    "output": (NEVER, SOLVABLE | TERMINATED | UPDATED),
 }
 
 _TABLE = table_beside(__file__, "calls.toml")

@@ -136,8 +136,9 @@ S_Y = 1
     S_LAST_PRESSURE,
     S_LAST_BRAKE_PRESSURE,
     S_BEARING_POWER,
+    S_ADVISED,
     S_PISTON,
-) = range(S_Y + N_Y, S_Y + N_Y + 16)
+) = range(S_Y + N_Y, S_Y + N_Y + 17)
 # Of a piston: pressure [Pa], volume of oil [m3], whether it is full, times [s] of two events.
 (
     PISTON_PRESSURE,
@@ -246,8 +247,9 @@ NWORK = W_ENGINE_RATE + 1
     O_RING_BEARING_TORQUE,
     O_BEARING_POWER,
     O_BEARING_HEAT,
+    O_ADVISED,
     NOUT,
-) = range(56)
+) = range(57)
 IO_CLUTCH_LOCKED, IO_BRAKE_LOCKED, IO_CLUTCH_FILLED, IO_BRAKE_FILLED = range(4)
 IO_EVENTS, IO_STATUS, NIOUT = range(4, 7)
 

@@ -14,6 +14,7 @@ from ...numerics.arrays import are_finite, clear, copy
 from ...numerics.courses import rate_of, value_at
 from ...numerics.jit import Array, Ints, kernel
 from ...numerics.status import BAD_INPUT, NOT_FINITE, OK, STALLED
+from ...numerics.step_size import advised_step
 from . import dynamics, piston
 from . import layout as L
 from .directional_derivative import LEAST_WASHER_LOAD, directional_derivative
@@ -23,6 +24,7 @@ from .thrust_bearings import bearing_power, bearing_torque
 N_PARAM, NPAR, NINP, NSTATE = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE
 NWORK, NOUT, NIOUT = L.NWORK, L.NOUT, L.NIOUT
 NRATES = NINP
+ADVISED_SHARE = 0.01  # of the largest torque: what that of a slipping pack may be off by
 derive, broken_rule, sens = dynamics.derive, dynamics.broken_rule, directional_derivative
 
 
@@ -106,6 +108,31 @@ def receive(par: Array, inp: Array, state: Array, work: Array, dt: float) -> Non
 
 
 @kernel
+def advise(par: Array, inp: Array, state: Array, work: Array, dt: float) -> float:
+    """Return the step [s] at which the torques of slipping packs are off by as much as they may be.
+
+    By the last step: what a torque was carried on to, or held at, and what arrived in its place.
+    What a pack that sticks could hold moves nothing.
+    """
+    if state[L.S_STARTED] == 0.0:
+        return dt
+    worst, largest, order = 0.0, abs(work[L.W_ENGINE]), 1.0
+    taken = par[L.P_COUPLING] == L.TORQUE_COUPLING
+    if par[L.P_CAPACITY_EXTRAPOLATION] != 0.0 and not taken:
+        order = 2.0
+    for k in range(2):
+        arrived = inp[np.uintp(L.I_CLUTCH + k)]
+        if not taken:
+            arrived = work[np.uintp(L.W_CLUTCH_START + 2 * k)]
+        if rate_of(inp, L.NINP, L.I_CLUTCH + k) != 0.0:
+            order = 2.0
+        largest = max(largest, abs(arrived))
+        if state[np.uintp(L.S_CLUTCH_MODE + k)] != L.STUCK:
+            worst = max(worst, abs(arrived - state[np.uintp(L.S_CLUTCH_NOW + k)]))
+    return advised_step(state[L.S_LAST_DURATION], worst, ADVISED_SHARE * largest, order)
+
+
+@kernel
 def press(par: Array, inp: Array, state: Array, work: Array, t: float, dt: float) -> int:
     """Carry both pistons over the step; return a status."""
     status = OK
@@ -146,8 +173,8 @@ def keep(inp: Array, state: Array, work: Array, start: float, dt: float, power: 
     state[L.S_LAST_CLUTCH] = value_at(inp, L.NINP, L.I_CLUTCH, dt)
     state[L.S_LAST_BRAKE] = value_at(inp, L.NINP, L.I_BRAKE, dt)
     state[L.S_LAST_DURATION] = dt
-    state[L.S_CLUTCH_NOW] = dynamics.capacity(work, 0, dt)
-    state[L.S_BRAKE_NOW] = dynamics.capacity(work, 1, dt)
+    state[L.S_CLUTCH_NOW] = dynamics.capacity(work, 0, dt) + work[L.W_CLUTCH_GIVEN]
+    state[L.S_BRAKE_NOW] = dynamics.capacity(work, 1, dt) + work[L.W_BRAKE_GIVEN]
     state[L.S_CLUTCH_MODE], state[L.S_BRAKE_MODE] = work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE]
     copy(work[L.W_EVENTS :], state[L.S_LOCK_TIME : L.S_LAST_PRESSURE])
     copy(work[L.W_PISTON :], state[L.S_PISTON :])
@@ -285,12 +312,14 @@ def step(
     show_energy(par, start, work, out)
     power = mean_bearing_power(par, state, work, dt)
     out[L.O_BEARING_POWER] = power
+    out[L.O_ADVISED] = advise(par, inp, state, work, dt) if dt > 0.0 else state[L.S_ADVISED]
     if status == OK:
         status = pressed
     if status == OK and not _is_finite(work, out, dt):
         status = NOT_FINITE
     if status == OK and dt > 0.0:
         keep(inp, state, work, start, dt, power)
+        state[L.S_ADVISED] = out[L.O_ADVISED]
     clutch_holds = dynamics.capacity(work, 0, dt) > 0.0
     iout[L.IO_CLUTCH_LOCKED] = 1 if work[L.W_CLUTCH_MODE] == 0.0 and clutch_holds else 0
     iout[L.IO_BRAKE_LOCKED] = 1 if work[L.W_BRAKE_MODE] == 0.0 else 0

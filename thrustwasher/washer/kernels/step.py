@@ -171,6 +171,8 @@ def step(
         made = out[L.O_POWER] * dt
         out[L.O_OIL_HEAT] = out[L.O_POWER]
     _book(made, kept, dt, state, out)
+    if in_time:
+        out[L.O_ADVISED] = substep if dt > 0.0 else state[L.S_SUBSTEP]
     lost = in_time and name_branch(w, w.outputs[L.O_RATIO], w.outputs[L.O_FLUID_SHARE])
     if dt > 0.0 and (status == OK or status == NO_BRANCH):
         keep_solution(w, pt, state)

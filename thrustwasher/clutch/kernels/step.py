@@ -90,6 +90,7 @@ def step(
         out[L.O_STORED_HEAT] = stored_heat(par, work, first)
         more = out[L.O_STORED_HEAT] - state[L.S_SHOWN_STORED]
         out[L.O_OIL_HEAT] = (energy - state[L.S_SHOWN_ENERGY] - more) / dt
+    out[L.O_OIL_ENERGY] = energy - out[L.O_STORED_HEAT]
     if status == OK and not _is_finite(par, work, unknowns, out):
         status = NOT_FINITE
     if dt > 0.0 and status == OK:

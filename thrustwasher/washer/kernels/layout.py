@@ -109,10 +109,11 @@ NINP = 5
     O_STICK_MARGIN,
     O_ENERGY,
     O_STORED_HEAT,
+    O_OIL_ENERGY,
     O_FLUID_LOAD,
     O_CONTACT_LOAD,
-) = range(18)
-NOUT, N_ALL = 16, 18
+) = range(19)
+NOUT, N_ALL = 17, 19
 IO_REGIME, IO_DISTRESS, IO_STATUS, NIOUT = range(4)
 HOT_LIMIT = 523.0  # [K] of the hottest spot; above it oil and washer are lost
 

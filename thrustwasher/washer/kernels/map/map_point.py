@@ -107,7 +107,7 @@ def map_outputs(data: Array, w: Array, pt: Point, place: Array, out: Array) -> N
     out[L.O_FILM_TEMPERATURE] = oil + power * _exp(film)
     friction, _ = dry_friction(par, pt.load)
     hold = friction * pt.load * _exp(grip)
-    out[L.O_ENERGY], out[L.O_STORED_HEAT] = 0.0, 0.0
+    out[L.O_ENERGY], out[L.O_STORED_HEAT], out[L.O_OIL_ENERGY] = 0.0, 0.0, 0.0
     out[L.O_STICK_MARGIN] = MOST_MARGIN
     if hold < MOST_MARGIN * abs(torque):
         out[L.O_STICK_MARGIN] = hold / abs(torque)
@@ -238,7 +238,7 @@ def map_derivative(
         dout[L.O_OUTLET] += (carried_change - carried * dout[L.O_OIL_FLOW] / flow) / storage
     film = out[L.O_FILM_TEMPERATURE] - oil
     dout[L.O_FILM_TEMPERATURE] = oil_change + film * (at_power + w[M.LOGS + M.FILM])
-    dout[L.O_ENERGY], dout[L.O_STORED_HEAT] = 0.0, 0.0
+    dout[L.O_ENERGY], dout[L.O_STORED_HEAT], dout[L.O_OIL_ENERGY] = 0.0, 0.0, 0.0
     dout[L.O_STICK_MARGIN] = 0.0
     friction, friction_slope = dry_friction(par, pt.load)
     if out[L.O_STICK_MARGIN] < MOST_MARGIN and friction > 0.0:

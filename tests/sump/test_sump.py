@@ -6,7 +6,6 @@ import pytest
 
 from thrustwasher.clutch.parameters import SPEC as PACK
 from thrustwasher.errors import ParameterError, SolveError
-from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.sump.parameters import SPEC, SumpParams
 
@@ -121,12 +120,6 @@ def test_heat_that_comes_as_power_and_as_energy_is_refused():
     with pytest.raises(SolveError, match=r"heat_1 = 1000 W.*energy_1 = 1000 J.*excluded by"):
         taken_in([1.0], lambda _: twice)
     assert taken_in([1.0], lambda _: {"heat_1": 1e3, "energy_2": 1e3})["received_heat"] == 3e3
-
-
-def test_references_are_those_of_before_energies_and_theirs_follow():
-    names = [v.name for v in interface(SPEC).variables]
-    assert names[1:10] == [s.name for s in SPEC.inputs[:9]]
-    assert names[-7:] == ["solver_status", *(f"energy_{i}" for i in range(1, 7))]
 
 
 def test_steps_without_time_change_nothing_and_bad_inputs_are_named():

@@ -81,7 +81,10 @@ class Status(IntEnum):
     NO_BRANCH = 12, "the wanted branch has no solution at this load; ask for the other branch"
     NO_EVENT = 13, "a lock-up or break-away could not be located; use a smaller communication step"
     NOT_FINITE = 14, "the computation left the range of numbers; check parameters and inputs"
-    BAD_INPUT = 15, "an input is not finite or outside its range"
+    BAD_INPUT = (
+        15,
+        "an input is not finite, outside its range, or excluded by another one given",
+    )
 
     def __new__(cls, code: int, advice: str = "") -> "Status":
         """Keep the number as the value and the sentence beside it."""

@@ -6,10 +6,12 @@ import zipfile
 from functools import cache
 
 import pytest
+from ssp_master import components, description, run
 
 from thrustwasher.cli import main
 from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.fmu.shell import platform_libraries
+from thrustwasher.fmu.stepper import Instance
 from thrustwasher.native import link
 from thrustwasher.shift import load_scene
 
@@ -96,6 +98,28 @@ def test_a_part_of_ones_own_is_in_the_package_by_its_name_and_runs(tmp_path, cap
     assert rows["lock_time"][-1] == pytest.approx(ours["lock_time"], rel=1e-12)
     assert rows["lock_time"][-1] > 2.115  # 2.111 s with all of its friction
     assert rows["clutch_heat"][-1] == pytest.approx(ours["energy"]["clutch"], rel=1e-11)
+
+
+def test_a_package_of_fmi_3_runs_the_same_shift_as_one_of_fmi_2(tmp_path, capsys):
+    scene = tmp_path / "short.toml"
+    scene.write_text('base = "brake-test"\nstop_time = 0.3\n')
+    ends = []
+    for fmi in (2, 3):
+        path = tmp_path / f"fmi{fmi}.ssp"
+        words = ["shift", "--scene", str(scene), "--ssp", str(path), "--fmi", str(fmi)]
+        assert main([*words, "--platforms", "local"]) == 0
+        root, instances = description(path), {}
+        with zipfile.ZipFile(path) as archive:
+            archive.extractall(tmp_path / str(fmi))
+            page = archive.read("documentation/index.html").decode()
+        assert f"after FMI {fmi}.0" in page
+        for name, component in components(root).items():
+            instances[name] = Instance(tmp_path / str(fmi) / component.get("source"))
+            assert instances[name].description.fmiVersion == f"{fmi}.0"
+        ends.append(run(root, instances))
+        for instance in instances.values():
+            instance.close()
+    assert ends[0] == ends[1] and ends[0]["brake.energy"] > 0.0
 
 
 def test_json_names_the_files(tmp_path, capsys):

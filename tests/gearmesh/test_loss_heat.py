@@ -213,6 +213,7 @@ def test_heat_made_is_heat_stored_and_handed_to_the_oil(law, start, params):
             10.0 ** rng.uniform(-4.0, 2.0),
         )
     assert run.out[L.F_STORED] + run.handed == pytest.approx(run.made, rel=1e-9)
+    assert run.out[L.F_OIL_ENERGY] == pytest.approx(run.handed, rel=1e-12)
     if params.film_heat == "loss":
         rise = run.out[L.F_BULK] - first
         assert run.par[L.D_BULK_CAPACITY] * rise == pytest.approx(run.out[L.F_STORED], rel=1e-9)

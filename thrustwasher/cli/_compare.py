@@ -17,7 +17,7 @@ def run(arguments: argparse.Namespace, load: Step, simulate: Step) -> int:
 
     ``load`` gives the scene of a name, ``simulate`` its result.
     """
-    for option in ("scene", "ssp", "no_report", "platforms", "scatter"):
+    for option in ("scene", "ssp", "no_report", "fmi", "platforms", "scatter"):
         if getattr(arguments, option):
             raise ParameterError(f"--compare: not together with --{option.replace('_', '-')}")
     folder = _output.check_folder(arguments.out, "--out")

@@ -18,9 +18,10 @@ from .build import chosen_platforms
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
 OF_A_RUN = (
     *("scene", "compare", "no_report", "step", "master", "master_tolerance", "fidelity"),
-    *("no_guard", "ssp", "platforms", "oil", "scatter"),
+    *("no_guard", "ssp", "fmi", "platforms", "oil", "scatter"),
 )
 REPORT, TABLE, FOLDER = "report.html", "shift.csv", "shift-report"
+FMI = ("2", "3")  # versions of a package's FMUs
 RUNS, STUDY = "256", "scatter"  # base points of a study, its folder in that of the report
 OPTIONS = {
     "--scene NAME|FILE.toml": "a built-in scene (planetary, brake-test, msl, ...) or a TOML file; "
@@ -36,6 +37,7 @@ OPTIONS = {
     "--no-guard": "do not check the run afterwards: neither its step, nor whether steady washers "
     "hold, nor rungs that auto chose",
     "--ssp FILE.ssp": "write the shift as an SSP package for other tools, instead of running it",
+    "--fmi N": "version of the package's FMUs, 2 or 3; default 2",
     "--platforms LIST": "of the package's FMUs: names with commas, all, or local; default: all "
     "that can be linked here",
     "--json": "one JSON object with every number",
@@ -86,8 +88,9 @@ def run(arguments: argparse.Namespace) -> int:
         _check_rungs(scene, "with [sequence]")
     if arguments.ssp:
         return _export(arguments, scene)
-    if arguments.platforms:
-        raise ParameterError("--platforms: for a package only (--ssp FILE.ssp)")
+    for option in ("fmi", "platforms"):
+        if getattr(arguments, option):
+            raise ParameterError(f"--{option}: for a package only (--ssp FILE.ssp)")
     runs = _scatter_runs(arguments, scene)
     folder = None if arguments.no_report else _output.check_folder(arguments.out, "--out")
 
@@ -306,13 +309,15 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
     if arguments.master not in (None, "jacobi"):
         raise ParameterError(f"--master {arguments.master}: a package is for a parallel master")
     _check_rungs(scene, "in a package")
+    if arguments.fmi not in (None, *FMI):
+        raise ParameterError(f"--fmi {arguments.fmi}: allowed: {' or '.join(FMI)}")
     target = _output.check_file(arguments.ssp, "--ssp", (".ssp",))
 
     from ..native.files import zipped
 
     platforms = chosen_platforms(arguments.platforms, "native")
     began = time.perf_counter()
-    parts = _package(scene, platforms)
+    parts = _package(scene, platforms, int(arguments.fmi or FMI[0]))
     _output.warn(scene.warnings)
 
     with _output.whole_file(target) as draft:
@@ -326,7 +331,7 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
     return 0
 
 
-def _package(scene: Any, platforms: list[str] | None) -> dict[str, bytes]:
+def _package(scene: Any, platforms: list[str] | None, fmi: int) -> dict[str, bytes]:
     """Return all files of the package: the system, its documentation, one FMU per part."""
     from ..fmu.build import pack_native
     from ..fmu.description.model_description import generation_date
@@ -339,7 +344,7 @@ def _package(scene: Any, platforms: list[str] | None) -> dict[str, bytes]:
         instances = {name: make(name, part) for name, part in scene.parts.items()}
         system = plan(scene, start_values(scene, instances))
     tool = f"thrustwasher {package_version()}"
-    found = files(system, tool=tool, date=generation_date())
+    found = files(system, tool=tool, date=generation_date(), fmi=fmi)
     for part in system.components:
-        found[part.source] = pack_native(part.spec, platforms=platforms, note=_output.note)
+        found[part.source] = pack_native(part.spec, fmi=fmi, platforms=platforms, note=_output.note)
     return found

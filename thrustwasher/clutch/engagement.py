@@ -50,6 +50,7 @@ def outputs_over(
         out[k.O_ENERGY] = faces * work[k.W_NOW + k.Y_ENERGY]
         out[k.O_STORED_HEAT] = pack_outputs.stored_heat(par, work, oil)
         before, to_oil = to_oil, out[k.O_ENERGY] - out[k.O_STORED_HEAT]
+        out[k.O_OIL_ENERGY] = to_oil
         out[k.O_OIL_HEAT] = (to_oil - before) / (now - time[i - 1]) if i else 0.0
         rows[i] = out
     return rows, substeps

@@ -132,14 +132,18 @@ def _part(path: str, oil: Oil | None) -> ModelSpec:
 
 
 def pack_native(
-    spec: ModelSpec, *, platforms: Sequence[str] | None = None, note: Note | None = None
+    spec: ModelSpec,
+    *,
+    fmi: int = 2,
+    platforms: Sequence[str] | None = None,
+    note: Note | None = None,
 ) -> bytes:
-    """Return a native FMU of FMI 2 of any model, also of one with defaults of its own.
+    """Return a native FMU of FMI 2 or 3 of any model, also of one with defaults of its own.
 
     It has no reference results: those of a model with its usual defaults are in the usual FMU.
     """
     say = note or (lambda _: None)
-    order = Order("native", 2, chosen(platforms, say, [spec]), say)
+    order = Order("native", fmi, chosen(platforms, say, [spec]), say)
     folder = model_folder(spec, source_folder())
     files = contents(interface(spec), folder, order, reference=False)
     return zipped(files, first=DESCRIPTION)

@@ -27,7 +27,10 @@ SAFETIES = {
     "micropitting_safety": "the film is thinner than permissible_film_ratio allows, the flanks are "
     "expected to micropit; take cooler or thicker oil or smoother flanks",
 }
-SWEEP = Sweep(least={name: (1.0, f"below 1: {fails}") for name, fails in SAFETIES.items()})
+SWEEP = Sweep(
+    not_shown=("oil_energy",),  # of a step, not of a point
+    least={name: (1.0, f"below 1: {fails}") for name, fails in SAFETIES.items()},
+)
 __all__ = ["GearMeshParams", "GearMeshResult", "solve_gearmesh"]
 
 
@@ -239,6 +242,7 @@ def _result(
     shown["friction_torque"] = math.copysign(loss, speed) if speed else 0.0
     shown["friction_power"] = loss * abs(speed)
     asperity = shown.pop("temperature")
+    del shown["oil_energy"]  # of a step, not of a point
     return GearMeshResult(
         **(shown | more),
         asperity_temperature=asperity,

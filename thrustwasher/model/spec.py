@@ -46,6 +46,7 @@ class Signal:
     instants: tuple[str, str] = ("", "")
     limit: float | None = None
     verified: tuple[float, ...] = ()
+    late: bool = False  # an input that came later: its value reference follows all others
     at_zero: str = ""  # another input, whose value counts where this one is 0
 
     @property

@@ -34,7 +34,8 @@ class _SumpParams:
 
 
 _FACTORS: dict[str, Any] = {
-    f"factor_{i}": quantity(1.0, "1", 0.0, 1e4, f"equal parts that send heat_{i}") for i in PORTS
+    f"factor_{i}": quantity(1.0, "1", 0.0, 1e4, f"equal parts that send heat_{i} or energy_{i}")
+    for i in PORTS
 }
 SumpParams = extended(_SumpParams, "SumpParams", _FACTORS)
 
@@ -48,6 +49,19 @@ def _heat(i: int) -> Signal:
         high=1e9,
         nominal=1e3,
         start=0.0,
+    )
+
+
+def _energy(i: int) -> Signal:
+    return Signal(
+        name=f"energy_{i}",
+        unit="J",
+        help=f"heat since the start from one part of kind {i}, in place of heat_{i}",
+        low=-1e15,
+        high=1e15,
+        nominal=1e4,
+        start=0.0,
+        late=True,
     )
 
 
@@ -77,6 +91,7 @@ SPEC = ModelSpec(
             start=0.0,
         ),
         _temperature("cooler_temperature", 338.15, "temperature of the oil from the cooler"),
+        *map(_energy, PORTS),
     ),
     outputs=(
         output("temperature", "K", 300.0, "temperature of the oil"),
@@ -93,20 +108,31 @@ SPEC = ModelSpec(
         ),
     ),
     kernel="thrustwasher.sump.kernels.step",
-    terminals=tuple(
-        Terminal(
-            name=f"part_{i}",
-            kind="thrustwasher.HeatPort",
-            help="Heat from a kind of part in, temperature of its oil out",
-            members=((f"heat_{i}", "Q_flow", "inflow"), ("temperature", "T", "signal")),
-        )
-        for i in PORTS
+    terminals=(
+        *(
+            Terminal(
+                name=f"part_{i}",
+                kind="thrustwasher.HeatPort",
+                help="Heat from a kind of part in, temperature of its oil out",
+                members=((f"heat_{i}", "Q_flow", "inflow"), ("temperature", "T", "signal")),
+            )
+            for i in PORTS
+        ),
+        *(
+            Terminal(
+                name=f"part_{i}_by_energy",
+                kind="thrustwasher.HeatEnergyPort",
+                help="Heat since the start from a kind of part in, temperature of its oil out",
+                members=((f"energy_{i}", "E", "inflow"), ("temperature", "T", "signal")),
+            )
+            for i in PORTS
+        ),
     ),
     stop_time=600.0,
     step_size=1.0,
     # 2 kW for ten minutes, the cooler from half of it on.
     course=tuple(
-        (t, *[2e3 if i == 1 else 0.0 for i in PORTS], 298.15, flow, 338.15)
+        (t, *[2e3 if i == 1 else 0.0 for i in PORTS], 298.15, flow, 338.15, *[0.0 for _ in PORTS])
         for t, flow in ((0.0, 0.0), (300.0, 0.0), (301.0, 5e-5), (600.0, 5e-5))
     ),
 )

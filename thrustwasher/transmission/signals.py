@@ -166,9 +166,12 @@ OUTPUTS = (
 )
 
 
-def _plug(name: str, kind: str, text: str, **members: str) -> Terminal:
-    """Return a terminal: torques flow in, all else are signals; ``members``: their variables."""
-    found = tuple((v, m, "inflow" if m == "tau" else "signal") for m, v in members.items())
+def _plug(name: str, kind: str, text: str, flow: str = "inflow", **members: str) -> Terminal:
+    """Return a terminal; ``members``: their variables.
+
+    A torque flows in or out as ``flow`` says, all else are signals.
+    """
+    found = tuple((v, m, flow if m == "tau" else "signal") for m, v in members.items())
     return Terminal(name=name, kind=f"thrustwasher.{kind}", help=text, members=found)
 
 
@@ -190,6 +193,14 @@ TERMINALS = (
         load="mesh_load",
     ),
     _plug(
+        "ring_mesh",
+        "MeshFlange",
+        "Speed and torque of a planet in the ring mesh out, its friction torque in",
+        w="mesh_speed",
+        tau="ring_mesh_torque",
+        load="mesh_load",
+    ),
+    _plug(
         "washer",
         "WasherFlange",
         "Speed, load and tilt of one washer out, its torque in",
@@ -208,7 +219,8 @@ TERMINALS = (
     _plug(
         "output_shaft",
         "ShaftFlange",
-        "Speed of the vehicle at the output out, its torque against it in",
+        "Speed of the vehicle at the output out, torque that the vehicle takes in",
+        "outflow",
         w="vehicle_speed",
         tau="load_torque_input",
     ),

@@ -51,6 +51,7 @@ class WasherCourse(Plain):
     stick_margin: Array
     energy: Array
     stored_heat: Array
+    oil_energy: Array
     distress: NDArray[np.bool_]
     status: list[Status]
     """Per point: OK or an advice."""

@@ -235,7 +235,12 @@ JOINED = [
     ("WetClutch.shaft_capacity", "ShiftTransmission.brake"),
     ("ThrustWasher.shaft", "ShiftTransmission.washer"),
     ("GearMesh.shaft", "ShiftTransmission.mesh"),
-    *((f"{name}.oil", "OilSump.part_1") for name in ("ThrustWasher", "WetClutch", "GearMesh")),
+    ("GearMesh.shaft", "ShiftTransmission.ring_mesh"),
+    *(
+        (f"{name}.{plug}", f"OilSump.part_1{plug.removeprefix('oil')}")
+        for name in ("ThrustWasher", "WetClutch", "GearMesh")
+        for plug in ("oil", "oil_by_energy")
+    ),
 ]
 
 
@@ -244,9 +249,13 @@ def members(plug):
     return {member: found[name] for name, member, _ in terminal.members}
 
 
+def kinds(plug):
+    return {member: kind for _, member, kind in PLUGS[plug][0].members}
+
+
 @pytest.mark.parametrize("kind", sorted({t.kind for t, _ in PLUGS.values()}))
 def test_terminals_of_a_kind_have_the_same_members_in_every_fmu(kind):
-    """Heat flows out of parts and into the sump; all else counts in one sense."""
+    """Torque and heat flow out of parts that make them; all else counts in one sense."""
     sets = {
         frozenset(
             (member, flow.removeprefix("out").removeprefix("in")) for _, member, flow in t.members
@@ -265,3 +274,20 @@ def test_what_is_joined_fits(one, other):
     for name, v in mine.items():
         assert {v.causality, theirs[name].causality} == {"input", "output"}
         assert v.unit == theirs[name].unit
+
+
+@pytest.mark.parametrize(("one", "other"), JOINED)
+def test_what_flows_out_of_a_part_flows_into_the_other_without_a_change_of_sign(one, other):
+    opposite = {"outflow": "inflow", "signal": "signal"}
+    assert {m: opposite[k] for m, k in kinds(one).items()} == kinds(other)
+    assert "outflow" in kinds(one).values()
+
+
+def test_an_engine_drives_the_input_shaft_and_the_output_shaft_drives_a_vehicle():
+    """Torque along the speed of a shaft brings power in where it flows in."""
+    plugs = {n: f"ShiftTransmission.{n}" for n in ("input_shaft", "output_shaft")}
+    flows = {n: (members(p)["tau"].name, kinds(p)["tau"]) for n, p in plugs.items()}
+    assert flows == {
+        "input_shaft": ("engine_torque_input", "inflow"),
+        "output_shaft": ("load_torque_input", "outflow"),
+    }

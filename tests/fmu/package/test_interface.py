@@ -15,10 +15,11 @@ each_spec = pytest.mark.parametrize("spec", SPECS, ids=lambda s: s.name)
 
 
 @each_spec
-def test_references_count_through_time_inputs_parameters_outputs(spec):
+def test_references_count_through_time_inputs_parameters_outputs_late_inputs(spec):
     found = interface(spec).variables
-    expected = ["time", *(s.name for s in spec.inputs), *(f.name for f in fields(spec.params))]
-    expected += ["fidelity", *(s.name for s in spec.outputs)]
+    first, late = ([s.name for s in spec.inputs if s.late == late] for late in (False, True))
+    expected = ["time", *first, *(f.name for f in fields(spec.params))]
+    expected += ["fidelity", *(s.name for s in spec.outputs), *late]
     assert [v.name for v in found] == expected
     assert [v.reference for v in found] == list(range(len(found)))
     assert len({v.name for v in found}) == len(found)

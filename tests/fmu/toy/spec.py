@@ -99,7 +99,7 @@ SPEC = ModelSpec(
             name="shaft",
             kind="thrustwasher.Toy",
             help="Slip speed in, friction torque out",
-            members=(("speed", "w", "signal"), ("friction_torque", "tau", "inflow")),
+            members=(("speed", "w", "signal"), ("friction_torque", "tau", "outflow")),
         ),
     ),
     stop_time=0.1,

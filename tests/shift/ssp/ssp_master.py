@@ -40,8 +40,10 @@ def values(component):
     return found
 
 
-def run(root, instances):
+def run(root, instances, wires=None):
     """Step the instances over the default experiment; return all outputs at its end by name.
+
+    ``wires``, (part, output, part, input, factor), stand in place of the package's connections.
 
     Before each step values are passed on until they agree, as by OMSimulator's fixed-step master,
     which reads every output after it has set the inputs it depends on.
@@ -49,7 +51,7 @@ def run(root, instances):
     experiment = root.find("ssd:DefaultExperiment", NS)
     start, stop = float(experiment.get("startTime")), float(experiment.get("stopTime"))
     h = float(experiment.find(".//*[@baseStepSize]").get("baseStepSize"))
-    wires = [w for w in connections(root) if w[2] is not None]
+    wires = wires or [(*w, 1.0) for w in connections(root) if w[2] is not None]
     inputs = {n: dict.fromkeys(i.input_names, None) for n, i in instances.items()}
     for name, instance in instances.items():
         given = values(components(root)[name])
@@ -60,8 +62,8 @@ def run(root, instances):
     def exchange():
         for name, instance in instances.items():
             outputs[name] = dict(zip(instance.output_names, instance.outputs(), strict=True))
-        for source, output, target, into in wires:
-            inputs[target][into] = outputs[source][output]
+        for source, output, target, into, factor in wires:
+            inputs[target][into] = factor * outputs[source][output]
 
     def put():
         for name, instance in instances.items():

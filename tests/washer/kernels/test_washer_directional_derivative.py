@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.model.part_file import preset_part
 from thrustwasher.model.prepare import filled
 from thrustwasher.numerics.status import OK, SINGULAR
@@ -166,3 +167,24 @@ def test_at_rest_with_contact_the_torque_has_no_slope_over_the_speed():
     assert washer.step(inp) == OK
     assert washer.sens(inp, np.array([0.0, 1.0, 0.0, 0.0]))[0] == SINGULAR
     assert washer.sens(inp, np.array([1.0, 0.0, 0.0, 0.0]))[0] == OK
+
+
+@pytest.mark.parametrize("load", [300.0, 1500.0], ids=["film", "contact"])
+def test_differences_of_outputs_as_they_are_read_scatter_less_than_is_said(load):
+    """Torque and rise at changed speeds lie within 5e-6 of a smooth curve through them."""
+    speed, oil = 545.0, 297.15
+    with DirectInstance(SPEC) as washer:
+        washer.initialize(0.0, {"load": load, "speed": speed, "tilt": 2e-3})
+        washer.step(0.0, 0.02)
+        places = [washer.output_names.index(n) for n in ("friction_torque", "temperature")]
+        changes, rows = np.linspace(-1e-4, 1e-4, 11), []
+        for change in changes:
+            washer.set_inputs([load, speed * (1.0 + change), 2e-3, oil, 0.0])
+            rows.append([washer.outputs()[place] for place in places])
+        slopes = washer.directional_derivative(["friction_torque", "temperature"], ["speed"], [1.0])
+    sizes = np.array(rows[0]) - [0.0, oil]
+    for values, slope, size in zip(np.transpose(rows), slopes, sizes, strict=True):
+        line = np.polynomial.Polynomial.fit(changes, values, 1)
+        assert np.abs(values - line(changes)).max() < 5e-6 * size
+        error = line.deriv()(0.0) - slope * speed
+        assert abs(error) < 0.05 * size

@@ -144,6 +144,7 @@ def test_energy_is_what_is_stored_and_all_that_reached_the_oil(params):
         by_rule += 0.5 * (last + w.leaving()) * h
         last = w.leaving()
     assert w.out[L.O_ENERGY] == pytest.approx(w.out[L.O_STORED_HEAT] + sent + first, rel=1e-12)
+    assert w.out[L.O_OIL_ENERGY] == w.out[L.O_ENERGY] - w.out[L.O_STORED_HEAT]
     assert sent == pytest.approx(by_rule, rel=0.02)
 
 

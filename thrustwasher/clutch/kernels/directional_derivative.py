@@ -116,5 +116,6 @@ def directional_derivative(
     change = (seed[L.I_LOAD], seed[L.I_SPEED], film, seed[L.I_DRUM])
     ring_outputs(par, point, change, work, scratch, dout)
     dout[L.O_TEMPERATURE] = heat
-    dout[L.O_ENERGY] = dout[L.O_OIL_HEAT] = dout[L.O_STORED_HEAT] = dout[L.O_ADVISED] = 0.0
+    dout[L.O_ENERGY] = dout[L.O_OIL_HEAT] = dout[L.O_STORED_HEAT] = 0.0
+    dout[L.O_OIL_ENERGY] = dout[L.O_ADVISED] = 0.0
     return NOT_FINITE if status == OK and not are_finite(dout) else status

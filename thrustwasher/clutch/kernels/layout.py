@@ -195,8 +195,9 @@ W_SURFACE = W_VARIED_STAGES + N_STAGES * NY
     O_OIL_HEAT,
     O_STORED_HEAT,
     O_ADVISED,
+    O_OIL_ENERGY,
     NOUT,
-) = range(17)
+) = range(18)
 IO_REGIME, IO_STATUS, NIOUT = range(3)
 
 CLOSED, STRIBECK, FIELD, FINE = 1, 3, 4, 5  # fidelity; 2 had no heat and runs as STRIBECK

@@ -115,6 +115,7 @@ def step(
     if dt > 0.0:
         span = state[L.S_DURATION] if linear and started else dt
         out[L.O_ADVISED] = advise(par, state, span, straight, out[L.O_CAPACITY])
+    out[L.O_OIL_ENERGY] = energy - out[L.O_STORED_HEAT]
     if status == OK and not _is_finite(par, work, unknowns, out):
         status = NOT_FINITE
     if dt > 0.0 and status == OK:

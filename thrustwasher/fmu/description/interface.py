@@ -1,8 +1,8 @@
 """The interface of a model as FMUs show it: everything they show comes from here.
 
 It is made from the parameter dataclass and the model's inputs and outputs. Value references count
-0, 1, 2, ... over ``time``, inputs, parameters (dataclass fields, then ``fidelity``), outputs; they
-are the same for every target and FMI version.
+0, 1, 2, ... over ``time``, inputs, parameters (dataclass fields, then ``fidelity``), outputs, and
+inputs that came later; they are the same for every target and FMI version.
 """
 
 import sys
@@ -165,7 +165,8 @@ def _entries(spec: ModelSpec) -> Iterator[tuple[str, dict[str, Any]]]:
     clock = Signal(name="time", unit="s", help="time of the present communication point")
     yield "time", _signal(clock, causality="independent", initial=None)
     for signal in spec.inputs:
-        yield "inp", _signal(signal, causality="input", initial=None, start=signal.start or 0.0)
+        if not signal.late:
+            yield "inp", _input(signal)
     for f in fields(spec.params):
         yield "par", _parameter(f)
     rung = list(spec.fidelities).index(spec.default_fidelity) + 1.0
@@ -176,6 +177,13 @@ def _entries(spec: ModelSpec) -> Iterator[tuple[str, dict[str, Any]]]:
         store = "out" if signal.kind == "real" else "iout"
         own = {"causality": "output", "initial": "calculated", "depends": signal.depends}
         yield store, _signal(signal, **own)
+    for signal in spec.inputs:
+        if signal.late:
+            yield "inp", _input(signal)
+
+
+def _input(signal: Signal) -> dict[str, Any]:
+    return _signal(signal, causality="input", initial=None, start=signal.start or 0.0)
 
 
 def _enumerations(spec: ModelSpec) -> dict[str, tuple[Item, ...]]:

@@ -117,8 +117,9 @@ D_PATH_SHARE, D_PATH_LOSS, D_PATH_LENGTH, D_PATH_FLASH, D_PATH_FILM, D_PATH_PRES
     D_POSITION + i * N_PATH for i in range(1, 8)
 )
 I_LOAD, I_SPEED, I_OIL, NINP = range(4)
-# Memory: whether a step was made, temperature of the bodies [K], heat stored since then [J].
-S_STARTED, S_BULK, S_STORED, NSTATE = range(4)
+# Memory: whether a step was made, temperature of the bodies [K]; heat stored since then and gone
+# into the oil [J].
+S_STARTED, S_BULK, S_STORED, S_OIL_ENERGY, NSTATE = range(5)
 # What is known of one operating point; the real outputs come first, in their order.
 (
     F_TORQUE,
@@ -152,6 +153,7 @@ S_STARTED, S_BULK, S_STORED, NSTATE = range(4)
     F_SCUFFING_MARGIN,
     F_FILM_GF,
     F_MICROPITTING,
+    F_OIL_ENERGY,
     F_LINE_LOAD,
     F_WIDTH,
     F_PRESSURE,
@@ -170,7 +172,7 @@ S_STARTED, S_BULK, S_STORED, NSTATE = range(4)
     F_FREE_AREA_SLOPE,
     F_SMOOTH_SIGN,
     N_FIELD,
-) = range(49)
+) = range(50)
 # Behind them, for the rung `fine` of the paper's heat: the hottest position's own numbers, those of
 # the position at hand, the constants there; then, for both heats, the number of the hottest.
 W_HOTTEST, W_HERE, W_LOCAL, W_PLACE = N_FIELD, 2 * N_FIELD, 3 * N_FIELD, 3 * N_FIELD + D_POSITION
@@ -178,7 +180,7 @@ W_HOTTEST, W_HERE, W_LOCAL, W_PLACE = N_FIELD, 2 * N_FIELD, 3 * N_FIELD, 3 * N_F
 # duration [s]; friction of every position, in mixed friction that of the film and contact's share.
 W_BEGAN, W_FROM, W_DURATION, W_FRICTION = range(W_PLACE + 1, W_PLACE + 5)
 W_SHEARED, W_CONTACT, NWORK = (W_FRICTION + i * N_PATH for i in range(1, 4))
-NOUT = 31
+NOUT = 32
 IO_REGIME, IO_STATUS, NIOUT = range(3)
 
 FILM, MIXED, BOUNDARY = range(1, 4)  # regimes

@@ -43,6 +43,7 @@ def step(
     work[L.F_SMOOTH_SIGN] = smooth_sign
     work[L.F_TORQUE] = work[L.F_MEAN_FRICTION] * par[L.D_LOSS] * pressed * smooth_sign
     work[L.F_POWER] = work[L.F_TORQUE] * speed
+    work[L.F_OIL_ENERGY] = state[L.S_OIL_ENERGY] + work[L.F_OIL_HEAT] * dt
     iout[L.IO_REGIME] = regime_of(work[L.F_RATIO])
     copy(work, out)
     if not are_finite(out):
@@ -50,6 +51,7 @@ def step(
     if dt > 0.0 and status < 10:
         state[L.S_STARTED] = 1.0
         state[L.S_BULK], state[L.S_STORED] = work[L.F_BULK], work[L.F_STORED]
+        state[L.S_OIL_ENERGY] = work[L.F_OIL_ENERGY]
     iout[L.IO_STATUS] = status
     return status if status >= 10 else 0
 
@@ -80,4 +82,5 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
         rising * smooth + friction * pressed * steep * seed[L.I_SPEED]
     )
     dout[L.F_POWER] = dout[L.F_TORQUE] * speed + work[L.F_TORQUE] * seed[L.I_SPEED]
+    dout[L.F_OIL_ENERGY] = 0.0
     return OK if are_finite(dout) else NOT_FINITE

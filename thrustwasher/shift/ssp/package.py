@@ -17,10 +17,11 @@ from .system_structure import BORDER, PASSED_ON, Component, Structure
 HERE = Path(__file__).parent
 
 
-def files(system: Structure, *, tool: str, date: str) -> dict[str, bytes]:
+def files(system: Structure, *, tool: str, date: str, fmi: int = 2) -> dict[str, bytes]:
     """Return the files of the package by path, all but the FMUs.
 
-    ``tool`` is the name of the tool and its version, ``date`` when it was made, ISO 8601.
+    ``tool`` is the name of the tool and its version, ``date`` when it was made, ISO 8601, ``fmi``
+    the version of the FMUs, 2 or 3.
     """
     used = [_meta(part.spec) for part in system.components]
     units = {m["unit"] for found in used for m in found.values() if m["kind"] == "real"}
@@ -29,6 +30,7 @@ def files(system: Structure, *, tool: str, date: str) -> dict[str, bytes]:
         **system._asdict(),
         "tool": tool,
         "date": date,
+        "fmi": fmi,
         "places": BORDER["places"],
         "values_of": values_of,
         "units": {name: exponents(name) for name in units},

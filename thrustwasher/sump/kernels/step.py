@@ -1,6 +1,9 @@
 """One step of the oil sump: the exact solution for constant heat.
 
 C T' = sum n_i Q_i - G (T - T_ambient) - rho c V_c (T - T_cooler), inputs held over the step.
+
+A kind of part sends its heat Q_i as a power [W], or as an energy [J] since the start: then what the
+energy has grown by since the last step flows in evenly over this one.
 """
 
 import math
@@ -24,8 +27,10 @@ PORTS = 6
 N_PARAM = P_FACTOR + PORTS + 1
 D_HEAT, D_CAPACITY = N_PARAM, N_PARAM + 1  # of a volume of oil [J/(m3 K)]; of the sump [J/K]
 NPAR = N_PARAM + 2
-I_AMBIENT, I_FLOW, I_COOLER, NINP = range(PORTS, PORTS + 4)
-S_STARTED, S_WARMED, S_RECEIVED, S_AMBIENT, S_COOLER, NSTATE = range(6)
+I_AMBIENT, I_FLOW, I_COOLER, I_ENERGY = range(PORTS, PORTS + 4)
+NINP = I_ENERGY + PORTS
+S_STARTED, S_WARMED, S_RECEIVED, S_AMBIENT, S_COOLER, S_ENERGY = range(6)  # the last: taken in [J]
+NSTATE = S_ENERGY + PORTS
 NWORK = 1
 O_TEMPERATURE, O_RECEIVED, O_STORED, O_AMBIENT, O_COOLER, NOUT = range(6)
 NIOUT = 1
@@ -62,12 +67,20 @@ def step(
     good = math.isfinite(dt) and dt >= 0.0 and inp[I_FLOW] >= 0.0
     for i in range(NINP):
         good = good and math.isfinite(inp[np.uintp(i)])
+    for i in range(PORTS):  # the same heat must not count twice
+        good = good and (inp[np.uintp(i)] == 0.0 or inp[np.uintp(I_ENERGY + i)] == 0.0)
     if not good:
         iout[0] = BAD_INPUT
         return BAD_INPUT
-    heat = 0.0
+    heat, sent = 0.0, 0.0  # held [W]; grown by since the last step [J]
     for i in range(PORTS):
         heat += par[np.uintp(P_FACTOR + i)] * inp[np.uintp(i)]
+        more = inp[np.uintp(I_ENERGY + i)] - state[np.uintp(S_ENERGY + i)]
+        sent += par[np.uintp(P_FACTOR + i)] * more
+    received = heat * dt
+    if dt > 0.0:
+        received += sent
+        heat += sent / dt
     start, warmed = par[P_INITIAL_TEMPERATURE], state[S_WARMED]
     ambient, cooler = par[P_CONDUCTANCE], par[D_HEAT] * inp[I_FLOW]
     above, over = start + warmed - inp[I_AMBIENT], start + warmed - inp[I_COOLER]
@@ -78,7 +91,7 @@ def step(
         reach = -math.expm1(-decay * dt) / decay
         mean = (dt - reach) / decay
     out[O_TEMPERATURE] = start + (warmed + rate * reach)
-    out[O_RECEIVED] = state[S_RECEIVED] + heat * dt
+    out[O_RECEIVED] = state[S_RECEIVED] + received
     out[O_STORED] = par[D_CAPACITY] * (warmed + rate * reach)
     out[O_AMBIENT] = state[S_AMBIENT] + ambient * (above * dt + rate * mean)
     out[O_COOLER] = state[S_COOLER] + cooler * (over * dt + rate * mean)
@@ -90,5 +103,7 @@ def step(
         state[S_STARTED], state[S_WARMED] = 1.0, warmed + rate * reach
         state[S_RECEIVED], state[S_AMBIENT] = out[O_RECEIVED], out[O_AMBIENT]
         state[S_COOLER] = out[O_COOLER]
+        for i in range(PORTS):
+            state[np.uintp(S_ENERGY + i)] = inp[np.uintp(I_ENERGY + i)]
     iout[0] = status
     return status

@@ -110,10 +110,11 @@ NINP = 5
     O_ENERGY,
     O_STORED_HEAT,
     O_ADVISED,
+    O_OIL_ENERGY,
     O_FLUID_LOAD,
     O_CONTACT_LOAD,
-) = range(19)
-NOUT, N_ALL = 17, 19
+) = range(20)
+NOUT, N_ALL = 18, 20
 IO_REGIME, IO_DISTRESS, IO_STATUS, NIOUT = range(4)
 HOT_LIMIT = 523.0  # [K] of the hottest spot; above it oil and washer are lost
 

@@ -125,7 +125,7 @@ def outputs_at(w: Workspace, pt: Point) -> bool:
     out[L.O_FILM_TEMPERATURE] = pt.oil_temperature + film / area
     out[L.O_STICK_MARGIN] = stick_margin(m, f, torque)
     out[L.O_ENERGY], out[L.O_STORED_HEAT] = 0.0, 0.0  # of a step, not of a point
-    out[L.O_ADVISED] = 0.0
+    out[L.O_OIL_ENERGY], out[L.O_ADVISED] = 0.0, 0.0
     return are_finite(out)
 
 
@@ -249,7 +249,7 @@ def change_of_outputs(
         dout[L.O_OUTLET] += (gone - warmth) / (m.oil_storage * out[L.O_OIL_FLOW])
     dout[L.O_FILM_TEMPERATURE] = change.oil_temperature + film / area
     dout[L.O_ENERGY], dout[L.O_STORED_HEAT] = 0.0, 0.0
-    dout[L.O_ADVISED] = 0.0
+    dout[L.O_OIL_ENERGY], dout[L.O_ADVISED] = 0.0, 0.0
     dout[L.O_STICK_MARGIN] = 0.0
     hold, dhold = _hold_change(m, change, dq, f)
     if out[L.O_STICK_MARGIN] < MOST_MARGIN and hold > 0.0:

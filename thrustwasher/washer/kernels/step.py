@@ -98,6 +98,7 @@ def _book(made: float, kept: float, dt: float, state: Array, out: Array) -> None
     """Fill the heats of a step: what is made [J] and not kept in the bodies reaches the oil."""
     out[L.O_ENERGY] = state[L.S_ENERGY] + made
     out[L.O_STORED_HEAT] = state[L.S_STORED_HEAT] + kept
+    out[L.O_OIL_ENERGY] = out[L.O_ENERGY] - out[L.O_STORED_HEAT]
     if dt > 0.0:
         out[L.O_OIL_HEAT] = made / dt - kept / dt
 

@@ -26,6 +26,7 @@ class Model extends PointModel {
     o[L.O_STORED_HEAT] = kernel.call("stored_heat", par, work, oil);
     const before = this.toOil;
     this.toOil = o[L.O_ENERGY] - o[L.O_STORED_HEAT];
+    o[L.O_OIL_ENERGY] = this.toOil;
     o[L.O_OIL_HEAT] = duration > 0 ? (this.toOil - before) / duration : 0;
     return Array.from(o);
   }

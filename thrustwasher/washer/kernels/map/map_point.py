@@ -108,7 +108,7 @@ def map_outputs(data: Array, w: Array, pt: Point, place: Array, out: Array) -> N
     friction, _ = dry_friction(par, pt.load)
     hold = friction * pt.load * _exp(grip)
     out[L.O_ENERGY], out[L.O_STORED_HEAT] = 0.0, 0.0
-    out[L.O_ADVISED] = 0.0
+    out[L.O_OIL_ENERGY], out[L.O_ADVISED] = 0.0, 0.0
     out[L.O_STICK_MARGIN] = MOST_MARGIN
     if hold < MOST_MARGIN * abs(torque):
         out[L.O_STICK_MARGIN] = hold / abs(torque)
@@ -240,7 +240,7 @@ def map_derivative(
     film = out[L.O_FILM_TEMPERATURE] - oil
     dout[L.O_FILM_TEMPERATURE] = oil_change + film * (at_power + w[M.LOGS + M.FILM])
     dout[L.O_ENERGY], dout[L.O_STORED_HEAT] = 0.0, 0.0
-    dout[L.O_ADVISED] = 0.0
+    dout[L.O_OIL_ENERGY], dout[L.O_ADVISED] = 0.0, 0.0
     dout[L.O_STICK_MARGIN] = 0.0
     friction, friction_slope = dry_friction(par, pt.load)
     if out[L.O_STICK_MARGIN] < MOST_MARGIN and friction > 0.0:

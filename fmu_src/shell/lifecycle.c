@@ -1,6 +1,5 @@
 /* The lifecycle of an instance: from its start values over initialization to steps. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "kernel.h"
@@ -30,7 +29,7 @@ void name_log(Log *log, const char *name, int on, int fmi) {
 
 /* The only memory an instance takes; NULL, and the reason in the log, if it cannot be. */
 Instance *instantiate(const Log *log, const char *guid, const char *resources) {
-    Instance *m = calloc(1, sizeof *m);
+    Instance *m = tw_memory(sizeof *m);
     if (!m) {
         Text text = {0};
         add(&text, "%lu bytes of memory are wanted and not to be had", (unsigned long)sizeof *m);
@@ -39,7 +38,7 @@ Instance *instantiate(const Log *log, const char *guid, const char *resources) {
     }
     m->log = *log;
     if (load_part(m, resources, guid)) {
-        free(m);
+        tw_free(m);
         return NULL;
     }
     if (!m->log.name[0]) memcpy(m->log.name, m->part.name, sizeof m->part.name);
@@ -47,7 +46,7 @@ Instance *instantiate(const Log *log, const char *guid, const char *resources) {
     return m;
 }
 
-void free_instance(void *instance) { free(instance); }
+void free_instance(void *instance) { tw_free(instance); }
 
 /* The way out of a mode towards the modes a function is allowed in: onward, else a new start. */
 static const char *way(uint32_t mode, uint32_t allowed) {

@@ -2,6 +2,7 @@
 
 import os
 import subprocess
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -36,8 +37,19 @@ REAL_TYPES: dict[str, dict[str, Any]] = table_beside(__file__, "real_types.toml"
 DECLARED = {(a["unit"], "relativeQuantity" in a): name for name, a in REAL_TYPES.items()}
 
 
-def description(shown: Interface, *, fmi: int, guid: str, derivatives: bool = False) -> bytes:
-    """Return the model description; ``derivatives``: the binary has directional ones."""
+def description(
+    shown: Interface,
+    *,
+    fmi: int,
+    guid: str,
+    derivatives: bool = False,
+    compiled: Sequence[str] = (),
+) -> bytes:
+    """Return the model description.
+
+    ``derivatives``: the binary has directional ones; ``compiled``: files in the folder sources that
+    are compiled, which FMI 2 lists here.
+    """
     found = shown.variables
     return filled(
         HERE / "modelDescription.xml.jinja",
@@ -45,6 +57,7 @@ def description(shown: Interface, *, fmi: int, guid: str, derivatives: bool = Fa
         fmi=fmi,
         guid=guid,
         derivatives=str(derivatives).lower(),
+        compiled=compiled,
         head=head(shown),
         units=units(found),
         types=types(found),

@@ -65,9 +65,8 @@ def ship(kernels: Sequence[str]) -> None:
         index["kernels"][kernel] = about
         list_all(index)
         keep |= {about["objects"]["file"], *(x["file"] for x in about["libraries"].values())}
-        keep |= {about["portable"]["file"]} if "portable" in about else set()
     for path in shipped.FOLDER.iterdir():
-        if path.name not in keep:
+        if path.is_file() and path.name not in keep:
             path.unlink()
     shipped.read_again()
 

@@ -28,6 +28,7 @@ from thrustwasher.native.link import find_linker
 from thrustwasher.native.portable import MISSING, identity, maker, portable
 from thrustwasher.native.targets import PLATFORMS
 
+IN_C = "c"  # folder beside the other archives
 FROM_ZIG = {
     "zig.txt": "LICENSE",
     "mingw-w64.txt": "lib/libc/mingw/COPYING",
@@ -73,11 +74,19 @@ def ship_c() -> None:
             raise EnvironmentProblem(MISSING)
         data = kernels.packed(in_c(spec))
         about = index["kernels"][spec.kernel]
-        name = about["objects"]["file"].replace(".tar.xz", "-c.tar.xz")
-        made_by = {"made_of": made_of, "made_by": maker()}
-        about["portable"] = {**kernels.put(shipped.FOLDER / name, data), **made_by}
+        name = f"{IN_C}/{about['objects']['file']}"
+        about["portable"] = {
+            **kernels.put(shipped.FOLDER / name, data),
+            "file": name,
+            "made_of": made_of,
+            "made_by": maker(),
+        }
         kernels.list_all(index)
         to_stderr(f"{spec.name} in C: {len(data)} bytes")
+    keep = {about["portable"]["file"] for about in index["kernels"].values() if "portable" in about}
+    for path in (shipped.FOLDER / IN_C).iterdir():
+        if f"{IN_C}/{path.name}" not in keep:
+            path.unlink()
     shipped.read_again()
 
 

@@ -66,7 +66,7 @@ def ship(kernels: Sequence[str]) -> None:
         list_all(index)
         keep |= {about["objects"]["file"], *(x["file"] for x in about["libraries"].values())}
     for path in shipped.FOLDER.iterdir():
-        if path.name not in keep:
+        if path.is_file() and path.name not in keep:
             path.unlink()
     shipped.read_again()
 
@@ -103,9 +103,14 @@ def pack(
     """Return an archive of objects, and of libraries for FMUs by platform."""
     found = {f"{platform}-{level}.o": data for (platform, level), data in objects.items()}
     found |= {f"{shipped.FMU}{platform}": data for platform, data in (libraries or {}).items()}
+    return packed(found)
+
+
+def packed(files: Mapping[str, bytes]) -> bytes:
+    """Return an archive of files, the same whenever it is made."""
     buffer = io.BytesIO()
     with tarfile.open(fileobj=buffer, mode="w") as archive:
-        for name, data in sorted(found.items()):
+        for name, data in sorted(files.items()):
             about = tarfile.TarInfo(name)
             about.size = len(data)
             archive.addfile(about, io.BytesIO(data))

@@ -1,5 +1,7 @@
 /* From plain C to the compiled kernels: choose the code for this CPU, keep the host's
    floating-point settings out, unwrap the compiler's calling convention. */
+#include <stdlib.h>
+
 #include "cpu.h"
 #include "kernel.h"
 #include "model.h"
@@ -71,6 +73,16 @@ static void leave(Settings host)
     const int32_t raised = PICK(entry)(&result, &exception, __VA_ARGS__); \
     leave(host);                                                  \
     return raised ? FAULT - raised : result
+
+void *tw_memory(size_t size)
+{
+    return calloc(1, size);
+}
+
+void tw_free(void *memory)
+{
+    free(memory);
+}
 
 int tw_derive(double *par)
 {

@@ -2,8 +2,12 @@
 #ifndef THRUSTWASHER_KERNEL_H
 #define THRUSTWASHER_KERNEL_H
 
+#include <stddef.h>
 #include <stdint.h>
 
+/* Memory for an instance, all 0, NULL if there is none. `par` below is that of an instance in it. */
+void *tw_memory(size_t size);
+void tw_free(void *memory);
 int tw_derive(double *par);
 int tw_rule(const double *par); /* 0, or the place (from 1) of the first broken rule in RULES */
 /* Behind the inputs lie NRATES rates; models without them (0) do not look there. */

@@ -1,6 +1,5 @@
 /* The lifecycle of an instance: from its start values over initialization to steps. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "kernel.h"
@@ -32,7 +31,7 @@ void name_log(Log *log, const char *name, int on, int fmi) {
 /* The only memory an instance takes; NULL, and the reason in the log, if it cannot be. */
 Instance *instantiate(const Log *log, const char *guid, const char *resources, int ends_early) {
     const size_t size = sizeof(Instance) + (ends_early ? sizeof(Solution) : 0);
-    Instance *m = calloc(1, size);
+    Instance *m = tw_memory(size);
     if (!m) {
         Text text = {0};
         add(&text, "%lu bytes of memory are wanted and not to be had", (unsigned long)size);
@@ -42,7 +41,7 @@ Instance *instantiate(const Log *log, const char *guid, const char *resources, i
     m->log = *log;
     if (ends_early) m->before = (Solution *)(m + 1);
     if (load_part(m, resources, guid)) {
-        free(m);
+        tw_free(m);
         return NULL;
     }
     if (!m->log.name[0]) memcpy(m->log.name, m->part.name, sizeof m->part.name);
@@ -50,7 +49,7 @@ Instance *instantiate(const Log *log, const char *guid, const char *resources, i
     return m;
 }
 
-void free_instance(void *instance) { free(instance); }
+void free_instance(void *instance) { tw_free(instance); }
 
 /* The way out of a mode towards the modes a function is allowed in: onward, else a new start. */
 static const char *way(uint32_t mode, uint32_t allowed) {

@@ -32,11 +32,20 @@ typedef struct Living {
 static Living *lists[N_LISTS];
 static char locked; /* only while a list is walked */
 
+/* Another compiler than those of the libraries: for hosts with one thread. */
 static void lock(void) {
+#ifdef __GNUC__
     while (__atomic_test_and_set(&locked, __ATOMIC_ACQUIRE)) continue;
+#endif
 }
 
-static void unlock(void) { __atomic_clear(&locked, __ATOMIC_RELEASE); }
+static void unlock(void) {
+#ifdef __GNUC__
+    __atomic_clear(&locked, __ATOMIC_RELEASE);
+#else
+    locked = 0;
+#endif
+}
 
 /* The place of the pointer to a state in its list; the last one, NULL, if there is no such state. */
 static Living **place_of(const void *state) {

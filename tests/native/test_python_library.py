@@ -42,11 +42,12 @@ def test_all_that_is_compiled_is_in_the_digest(kernel):
 
 
 def test_what_is_shipped_is_small_and_all_listed():
-    found = sorted(path for path in shipped.FOLDER.iterdir())
+    found = sorted(path for path in shipped.FOLDER.rglob("*") if path.is_file())
     listed = {shipped.INDEX}
     for about in shipped.index()["kernels"].values():
         listed |= {about["objects"]["file"], *(x["file"] for x in about["libraries"].values())}
-    assert {path.name for path in found} == listed
+        listed |= {about["portable"]["file"]} if "portable" in about else set()
+    assert {path.relative_to(shipped.FOLDER).as_posix() for path in found} == listed
     assert sum(path.stat().st_size for path in found) < LARGEST
 
 

@@ -23,6 +23,8 @@ OPTIONS = {
     "--tol X": "relative error of the torque allowed in the map of a part file's washer, which is "
     "built and kept if there is none; default 0.01",
     "--terminals": "put the plugs into FMI 2.0 FMUs too, where some tools call them an error",
+    "--sources": "native only: put in C sources too, the same FMU for any C99 compiler, as "
+    "real-time hosts want it",
     "--json": "one JSON object with the paths",
 }
 
@@ -84,6 +86,7 @@ def run(arguments: argparse.Namespace) -> int:
         maps=not arguments.no_maps,
         terminals=arguments.terminals,
         oil=arguments.oil,
+        c_sources=arguments.sources,
     )
     specs = [spec for spec in _specs(arguments.models, parts) if oil and oil.parameters_for(spec)]
     if oil:

@@ -21,6 +21,7 @@ from .documentation.reference_results import reference_files
 from .model_kernels import content_digest, has_derivatives, package_version
 from .package.licences import licences
 from .package.model_sources import Order, identifier, model_folder, source_folder
+from .shell.c_sources import FOLDER, compiled, source_files
 from .shell.platform_libraries import chosen, library_identity, native_contents
 
 TARGETS = ("native", "python")
@@ -40,6 +41,7 @@ def build(
     maps: bool = True,
     terminals: bool = False,
     oil: str | Mapping[str, Any] | None = None,
+    c_sources: bool = False,
 ) -> list[Path]:
     """Build FMUs and return their paths, ``out/<target>-fmi<N>/<Model>.fmu``.
 
@@ -62,6 +64,7 @@ def build(
         and some tools for FMI 2.0 call the file an error
     oil : native only, the oil of all models that know one, as for ``thrustwasher.oil``; an FMU's
         start values follow it
+    c_sources : native only, put in the folder sources too: the same FMU as C99 for any compiler
 
     Raises
     ------
@@ -70,6 +73,8 @@ def build(
         install
     """
     _check(target, fmi, platforms, maps)
+    if target == "python" and c_sources:
+        raise ParameterError("C sources lie in native FMUs only; use --target native")
     specs = asked(models, oil)
     say = note or (lambda _: None)
     if target == "python" and any(spec.kind for spec in specs):
@@ -77,7 +82,7 @@ def build(
     places: Sequence[str] = ()
     if target == "native":
         places = [this_platform().name] if local else chosen(platforms, say, specs)
-    order, paths = Order(target, fmi, places, say, local), []
+    order, paths = Order(target, fmi, places, say, local, c_sources), []
     for spec in specs:
         shown, folder = interface(spec), model_folder(spec, sources or source_folder())
         files = contents(shown, folder, order, reference=not local)
@@ -172,8 +177,15 @@ def contents(shown: Interface, folder: Path, order: Order, *, reference: bool) -
     else:
         own = _python_contents(shown, folder, guid)
     order.note(f"{spec.name}: {'reference results and documents' if reference else 'documents'}")
-    derivatives = native and has_derivatives(spec)
-    described = description(shown, fmi=order.fmi, guid=guid, derivatives=derivatives, moving=native)
+    in_c = source_files(shown, order.fmi, order.note) if order.c_sources else {}
+    described = description(
+        shown,
+        fmi=order.fmi,
+        guid=guid,
+        derivatives=native and has_derivatives(spec),
+        moving=native,
+        compiled=compiled(in_c),
+    )
     try:
         results = reference_files(spec) if reference else {}
         text = page(shown, folder, order, guid, runs=reference)
@@ -184,9 +196,10 @@ def contents(shown: Interface, folder: Path, order: Order, *, reference: bool) -
         DESCRIPTION: described,
         "documentation/index.html": text.encode(),
         **_icons(shown, folder, order.fmi),
-        **licences(order.target, order.platforms),
+        **licences(order.target, order.platforms, c_sources=order.c_sources),
         **results,
         **own,
+        **{f"{FOLDER}/{name}": data for name, data in in_c.items()},
     }
 
 

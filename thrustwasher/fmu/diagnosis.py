@@ -15,8 +15,10 @@ from ..model.prepare import tables_of
 from ..model.registry import all_specs, kernel_of
 from ..native.files import code_folder
 from ..native.link import find_linker
+from ..native.portable import MISSING, maker
 from .model_kernels import is_compiled, package_version
 from .package.model_sources import source_folder
+from .shell import c_sources
 from .shell.platform_libraries import is_shipped
 
 
@@ -43,6 +45,7 @@ def diagnose() -> list[Check]:
         ("FMU sources", lambda: str(source_folder())),
         ("Python FMU", _binary),
         ("native FMUs, compiler", _compiler),
+        ("C sources (--sources)", _c_sources),
         ("FMU checker (optional)", _importable("fmu_manipulation_toolbox")),
     ]
     return [_look(name, look) for name, look in looks]
@@ -83,6 +86,15 @@ def _kernels() -> str:
         return "all are those of the sources; nothing has to be compiled"
     folder = code_folder()  # says it if it is a temporary one
     return f"the first run compiles {missing}, seconds to a minute, and keeps them in {folder}"
+
+
+def _c_sources() -> str:
+    missing = ", ".join(s.name for s in all_specs() if not c_sources.is_shipped(s.kernel))
+    if not missing:
+        return "are shipped for all models"
+    if not maker():
+        raise ParameterError(f"not shipped, or stale: {missing}. {MISSING}")
+    return f"shipped; of {missing} wasm2c makes them at each build"
 
 
 def _kept() -> str:

@@ -105,6 +105,17 @@ def fmu_libraries(kernel: str, digest: str) -> dict[str, bytes]:
     return {n.removeprefix(FMU): data for n, data in found.items() if n.startswith(FMU)}
 
 
+def portable(kernel: str, made_of: str) -> dict[str, bytes]:
+    """Return file name -> C of a kernel module; empty if none can be used that is ``made_of``."""
+    path = _listed(kernel, "portable")
+    if path is None or (record(kernel) or {})["portable"].get("made_of") != made_of:
+        return {}
+    try:
+        return unpack(path.read_bytes())
+    except (OSError, tarfile.TarError):  # also where this Python was built without lzma
+        return {}
+
+
 def unpack(data: bytes) -> dict[str, bytes]:
     """Return the files in an archive."""
     with tarfile.open(fileobj=io.BytesIO(data)) as archive:

@@ -1,7 +1,18 @@
 /* kernel.py once more, so that the shell can be tested without the compiled kernels. */
 #include <math.h>
+#include <stdlib.h>
 
 #include "kernel.h"
+
+void *tw_memory(size_t size)
+{
+    return calloc(1, size);
+}
+
+void tw_free(void *memory)
+{
+    free(memory);
+}
 
 int tw_rule(const double *par)
 {

@@ -2,6 +2,7 @@
 
 import os
 import subprocess
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -37,11 +38,18 @@ DECLARED = {(a["unit"], "relativeQuantity" in a): name for name, a in REAL_TYPES
 
 
 def description(
-    shown: Interface, *, fmi: int, guid: str, derivatives: bool = False, moving: bool = False
+    shown: Interface,
+    *,
+    fmi: int,
+    guid: str,
+    derivatives: bool = False,
+    moving: bool = False,
+    compiled: Sequence[str] = (),
 ) -> bytes:
-    """Return the model description; ``derivatives``: the binary has directional ones.
+    """Return the model description.
 
-    ``moving``: it lets inputs move within a step.
+    ``derivatives``: the binary has directional ones; ``moving``: it lets inputs move within a step;
+    ``compiled``: files in the folder sources that are compiled, which FMI 2 lists here.
     """
     found = shown.variables
 
@@ -56,6 +64,7 @@ def description(
         guid=guid,
         derivatives=str(derivatives).lower(),
         moving=str(moving and bool(shown.inputs)).lower(),
+        compiled=compiled,
         head=head(shown),
         units=units(found),
         types=types(found),

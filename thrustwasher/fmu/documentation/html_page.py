@@ -48,7 +48,7 @@ def page(shown: Interface, folder: Path, order: Order, guid: str, *, runs: bool 
         accuracy_head=("fidelity", "within", "points", *QUANTITIES, "measured with"),
         accuracy=accuracy(spec),
         equations=equations(folder),
-        licences=listed_licences(order.target, order.platforms),
+        licences=listed_licences(order.target, order.platforms, c_sources=order.c_sources),
     ).decode()
 
 

@@ -20,19 +20,24 @@ None of them asks for anything but that these notices are kept. This list is no 
 PARTS = table_beside(__file__, "notices.toml")
 
 
-def licences(target: str, platforms: Sequence[str] = ()) -> dict[str, bytes]:
+def licences(
+    target: str, platforms: Sequence[str] = (), *, c_sources: bool = False
+) -> dict[str, bytes]:
     """Return the notices of everything in an FMU, by path; none is empty."""
-    rows = listed_licences(target, platforms)
+    rows = listed_licences(target, platforms, c_sources=c_sources)
     files = {row[0]: _text(row[0]) for row in rows}
     lines = [f"{name}: {part}, {licence} ({where})" for name, part, licence, where in rows]
     files["overview.txt"] = SUMMARY.format(parts="\n".join([*lines, ""])).encode()
     return {f"{PLACE}/{name}": content for name, content in files.items()}
 
 
-def listed_licences(target: str, platforms: Sequence[str] = ()) -> list[tuple[str, str, str, str]]:
+def listed_licences(
+    target: str, platforms: Sequence[str] = (), *, c_sources: bool = False
+) -> list[tuple[str, str, str, str]]:
     """Return (file, part, licence, where) of each part of an FMU."""
     mingw = target == "native" and "win64" in platforms
     parts = PARTS[target] | (PARTS["mingw"] if mingw else {})
+    parts |= PARTS["sources"] if c_sources else {}
     return [(name, part, licence, where) for part, (name, licence, where) in parts.items()]
 
 
@@ -53,7 +58,7 @@ def _text(name: str) -> bytes:
         return ("\n".join(lines) + "\n").encode()
     if name == "llvm.txt":
         return _distributed("llvmlite", "LICENSE.thirdparty")
-    if name in ("zig.txt", "mingw-w64.txt"):
+    if name in ("zig.txt", "mingw-w64.txt", "musl.txt"):
         return _read(NOTICES / name)
     return _distributed(name.removesuffix(".txt"), "LICENSE")
 

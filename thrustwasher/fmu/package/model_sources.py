@@ -16,7 +16,7 @@ from ..model_kernels import content_digest, package_version
 
 PACKAGE = Path(str(files(__name__.partition(".")[0])))
 OWN = (PACKAGE / "fmu", PACKAGE / "native")  # what packs and links
-SHARED = ("shell", "documentation")  # folders beside those of the models
+SHARED = ("shell", "portable", "documentation")  # folders beside those of the models
 TEXTS = (".py", ".c", ".h", ".md", ".html", ".jinja", ".toml", ".txt", ".svg", ".png")
 
 
@@ -42,13 +42,17 @@ def model_folder(spec: ModelSpec, sources: Path) -> Path:
 
 
 class Order(NamedTuple):
-    """What kind of FMU is built: ``local``: compiled for the processor of this machine."""
+    """What kind of FMU is built.
+
+    ``local``: compiled for the processor of this machine; ``c_sources``: with the folder sources.
+    """
 
     target: str
     fmi: int
     platforms: Sequence[str]
     note: Note
     local: bool = False
+    c_sources: bool = False
 
 
 def identifier(
@@ -65,7 +69,7 @@ def identifier(
     content = shown.variables, shown.enumerations, spec.terminals, own
     hashed = hashlib.sha256(repr(content).encode())
     hashed.update(f"{content_digest(spec)} {package_version()} {tools}".encode())
-    hashed.update(f"{order.target} {order.fmi}".encode())
+    hashed.update(f"{order.target} {order.fmi}{' C' if order.c_sources else ''}".encode())
     beside = shared or source_folder()
     for root in (*OWN, folder, *(beside / name for name in SHARED)):
         for file in sorted(f for f in root.rglob("*") if f.suffix in TEXTS and f.is_file()):

@@ -46,8 +46,13 @@ def run(arguments: argparse.Namespace) -> int:
     """Measure rung after rung and print a line for each."""
     specs = [find_model(name).spec for name in arguments.models or [m.key for m in all_models()]]
     steps = _whole(arguments.steps, "steps")
-    how = {"steps": steps, "seconds": 60.0 * parse_quantity(arguments.minutes, "1", "minutes")}
+    how: dict[str, Any] = {
+        "steps": steps,
+        "seconds": 60.0 * parse_quantity(arguments.minutes, "1", "minutes"),
+    }
     how["seed"] = _whole(arguments.seed, "seed")
+    if not how["seconds"] > 0.0:
+        raise ParameterError(f"--minutes {arguments.minutes}, allowed: more than 0")
     if arguments.settings and len(specs) != 1:
         raise ParameterError("--set: for one model, e.g. thrustwasher worst clutch --set ...")
     chosen = [(spec, rung) for spec in specs for rung in _rungs(spec, arguments.fidelity)]
@@ -99,12 +104,13 @@ def _show(record: dict[str, Any]) -> None:
     def time(name: str) -> str:
         return format_quantity(record[name], "s", digits=3)
 
-    more = f"{record['failed']} failed" if record["failed"] else ""
-    print(f"{record['model']} {record['fidelity']}: {record['steps']} steps {more}".rstrip())
+    more = f", {record['failed']} failed" if record["failed"] else ""
+    print(f"{record['model']} {record['fidelity']}: {record['steps']} steps{more}")
     rows = [
         ("mean", time("mean"), ""),
         ("99.999 %", time("rare"), ""),
-        ("longest", time("longest"), f"{record['ratio']:.1f} x mean; as it came {time('raw_longest')}"),
+        ("longest", time("longest"), f"{record['ratio']:.1f} x mean"),
+        ("as it came", time("raw_longest"), "with all that came between"),
         ("bound", record["bound"], ""),
     ]
     rows += [(text, str(most), "at most in a step") for text, most in record["work"].items()]
@@ -114,5 +120,6 @@ def _show(record: dict[str, Any]) -> None:
         rows.append(("memory", size, table))
     point = ", ".join(f"{name} = {value:g}" for name, value in record["point"].items())
     rows.append(("longest at", f"{point}, step {record['step']:g} s", ""))
+    width = max(len(name) for name, _, _ in rows)
     for name, value, text in rows:
-        print(f"  {name:<10}  {value}{'  ' + text if text else ''}")
+        print(f"  {name:<{width}}  {value}{'  ' + text if text else ''}")

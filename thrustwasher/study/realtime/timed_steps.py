@@ -6,7 +6,6 @@ took before may be another process or an interrupt.
 """
 
 import math
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +28,7 @@ TOTAL, LONGEST, OWN_TOTAL, OWN_LONGEST, OWN_PLACE = range(5)
 N_TIMES = 5
 BINS_PER_OCTAVE, OCTAVES = 32, 40  # of the histograms, from 1 ns on
 N_BINS = BINS_PER_OCTAVE * OCTAVES
-BLOCK = 50  # steps from one saved state to the next
+BLOCK = 20  # steps from one saved state to the next
 REPEATS = 3
 WARNING = 1
 

@@ -45,7 +45,9 @@ class Walk:
     def __init__(self, spec: ModelSpec, seed: int) -> None:
         self._random = np.random.default_rng(seed)
         known = ranges().get(spec.key, {})
-        self._laws = [known.get(s.name, (s.start, s.start, "stay")) for s in spec.inputs]
+        self._laws = [
+            known.get(s.name, (s.start or 0.0, s.start or 0.0, "stay")) for s in spec.inputs
+        ]
         self._place = self._random.random(len(self._laws))
         self._size = 1e-3
 

@@ -2,6 +2,7 @@
 
 import math
 import os
+import time
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, fields
@@ -20,14 +21,16 @@ from ...numerics.jit import way
 from ...shift.cosim.compiled_layout import wall_clock
 from . import timed_steps as c
 from .host import Host
+from .loop_bounds import work_places
 from .walk import Piece, Walk
 
 RUNS = 3
-WARM = 2000  # steps before any counts
+WARM = 200  # steps before any counts
 PIECE = 2000  # steps between two looks from Python
 COUNTED = 5000  # steps whose work is counted
 RARE = 1e-5  # share of steps beyond the rare time
-SLOW = 1e-3  # share of steps that are done again
+# Share of steps that are done again; more until there were enough to tell.
+SLOW, BUSY, ENOUGH = 1e-3, 1e-2, 10_000
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -188,17 +191,17 @@ def _run(
     progress: Callable[[int, int], None],
 ) -> None:
     warm = _Tally()
-    walk.take(min(WARM, steps), math.inf, warm)
-    spent, n = float(warm.times[c.TOTAL]), int(warm.counts[c.STEPS])
-    each = spent / max(n, 1)
-    size = max(c.BLOCK, min(PIECE, steps, int(1.0 / max(each, 1e-9))))
-    slow, done, left = beyond(warm.raw, SLOW), 0, seconds
-    while done < steps and left > 0.0:
-        n, before = min(size, steps - done), float(tally.times[c.TOTAL])
+    walk.take(WARM, math.inf, warm)
+    each = float(warm.times[c.TOTAL]) / max(int(warm.counts[c.STEPS]), 1)
+    size = max(c.BLOCK, min(PIECE, int(1.0 / max(each, 1e-9))))
+    # by the times of repeats: a busy machine would make the limit of what is repeated too high
+    slow, done, until = beyond(warm.own, BUSY), 0, time.monotonic() + seconds
+    while done < steps and time.monotonic() < until:
+        n = min(size, steps - done)
         walk.take(n, slow, tally)
-        left -= float(tally.times[c.TOTAL]) - before
         done += n
-        slow = beyond(tally.raw, SLOW)
+        if tally.own.sum() >= ENOUGH:
+            slow = beyond(tally.own, SLOW)
         progress(done, steps)
 
 
@@ -225,20 +228,23 @@ def work_of(
     spec: ModelSpec, parameters: Mapping[str, float], seed: int, n: int = COUNTED
 ) -> dict[str, int]:
     """Return what the model's solver counts -> the most in a step of a walk of ``n`` steps."""
-    shown = interface(spec)
-    if not shown.counts:
-        return {}
-    piece, most = Walk(spec, seed).piece(n), dict.fromkeys((text for text, _ in shown.counts), 0)
+    shown, layout = interface(spec), getattr(kernel_of(spec), "L", None)
+    own = {text: getattr(layout, name) for text, name in work_places(spec.key).items()}
+    places = {**dict(shown.counts), **own}
+    piece, most = Walk(spec, seed).piece(n), dict.fromkeys(places, 0)
     core, t = None, 0.0
     for row, h, again in zip(piece.inputs, piece.sizes, piece.restarts, strict=True):
+        if not places:
+            break
         if again or core is None:
             core, t = _begun(shown, parameters, row), 0.0
+        if core is None:
             continue
         core.set([v.reference for v in shown.inputs], row.tolist(), "Real")
         with suppress(SolveError):
             core.advance(t, float(h))
             t += float(h)
-        for text, place in shown.counts:
+        for text, place in places.items():
             most[text] = max(most[text], int(core.work[place]))
     return most
 

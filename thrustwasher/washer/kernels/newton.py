@@ -211,8 +211,8 @@ def _limit(ro: float, sigma: float, pt: Point, q: Array, step: Array) -> float:
 def evaluate(m: WasherModel, pt: Point, q: Array, f: Fields, marked: bool) -> float:
     """Evaluate everything at (q, f.temp), the film settled; return the heat made [W].
 
-    The residual of the film and of its liquid stays in ``f.small[FILM_ERROR]``. ``marked``: the last film in ``f``
-    was of this washer and point.
+    The residual of the film and of its liquid stays in ``f.small[FILM_ERROR]``. ``marked``: the
+    last film in ``f`` was of this washer and point.
     """
     evaluate_gaps(m, pt, q, f)
     evaluate_viscosity(m, pt, f)

@@ -10,7 +10,7 @@ from thrustwasher.cli import main
 from thrustwasher.model.registry import all_specs, find_spec
 from thrustwasher.study.realtime import timed_steps as c
 from thrustwasher.study.realtime.walk import LONGEST, SHORTEST, Walk, ranges
-from thrustwasher.study.realtime.worst import beyond
+from thrustwasher.study.realtime.longest_step import beyond
 
 
 def histogram(*times):

@@ -62,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
     settings = _options.read_settings(arguments.settings, specs[0]) if arguments.settings else {}
     targets = _output.targets(arguments)
     from ..fmu.fmu_cache import fmu_paths
-    from ..study.realtime.worst import measure
+    from ..study.realtime.longest_step import measure
 
     paths, found = fmu_paths([spec.name for spec in specs], "native"), []
     for spec, rung in chosen:

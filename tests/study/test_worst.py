@@ -9,8 +9,8 @@ import pytest
 from thrustwasher.cli import main
 from thrustwasher.model.registry import all_specs, find_spec
 from thrustwasher.study.realtime import timed_steps as c
-from thrustwasher.study.realtime.walk import LONGEST, SHORTEST, Walk, ranges
 from thrustwasher.study.realtime.longest_step import beyond
+from thrustwasher.study.realtime.walk import LONGEST, SHORTEST, Walk, ranges
 
 
 def histogram(*times):

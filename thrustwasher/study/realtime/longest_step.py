@@ -3,8 +3,8 @@
 import math
 import os
 import time
-from collections.abc import Callable, Mapping
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
@@ -27,7 +27,7 @@ from .walk import Piece, Walk
 RUNS = 3
 WARM = 200  # steps before any counts
 PIECE = 2000  # steps between two looks from Python
-COUNTED = 5000  # steps whose work is counted
+COUNTED, COUNTING = 5000, 10.0  # steps whose work is counted, in so many seconds at most
 RARE = 1e-5  # share of steps beyond the rare time
 # Share of steps that are done again; more until there were enough to tell.
 SLOW, BUSY, ENOUGH = 1e-3, 1e-2, 10_000
@@ -123,11 +123,10 @@ def measure(
         raise EnvironmentProblem("steps are timed by compiled code; unset NUMBA_DISABLE_JIT")
     shown, tally = interface(spec), _Tally()
     given = _numbers(spec, fidelity, settings or {})
-    pinned = _pin()
     clock, tick = wall_clock(np.zeros(2, np.int64))
     if tick == 0.0:
         raise EnvironmentProblem("this system has no clock that compiled code can read")
-    with Host(path, shown, given) as host:
+    with pinned_core() as pinned, Host(path, shown, given) as host:
         memory = host.memory()
         for run in range(RUNS):
             _run(Timing(host, spec, seed + run, clock, tick), tally, steps, seconds, progress)
@@ -213,28 +212,35 @@ def _numbers(spec: ModelSpec, fidelity: str, settings: Mapping[str, Any]) -> dic
     return {name: float(value) for name, value in zip(names, values, strict=True)}
 
 
-def _pin() -> bool:
-    """Hold this process on one core, the last it may use; tell if that could be done."""
+@contextmanager
+def pinned_core() -> Iterator[bool]:
+    """Hold this process on one core, the last it may use; gives whether that could be done."""
     if not hasattr(os, "sched_setaffinity"):
-        return False
+        yield False
+        return
+    before = os.sched_getaffinity(0)
     try:
-        os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
+        os.sched_setaffinity(0, {max(before)})
     except OSError:
-        return False
-    return True
+        yield False
+        return
+    try:
+        yield True
+    finally:
+        os.sched_setaffinity(0, before)
 
 
 def work_of(
     spec: ModelSpec, parameters: Mapping[str, float], seed: int, n: int = COUNTED
 ) -> dict[str, int]:
-    """Return what the model's solver counts -> the most in a step of a walk of ``n`` steps."""
+    """Return what the model's solver counts -> the most in a step, of up to ``n`` steps."""
     shown, layout = interface(spec), getattr(kernel_of(spec), "L", None)
     own = {text: getattr(layout, name) for text, name in work_places(spec.key).items()}
     places = {**dict(shown.counts), **own}
     piece, most = Walk(spec, seed).piece(n), dict.fromkeys(places, 0)
-    core, t = None, 0.0
+    core, t, until = None, 0.0, time.monotonic() + COUNTING
     for row, h, again in zip(piece.inputs, piece.sizes, piece.restarts, strict=True):
-        if not places:
+        if not places or time.monotonic() > until:
             break
         if again or core is None:
             core, t = _begun(shown, parameters, row), 0.0

@@ -113,7 +113,8 @@ def _show(record: dict[str, Any]) -> None:
         ("as it came", time("raw_longest"), "with all that came between"),
         ("bound", record["bound"], ""),
     ]
-    rows += [(text, str(most), "at most in a step") for text, most in record["work"].items()]
+    counted = [(text, most) for text, most in record["work"].items() if most]
+    rows += [(text, str(most), "at most in a step") for text, most in counted]
     if record["memory"] is not None:
         size = f"{(record['memory'] - record['table']) / 1024:.1f} kB"
         table = f"and {record['table'] / 1024:.0f} kB of map" if record["table"] else ""

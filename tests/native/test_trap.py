@@ -18,6 +18,7 @@ from sampling import sizes
 from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.stepper import unpack
 from thrustwasher.model.registry import all_specs
+from thrustwasher.native.binaries import _DYNSYM, _elf_symbols
 from thrustwasher.study.realtime.walk import ranges
 
 HERE = Path(__file__).parent
@@ -54,8 +55,8 @@ def host(tmp_path_factory):
     return made
 
 
-def library(spec):
-    folder = unpack(built_fmu(spec.name, local=True))
+def library(spec, fmi=2):
+    folder = unpack(built_fmu(spec.name, fmi=fmi, local=True))
     return folder, folder / "binaries" / "linux64" / f"{spec.name}.so"
 
 
@@ -127,13 +128,12 @@ def test_the_trap_catches(host, tmp_path):
     assert "trapped 20 free" in done.stdout
 
 
+@pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.fmi3)])
 @pytest.mark.parametrize("spec", all_specs(), ids=lambda spec: spec.key)
-def test_a_library_knows_no_lock_and_no_jump(spec):
+def test_a_library_knows_no_lock_and_no_jump(spec, fmi):
     """What it asks for, by name: nothing of threads, no longjmp, no exit, no other memory."""
-    from thrustwasher.native.binaries import _DYNSYM, _elf_symbols
-
     if sys.platform != "linux":
         needed.missing("the library of this machine is no ELF file")
-    code = library(spec)[1].read_bytes()
-    asked = {name for name, _, home in _elf_symbols(code, _DYNSYM) if name and home == 0}
+    (file,) = (library(spec, fmi)[0] / "binaries").rglob("*.so")
+    asked = {n for n, _, home in _elf_symbols(file.read_bytes(), _DYNSYM) if n and home == 0}
     assert asked - LIBC - LIBM - COMPILER == set()

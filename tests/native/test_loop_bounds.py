@@ -4,11 +4,14 @@ import ast
 import importlib
 import re
 
+import numpy as np
 import pytest
 from kernel_files import ROOT, kernel_files
 
 from thrustwasher.model.registry import all_specs
 from thrustwasher.study.realtime.loop_bounds import bound_of, loops
+from thrustwasher.washer.kernels.map import map_layout as M
+from thrustwasher.washer.kernels.map import map_search
 
 PAGE = ROOT / "docs" / "real-time.md"
 # Lengths that stand in the parameters: set once from them, no larger than the arrays behind.
@@ -132,3 +135,15 @@ def test_the_page_has_every_loop_of_a_solve():
 
 def row_of(loop):
     return f"| `{loop.module}.{loop.function}` | {loop.most} | {loop.then} |"
+
+
+@pytest.mark.parametrize("load", [0.05, 1.0, 20.0])
+def test_a_look_up_that_only_halves_arrives_all_the_same(load, monkeypatch):
+    """What comes out at the bound of a look-up is the place itself."""
+    w = np.zeros(M.N_LOOK_UP)
+    w[M.CURVES : M.CURVES + 4] = 0.0, -3.0, 0.0, 0.9  # the logarithm of the load, falling
+    find = getattr(map_search.find_between, "py_func", map_search.find_between)
+    given = (w, 4, M.THICK, 1.0, load, -1.0, 1.0, 0.0)
+    by_newton = find(*given)
+    monkeypatch.setattr(map_search, "HALVED_FROM", 0)
+    assert find(*given) == pytest.approx(by_newton, abs=1e-11)

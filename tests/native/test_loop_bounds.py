@@ -76,16 +76,16 @@ def test_the_list_has_every_loop_that_a_test_ends_and_no_other():
     assert sorted(listed - there) == [], "is no more in the kernels"
 
 
-def is_number(expression, module):
-    """Tell if a bound is a number, or made of constants of its module."""
-    names = vars(importlib.import_module(f"thrustwasher.{module}"))
-    return eval(expression, {"__builtins__": {}}, dict(names)) >= 1
+def number(loop):
+    """Return a bound that is a number, or made of constants of its module."""
+    names = vars(importlib.import_module(f"thrustwasher.{loop.module}"))
+    return eval(loop.most, {"__builtins__": {}}, dict(names))
 
 
 @pytest.mark.parametrize("loop", loops(), ids=lambda loop: f"{loop.function}-{loop.head[:30]}")
 def test_every_bound_is_a_number_or_a_length_of_arrays(loop):
     lengths = ("unknowns", "size of the array", "number of parameters")
-    assert loop.most.startswith(lengths) or is_number(loop.most, loop.module)
+    assert loop.most.startswith(lengths) or number(loop) >= 1
     assert loop.then and "?" not in loop.then
     if loop.head.startswith("for") and (limit := re.fullmatch(r".*range\((\w+)\)", loop.head)):
         names = vars(importlib.import_module(f"thrustwasher.{loop.module}"))
@@ -125,6 +125,21 @@ def solve(n: int, x: float) -> float:
 def test_every_rung_has_a_bound_in_words():
     for spec in all_specs():
         assert all(bound_of(spec.key, rung) for rung in spec.rungs), spec.key
+
+
+@pytest.mark.parametrize(
+    ("model", "rung", "function"),
+    [
+        ("clutch", "field", "integrate"),
+        ("gearmesh", "field", "heated_flank"),
+        ("transmission", "rigid", "run"),
+        ("washer", "map", "find_between"),
+        ("washer", "field", "_along_the_film"),
+    ],
+)
+def test_the_words_have_the_numbers_of_the_loops(model, rung, function):
+    (loop,) = (x for x in loops() if x.function == function)
+    assert str(number(loop)) in re.findall(r"\d+", bound_of(model, rung))
 
 
 def test_the_page_has_every_loop_of_a_solve():

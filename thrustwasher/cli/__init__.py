@@ -41,6 +41,7 @@ COMMANDS = (
         "sweep",
         "scatter",
         "chart",
+        "worst",
         "build",
         "cards",
         "doctor",

@@ -22,7 +22,7 @@ MODELS = {
 # Built when named, not with all: parts that only a system of FMUs needs.
 HELPERS = {"command": "thrustwasher.command"}
 # Packages with compiled code that belongs to no model.
-OTHERS = ("thrustwasher.shift.cosim",)
+OTHERS = ("thrustwasher.shift.cosim", "thrustwasher.study.realtime")
 
 
 def compiled_packages() -> tuple[str, ...]:

@@ -6,6 +6,7 @@
 ``costs``               What a call of a rung costs: its compiled step
 ``macro_steps``         Error of a shift against its cost
 ``measured_chart``      From answers at random points to the largest error region by region
+``realtime``           How long the longest step of an FMU takes, and what bounds it
 ``reference_cache``     Reference values at random points, kept in a file
 ``reference_clutch``    Reference values of the wet clutch: more rings, another integrator
 ``reference_gearmesh``  Reference values of the gear mesh: adaptive quadrature, search

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from thrustwasher.transmission.bearings import BEARINGS, SHAFT
+from thrustwasher.transmission.kernels import dynamics
+from thrustwasher.transmission.kernels import layout as L
 
 from test_transmission_step import FREE, Gearbox  # isort: skip
 
@@ -132,3 +134,15 @@ def test_a_drum_that_a_bearing_turns_breaks_away_where_the_reaction_says():
         n += 1
         assert n < 60 and box.step(0.01, brake=404.0 - 10.0 * n) == 0
     assert box["release_time"] == pytest.approx((404.0 - reaction) / 1000.0, rel=1e-9)
+
+
+def test_a_tooth_torque_that_is_not_found_is_no_number(monkeypatch):
+    """Then a step has the status NOT_FINITE, and nothing is made of it."""
+    box = Gearbox(**BOTH)
+    box.step(1e-3, brake=900.0)
+    solve = getattr(dynamics.solve_torques, "py_func", dynamics.solve_torques)
+    solve(box.par, box.work, 0.0, L.W_Y)
+    assert np.isfinite(box.work[L.W_INPUT_RATE])
+    monkeypatch.setattr(dynamics, "MAX_SECANTS", 1)
+    solve(box.par, box.work, 0.0, L.W_Y)
+    assert np.isnan(box.work[[L.W_INPUT_RATE, L.W_CARRIER_RATE]]).all()

@@ -45,6 +45,7 @@ ENERGY_SCALE = 100.0  # J
 SLOW = 0.1  # rad/s: rolling resistance passes through zero over it
 MAX_SECANTS = 12
 SAME = 1e-14  # of the tooth torque: rounding
+LOOSE = 1e-9  # of it: what a secant that has not ended may leave
 
 
 @kernel
@@ -154,19 +155,22 @@ def solve_torques(par: Array, work: Array, s: float, y: int) -> None:
 
     ``work[y:]`` are speeds and twist. With thrust bearings the size of the tooth torque is found
     for which the balance gives that size; the map has a slope of 0.4 at most (``broken_rule``) and
-    no corner but that of the clutch's share, so a secant ends in two or three steps.
+    no corner but that of the clutch's share, so a secant ends in two or three steps. Should it not
+    end the accelerations are NaN.
     """
     load = output_torque(par, work, y)
     turn_bearings(par, work, y)
     size = balance(par, work, s, load, 0.0)
     if work[L.W_BEARING_DRIVEN] == 0.0 and work[L.W_BEARING_CARRIER] == 0.0:
         return
-    last, last_gap = 0.0, size
+    last, last_gap, gap = 0.0, size, size
     for _ in range(MAX_SECANTS):
         gap = balance(par, work, s, load, size) - size
         if abs(gap) <= SAME * size or gap == last_gap:
             return
         size, last, last_gap = size - gap * (size - last) / (gap - last_gap), size, gap
+    if not abs(gap) <= LOOSE * abs(size):  # no step is made of it: its status is NOT_FINITE
+        work[L.W_INPUT_RATE] = work[L.W_CARRIER_RATE] = math.nan
 
 
 @kernel

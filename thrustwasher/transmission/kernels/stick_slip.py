@@ -15,6 +15,7 @@ from . import layout as L
 from .dynamics import capacity, clutch_slip, drum_speed, solve_torques, trial_step
 
 MAX_ROOT_STEPS = 100
+HALVED_FROM = 50  # steps: fifty halvings leave 1e-15 of any bracket
 
 
 @kernel
@@ -115,11 +116,11 @@ def locate(par: Array, work: Array, pack: int, s: float, h: float, start: float)
         return 0.0
     low, high, g_low, side = 0.0, 1.0, start, 0
     g_high = guard(par, work, pack, s + h, L.W_NEW)
-    for _ in range(MAX_ROOT_STEPS):
+    for n in range(MAX_ROOT_STEPS):
         if high - low < 1e-15:
             break
         x = (low * g_high - high * g_low) / (g_high - g_low)
-        if not low < x < high:
+        if not low < x < high or n >= HALVED_FROM:
             x = 0.5 * (low + high)
         trial_step(par, work, s, x * h)
         g = guard(par, work, pack, s + x * h, L.W_NEW)

@@ -211,15 +211,15 @@ def _limit(ro: float, sigma: float, pt: Point, q: Array, step: Array) -> float:
 def evaluate(m: WasherModel, pt: Point, q: Array, f: Fields, marked: bool) -> float:
     """Evaluate everything at (q, f.temp), the film settled; return the heat made [W].
 
-    The residual of the film stays in ``f.small[FILM_ERROR]``. ``marked``: the last film in ``f``
-    was of this washer and point.
+    The residual of the film and of its liquid stays in ``f.small[FILM_ERROR]``. ``marked``: the
+    last film in ``f`` was of this washer and point.
     """
     evaluate_gaps(m, pt, q, f)
     evaluate_viscosity(m, pt, f)
     evaluate_film(m, pt, q, f)
     f.small[L.FILM_ERROR] = settle_marked(m, f) if marked else settle_film(m, f)
     if m.film_step > 0:
-        find_flows(m, pt, q, f)
+        f.small[L.FILM_ERROR] = max(f.small[L.FILM_ERROR], find_flows(m, pt, q, f))
     return heat_residual(m, pt, f.temp, f)
 
 

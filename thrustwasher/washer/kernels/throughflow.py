@@ -92,8 +92,11 @@ def _leave(m: WasherModel, f: Fields) -> None:
 
 
 @kernel
-def find_flows(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
-    """Fill the flows through all faces, what leaves the nodes and the share of liquid."""
+def find_flows(m: WasherModel, pt: Point, q: Array, f: Fields) -> float:
+    """Fill the flows through all faces, what leaves the nodes and the share of liquid.
+
+    Returns how far that share is from standing still, 0 if it does.
+    """
     n_r, n_t = m.n_r, m.n_t
     for j in range(n_t):
         jn = j + 1 if j + 1 < n_t else 0
@@ -106,7 +109,7 @@ def find_flows(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
                 o = k + np.uintp(1)
                 f.flow_r[k] = f.cr[k] * (f.fluidity[k] + f.fluidity[o]) * (f.p[k] - f.p[o])
     _leave(m, f)
-    _fill(m, pt, q, f)
+    return float(_fill(m, pt, q, f))
 
 
 @kernel
@@ -121,12 +124,16 @@ def _first(m: WasherModel, q: Array) -> int:
 
 
 @kernel
-def _fill(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
-    """Fill the share of liquid by continuity, sweeping with the motion from the widest gap."""
+def _fill(m: WasherModel, pt: Point, q: Array, f: Fields) -> float:
+    """Fill the share of liquid by continuity, sweeping with the motion from the widest gap.
+
+    Returns 0 when it stands still, else by how much the last sweep has moved it.
+    """
     n_r, n_t = m.n_r, m.n_t
     for node in range(n_r * n_t):
         f.liquid[np.uintp(node)] = 1.0
     first = _first(m, q)
+    moved = 0.0
     for _ in range(SWEEPS):
         moved = 0.0
         for step in range(n_t):
@@ -152,7 +159,8 @@ def _fill(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
                 moved = max(moved, abs(liquid - f.liquid[k]))
                 f.liquid[k] = liquid
         if moved < STILL:
-            return
+            return 0.0
+    return moved
 
 
 @kernel

@@ -21,6 +21,7 @@ SAMPLES = 8  # of a piece in which a fold may lie
 SHALLOW = 3e-4  # relative drop of the load that makes a fold
 EXACT = 1e-12  # relative, of the load
 CLOSE = 1e-6  # Newton's last step
+HALVED_FROM = 20  # steps: forty halvings leave 1e-12 of any bracket
 SLACK = 1e-9  # relative, of the ends of speed, tilt and oil temperature
 LOADS, ALL = 1.0, 2.0  # what of a piece is interpolated
 
@@ -197,7 +198,7 @@ def find_between(
     """
     u = guess
     log_fluid = math.log(load / scale) if piece == THICK else 0.0
-    for _ in range(60):
+    for n_steps in range(60):
         if piece == THICK:
             value, slope = polynomial_slope(w, M.CURVES, n, u)
             off = value - log_fluid
@@ -210,7 +211,7 @@ def find_between(
             light = u
         low, high = min(heavy, light), max(heavy, light)
         following = u - off / slope if slope != 0.0 else low - 1.0
-        if not low < following < high:
+        if not low < following < high or n_steps >= HALVED_FROM:
             if abs(off) < EXACT:
                 return u
             following = 0.5 * (low + high)

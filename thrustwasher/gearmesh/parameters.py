@@ -73,8 +73,8 @@ ASPERITY_BASES = {
 _ALWAYS = "so large that a pair is always in contact"
 
 
-def _numbers(p: Any) -> Any:
-    """Return the parameters as the kernels take them."""
+def as_array(p: Any) -> Any:
+    """Return the parameters as the kernels take them, without the constants behind."""
     import numpy as np
 
     return np.array(as_numbers(p))
@@ -99,10 +99,35 @@ def _module(p: Any) -> float:
     return float(2.0 * centre_distance(p) * math.cos(p.helix_angle) / teeth)
 
 
+def _working_distance(p: Any) -> float:
+    """Return the distance of the axes [m] that the profile shifts make."""
+    from .kernels.working_pair import working_section
+
+    return float(working_section(as_array(p))[1])
+
+
+def _tip(gear: int) -> Callable[[Any], float]:
+    """Return what makes of parameters the tip diameter [m] of the pinion (0) or the gear (1)."""
+
+    def value(p: Any) -> float:
+        from .kernels.working_pair import tips
+
+        return 2.0 * float(tips(as_array(p))[gear])
+
+    return value
+
+
 def _interference(p: Any) -> str:
     from .kernels import constants as g
+    from .kernels.working_pair import is_standard, section
 
-    _, _, angle, _ = g.section(_numbers(p))
+    if not is_standard(as_array(p)):
+        return (
+            f"tip_diameter_gear = {p.tip_diameter_gear!r} m, allowed: a smaller one: the "
+            "gear's tips cut below the pinion's involute (interference) with these shifts and "
+            f"pinion_teeth = {p.pinion_teeth!r}"
+        )
+    _, _, angle, _ = section(as_array(p))
     gear, slant = p.addendum_gear or p.addendum, math.cos(p.helix_angle)
     if p.internal:
         return (
@@ -121,7 +146,7 @@ def _interference(p: Any) -> str:
 def _contact_ratio(p: Any) -> str:
     from .kernels import constants as g
 
-    contact = sum(g.path_of(_numbers(p))[1:])
+    contact = sum(g.path_of(as_array(p))[1:])
     return (
         f"addendum = {p.addendum!r}, allowed: {_ALWAYS}; the contact ratio is {contact:.4g}, "
         "allowed: 1 and more"
@@ -131,7 +156,7 @@ def _contact_ratio(p: Any) -> str:
 def _base_friction(p: Any) -> str:
     from .kernels.constants import effective_roughness
 
-    s = effective_roughness(_numbers(p))
+    s = effective_roughness(as_array(p))
     return (
         f"f0 = {p.f0!r}, allowed: {0.0864 - 1372.0 * s:.4g} .. 1 for effective_roughness = {s:g} "
         "(below, a thick film would have negative friction)"
@@ -142,11 +167,42 @@ def _slide_roll(p: Any) -> str:
     from .kernels import constants as g
 
     side = -1.0 if p.internal else 1.0
-    found = g.slide_roll(p.gear_ratio, g.path_of(_numbers(p))[0], side)
+    found = g.slide_roll(p.gear_ratio, g.path_of(as_array(p))[0], side)
     return (
         "friction_law = 'li-seireg', allowed: for slide/roll ratios above 0.27 only, here "
         f"{found:.4g} at the start of contact (pinion_teeth = {p.pinion_teeth!r}); use "
         "friction_law = 'iso'"
+    )
+
+
+def _distances(p: Any) -> str:
+    from .kernels.working_pair import distance_of_shifts, section
+
+    given = p.working_centre_distance
+    if p.profile_shift_gear_from_distance:
+        _, centre, angle, _ = section(as_array(p))
+        return (
+            f"working_centre_distance = {given!r} m, allowed: above {centre * math.cos(angle):.9g} "
+            "m, the distance at which the base circles touch"
+        )
+    found = float(distance_of_shifts(as_array(p))[0])
+    return (
+        f"working_centre_distance = {given!r} m, allowed: {found:.9g} m, that of "
+        f"profile_shift_pinion = {p.profile_shift_pinion!r} and profile_shift_gear = "
+        f"{p.profile_shift_gear!r}, within 1e-06 m; give profile_shift_gear_from_distance = True "
+        "to have it decide the gear's shift"
+    )
+
+
+def _pointed(p: Any) -> str:
+    from .kernels.working_pair import tip_thickness
+
+    first, second = tip_thickness(as_array(p))
+    gear, thickness = ("pinion", first) if not first > 0.0 else ("gear", second)
+    return (
+        f"tip_diameter_{gear} = {getattr(p, f'tip_diameter_{gear}')!r} m, allowed: less, or less "
+        f"profile shift: the {gear}'s teeth are {thickness:.3g} modules thick at their tips, "
+        "allowed: above 0"
     )
 
 
@@ -188,6 +244,38 @@ RULES = (
         "permissible_film_ratio = {permissible_film_ratio}, allowed: 0 (no limit is given) or "
         "0.01 .. 10"
     ),
+    Rule(
+        "working_centre_distance = {working_centre_distance} m, allowed: 0 (from the shifts) or "
+        "0.001 .. 10 m"
+    ),
+    Rule(
+        "tip_diameter_pinion = {tip_diameter_pinion} m, allowed: 0 (from addendum and shift) or "
+        "0.001 .. 10 m"
+    ),
+    Rule(
+        "tip_diameter_gear = {tip_diameter_gear} m, allowed: 0 (from addendum and shift) or "
+        "0.001 .. 20 m"
+    ),
+    Rule(
+        "profile_shift_gear_from_distance = True, allowed: with working_centre_distance "
+        "({working_centre_distance} m) and without profile_shift_gear ({profile_shift_gear})"
+    ),
+    Rule(
+        "working_centre_distance = {working_centre_distance} m, allowed: that of "
+        "profile_shift_pinion = {profile_shift_pinion} and profile_shift_gear = "
+        "{profile_shift_gear} within 1e-06 m; give profile_shift_gear_from_distance to have it "
+        "decide the gear's shift",
+        _distances,
+    ),
+    Rule(
+        "profile_shift_pinion = {profile_shift_pinion}, allowed: more, or more profile_shift_gear "
+        "({profile_shift_gear}): with so little shift the gears do not mesh without backlash",
+    ),
+    Rule(
+        "profile_shift_pinion = {profile_shift_pinion}, profile_shift_gear = {profile_shift_gear}, "
+        "allowed: less, or smaller tip diameters: a tooth is pointed before its tip",
+        _pointed,
+    ),
 )
 
 
@@ -195,6 +283,7 @@ OF_ATAN = (("film_heat", "atan"),)
 OF_LOSS = (("film_heat", "loss"),)
 BY_FILM = tuple(("friction_law", law) for law in ("li-seireg", "iso", "mixed"))
 SIZE = ("gear_ratio", "pinion_teeth", "centre_distance", "normal_module", "face_width")
+FROM_DISTANCE = (("profile_shift_gear_from_distance", True),)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -420,6 +509,41 @@ class GearMeshParams:
     speed_smoothing: float = quantity(
         0.1, "rad/s", 1e-6, 100.0, "speed over which friction_torque passes through zero"
     )
+    profile_shift_pinion: float = quantity(
+        0.0, "1", -2.0, 2.0, "profile shift of the pinion over the normal module"
+    )
+    profile_shift_gear: float = quantity(
+        0.0, "1", -5.0, 5.0, "profile shift of the gear, of a ring positive outwards"
+    )
+    working_centre_distance: float = quantity(
+        0.0,
+        "m",
+        0.0,
+        10.0,
+        "distance of the axes as they are mounted (0: from the profile shifts)",
+        at_zero=_working_distance,
+    )
+    profile_shift_gear_from_distance: bool = flag(
+        False, "whether working_centre_distance decides the gear's profile shift"
+    )
+    tip_diameter_pinion: float = quantity(
+        0.0, "m", 0.0, 10.0, "tip diameter (0: from addendum and profile shift)", at_zero=_tip(0)
+    )
+    tip_diameter_gear: float = quantity(
+        0.0,
+        "m",
+        0.0,
+        20.0,
+        "tip diameter of the gear (0: from addendum and profile shift)",
+        at_zero=_tip(1),
+    )
+    tip_shortening: float = quantity(
+        0.0,
+        "1",
+        0.0,
+        0.5,
+        "by how much the tips of both gears are cut back, over the normal module",
+    )
 
     def __post_init__(self) -> None:
         check_ranges(self)
@@ -444,10 +568,10 @@ def default_of(name: str) -> Any:
 
 
 def centre_distance(params: GearMeshParams) -> float:
-    """Return the distance of the axes [m] as it counts: by module and teeth, or as given."""
-    from .kernels.constants import section
+    """Return the reference distance [m]: of the axes without profile shift, by module and teeth."""
+    from .kernels.working_pair import section
 
-    return float(section(_numbers(params))[1])
+    return float(section(as_array(params))[1])
 
 
 def limits_assumed(params: GearMeshParams) -> str:

@@ -61,9 +61,16 @@
     P_SWITCH,
     P_ASPERITY_BASE,
     P_SPEED_SMOOTHING,
+    P_PROFILE_SHIFT_PINION,
+    P_PROFILE_SHIFT_GEAR,
+    P_WORKING_CENTRE_DISTANCE,
+    P_SHIFT_FROM_DISTANCE,
+    P_TIP_DIAMETER_PINION,
+    P_TIP_DIAMETER_GEAR,
+    P_TIP_SHORTENING,
     P_FIDELITY,
     N_PARAM,
-) = range(61)
+) = range(68)
 # Constants that derive() adds: geometry per unit of speed and torque, surface, material; then what
 # a mesh heated by its loss needs: section, loads per torque, limits, body, extremes of the path.
 (

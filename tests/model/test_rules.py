@@ -64,6 +64,13 @@ BROKEN = {
         {"addendum_gear": 0.1},
         {"normal_module": 1e-5},
         {"permissible_film_ratio": 1e-3},
+        {"working_centre_distance": 1e-4},
+        {"tip_diameter_pinion": 1e-4},
+        {"tip_diameter_gear": 1e-4},
+        {"profile_shift_gear_from_distance": True},
+        {"working_centre_distance": 0.26},
+        {"profile_shift_pinion": -2.0, "profile_shift_gear": -5.0},
+        {"profile_shift_pinion": 2.0},
     ),
     "transmission": (
         {"ring_teeth": 30, "planet_teeth": 0},

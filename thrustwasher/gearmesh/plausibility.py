@@ -4,6 +4,7 @@ import math
 from typing import Any
 
 from ..units import format_quantity
+from .arrays import as_array
 from .kernels import constants
 from .kernels import layout as k
 from .kernels.mesh_point import LEAST_LINE_LOAD, LEAST_SPEED
@@ -17,7 +18,7 @@ from .kernels.working_pair import (
     tips,
     working_section,
 )
-from .parameters import GearMeshParams, as_array, centre_distance, default_of
+from .parameters import GearMeshParams, centre_distance, default_of
 
 APART = 2.0  # factor between roughness parameters from which they describe two surfaces
 WHOLE = 1e-6  # of a tooth, that a number of teeth may be off

@@ -69,7 +69,7 @@ def involute_angle(value: float) -> float:
 @kernel
 def gear_shift(par: Array) -> float:
     """Return the gear's profile shift [-]: as given, or what the distance of the axes asks for."""
-    if not par[L.P_SHIFT_FROM_DISTANCE] > 0.0:
+    if not par[L.P_PROFILE_SHIFT_GEAR_FROM_DISTANCE] > 0.0:
         return par[L.P_PROFILE_SHIFT_GEAR]
     side, centre, angle, _ = section(par)
     teeth = par[L.P_PINION_TEETH] * (par[L.P_GEAR_RATIO] + side)
@@ -160,8 +160,8 @@ def pair_rule(par: Array) -> int:
         return 13
     if 0.0 < par[L.P_TIP_DIAMETER_GEAR] < LEAST_LENGTH:
         return 14
-    side, centre, angle, _ = section(par)
-    if par[L.P_SHIFT_FROM_DISTANCE] > 0.0:  # else the gear's shift is given
+    _, centre, angle, _ = section(par)
+    if par[L.P_PROFILE_SHIFT_GEAR_FROM_DISTANCE] > 0.0:  # else the gear's shift is given
         if par[L.P_PROFILE_SHIFT_GEAR] != 0.0 or not given > 0.0:
             return 15
         if not centre * math.cos(angle) < given:

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -71,7 +72,7 @@ class Drawn:
         slides = 1.0 / self.base[0] + 1.0 / self.base[1]  # per length, per speed of the flanks
         total = sum(
             quad(lambda s: abs(s) * slides / self.pairs(s), low, high, epsabs=1e-14)[0]
-            for low, high in zip(ends[:-1], ends[1:], strict=True)
+            for low, high in pairwise(ends)
         )
         return total / self.pitch
 
@@ -193,7 +194,7 @@ def test_tips_cut_back_shorten_the_path():
         ({"tip_diameter_pinion": 0.076, "tip_diameter_gear": 0.110}, "contact ratio is"),
         (
             {"pinion_teeth": 10, "gear_ratio": 4.0, "profile_shift_pinion": -0.2},
-            "below the pinion's involute",
+            "cut below the pinion's involute",
         ),
         ({"profile_shift_pinion": -2.0, "profile_shift_gear": -2.0}, "mesh without backlash"),
         ({"tip_diameter_gear": 1e-4}, "tip_diameter_gear = 0.0001 m"),

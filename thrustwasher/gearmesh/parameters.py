@@ -8,8 +8,8 @@ from typing import Any
 from ..model.parameters import check_ranges, check_rules, choice, count, flag, quantity
 from ..model.part_file import preset_params
 from ..model.toml_tables import spec_beside
-from .arrays import as_array
-from .rules import RULES
+from .pair_rules import RULES
+from .parameter_array import as_array
 
 SURFACES = {
     "rough": "rough ground: composite RMS 2.26 um, effective roughness 4.5e-5",

@@ -4,7 +4,6 @@ import math
 from typing import Any
 
 from ..units import format_quantity
-from .arrays import as_array
 from .kernels import constants
 from .kernels import layout as k
 from .kernels.mesh_point import LEAST_LINE_LOAD, LEAST_SPEED
@@ -18,6 +17,7 @@ from .kernels.working_pair import (
     tips,
     working_section,
 )
+from .parameter_array import as_array
 from .parameters import GearMeshParams, centre_distance, default_of
 
 APART = 2.0  # factor between roughness parameters from which they describe two surfaces

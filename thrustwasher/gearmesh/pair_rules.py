@@ -4,7 +4,7 @@ import math
 from typing import Any
 
 from ..model.spec import Rule
-from .arrays import as_array
+from .parameter_array import as_array
 
 ALWAYS = "so large that a pair is always in contact"
 
@@ -15,9 +15,9 @@ def _interference(p: Any) -> str:
 
     if not is_standard(as_array(p)):
         return (
-            f"tip_diameter_gear = {p.tip_diameter_gear!r} m, allowed: a smaller one: the "
-            "gear's tips cut below the pinion's involute (interference) with these shifts and "
-            f"pinion_teeth = {p.pinion_teeth!r}"
+            f"pinion_teeth = {p.pinion_teeth!r}, allowed: more, or a smaller tip of the gear: with "
+            f"profile_shift_pinion = {p.profile_shift_pinion!r} the gear's tips cut below the "
+            "pinion's involute (interference)"
         )
     _, _, angle, _ = section(as_array(p))
     gear, slant = p.addendum_gear or p.addendum, math.cos(p.helix_angle)
@@ -92,9 +92,9 @@ def _pointed(p: Any) -> str:
     first, second = tip_thickness(as_array(p))
     gear, thickness = ("pinion", first) if not first > 0.0 else ("gear", second)
     return (
-        f"tip_diameter_{gear} = {getattr(p, f'tip_diameter_{gear}')!r} m, allowed: less, or less "
-        f"profile shift: the {gear}'s teeth are {thickness:.3g} modules thick at their tips, "
-        "allowed: above 0"
+        f"profile_shift_pinion = {p.profile_shift_pinion!r}, profile_shift_gear = "
+        f"{p.profile_shift_gear!r}, allowed: less, or smaller tip diameters: the {gear}'s teeth are "
+        f"{thickness:.3g} modules thick at their tips, allowed: above 0"
     )
 
 

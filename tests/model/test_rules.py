@@ -71,6 +71,8 @@ BROKEN = {
         {"working_centre_distance": 0.26},
         {"profile_shift_pinion": -2.0, "profile_shift_gear": -5.0},
         {"profile_shift_pinion": 2.0},
+        {"root_limit": 1e6},
+        {"root_limit": 1e8, "tool_tip_radius": 0.6},
     ),
     "transmission": (
         {"ring_teeth": 30, "planet_teeth": 0},

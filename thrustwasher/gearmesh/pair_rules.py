@@ -93,8 +93,8 @@ def _pointed(p: Any) -> str:
     gear, thickness = ("pinion", first) if not first > 0.0 else ("gear", second)
     return (
         f"profile_shift_pinion = {p.profile_shift_pinion!r}, profile_shift_gear = "
-        f"{p.profile_shift_gear!r}, allowed: less, or smaller tip diameters: the {gear}'s teeth are "
-        f"{thickness:.3g} modules thick at their tips, allowed: above 0"
+        f"{p.profile_shift_gear!r}, allowed: less, or smaller tip diameters: the {gear}'s teeth "
+        f"are {thickness:.3g} modules thick at their tips, allowed: above 0"
     )
 
 
@@ -167,5 +167,10 @@ RULES = (
         "profile_shift_pinion = {profile_shift_pinion}, profile_shift_gear = {profile_shift_gear}, "
         "allowed: less, or smaller tip diameters: a tooth is pointed before its tip",
         _pointed,
+    ),
+    Rule("root_limit = {root_limit} Pa, allowed: 0 (no root safety) or 1e+07 .. 3e+09 Pa"),
+    Rule(
+        "tool_tip_radius = {tool_tip_radius}, allowed: less, or less tool_addendum "
+        "({tool_addendum}): such a rack leaves no root to rate; root_limit = 0 does without"
     ),
 )

@@ -374,6 +374,29 @@ class GearMeshParams:
         "by how much the tips of both gears are cut back, over the normal module",
     )
 
+    root_limit: float = quantity(
+        0.0, "Pa", 0.0, 3e9, "nominal stress number of the root, sigma_Flim (0: no root safety)"
+    )
+    tool_addendum: float = quantity(
+        1.25, "1", 0.5, 2.0, "addendum of the rack that cuts the teeth, over the normal module"
+    )
+    tool_tip_radius: float = quantity(
+        0.38, "1", 0.02, 0.6, "radius at the tip of that rack, over the normal module"
+    )
+    reversed_bending: float = quantity(
+        1.0,
+        "1",
+        0.5,
+        1.0,
+        "share of root_limit for the pinion; 0.7 where its teeth bend both ways, as a planet's",
+    )
+    face_load_factor: float = quantity(
+        1.0, "1", 1.0, 5.0, "face load factor of the root stress, beside load_factor"
+    )
+    mesh_load_factor: float = quantity(
+        1.0, "1", 1.0, 2.0, "mesh load factor of the root stress: uneven load of the planets"
+    )
+
     def __post_init__(self) -> None:
         check_ranges(self)
         from .kernels.constants import broken_rule
@@ -426,6 +449,8 @@ def absent_outputs(params: GearMeshParams) -> frozenset[str]:
     found: set[str] = set()
     if params.permissible_film_ratio == 0.0:
         found.add("micropitting_safety")
+    if params.root_limit == 0.0:
+        found.add("root_safety")
     if params.film_heat != "atan" or params.steel == "case-hardened":
         both = (f"{name}_{s}" for name in ENDURANCE_OF_BOTH for s in STEELS_OF_THE_PAPER)
         found.update(ENDURANCE, both)

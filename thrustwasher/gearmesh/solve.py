@@ -25,6 +25,8 @@ SAFETIES = {
     "pitting_safety": "the flanks are expected to pit; lower the torque or choose a wider or "
     "harder gear",
     "scuffing_safety": "the flanks are expected to scuff; lower torque, speed or oil temperature",
+    "root_safety": "the teeth are expected to break at the root; lower the torque or choose a "
+    "wider gear or a larger module",
     "micropitting_safety": "the film is thinner than permissible_film_ratio allows, the flanks are "
     "expected to micropit; take cooler or thicker oil or smoother flanks",
 }
@@ -38,7 +40,8 @@ class GearMeshResult(Plain):
 
     With ``film_heat`` "atan" that is where contact starts, but for the fidelity "fine". None stands
     where there is no such number: ``micropitting_safety`` without a ``permissible_film_ratio``,
-    endurance under thermal stress without the paper's heat and one of its steels.
+    ``root_safety`` without a ``root_limit``, endurance under thermal
+    stress without the paper's heat and one of its steels.
     """
 
     friction_torque: float
@@ -87,6 +90,8 @@ class GearMeshResult(Plain):
     scuffing_margin: float  # [K] scuffing temperature less that of the contact
     film_ratio_gf: float  # [-] least film along the path over the mean Ra; "atan": at its start
     micropitting_safety: float | None
+    root_stress: float  # [Pa] at the root of the teeth, of the gear with more of it
+    root_safety: float | None  # [-] twice root_limit over it, the smaller of both gears
     normal_module: float  # [m] of the teeth, as given or by centre distance and teeth
     centre_distance: float  # [m] of the axes as they work
     pinion_diameter: float  # [m] of the pitch circle

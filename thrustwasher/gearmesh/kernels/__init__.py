@@ -4,6 +4,7 @@
 ``layout``                  places in the arrays
 ``constants``               what the parameters come to before any speed or torque is known
 ``working_pair``            distance of the axes, pressure angle, tips of gears with profile shift
+``tooth_root``              bending stress at the root of the teeth
 ``path_of_contact``         where the pairs touch, what each bears, what its sliding costs and heats
 ``contact``                 line contact: Hertz, oil film, friction, thermal stress, endurance
 ``flank_temperature``       rises at a sliding line contact: friction, shear of the oil film
@@ -29,6 +30,7 @@ CALLED = {
         "thrustwasher.gearmesh.kernels.mesh_point: mesh_point",
         "thrustwasher.gearmesh.kernels.operating_point: solve_point",
         "thrustwasher.gearmesh.kernels.step: sens step",
+        "thrustwasher.gearmesh.kernels.tooth_root: corner_left root_factors root_section",
         "thrustwasher.gearmesh.kernels.working_pair: distance_of_shifts gear_shift is_standard",
         "thrustwasher.gearmesh.kernels.working_pair: section tip_thickness tips working_section",
     ),

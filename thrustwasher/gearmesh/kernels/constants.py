@@ -14,6 +14,7 @@ from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
 from .contact import compliance
 from .path_of_contact import base_pitch, derive_path, even_part, line_of_action
+from .tooth_root import derive_root, root_rule
 from .working_pair import is_standard, pair_rule, section, tips, working_section
 
 SIGMA_ROUGH, SIGMA_FINE = 2.26e-6, 0.566e-6  # m, composite RMS of two ground flanks
@@ -115,6 +116,7 @@ def derive(par: Array) -> int:
     constant = par[L.P_HEAT_PARTITION] == L.CONSTANT_SHARE
     par[L.D_SHARE] = par[L.P_PARTITION_SHARE] if constant else by_speed
     derive_limits(par)
+    derive_root(par)
     derive_body(par)
     par[L.D_PLACES] = par[L.D_HOTTEST] = 0.0
     if par[L.P_FILM_HEAT] == L.LOSS or par[L.P_FIDELITY] == L.FINE:
@@ -282,4 +284,4 @@ def broken_rule(par: Array) -> int:
     beyond = beyond or not is_standard(par)
     if is_paper and (beyond or par[L.P_FRICTION_LAW] == L.MIXED_FRICTION):
         return 7
-    return 0
+    return root_rule(par, approach + recess)

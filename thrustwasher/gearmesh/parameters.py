@@ -5,10 +5,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import Any
 
-from ..model.parameters import as_numbers, check_ranges, check_rules, choice, count, flag, quantity
+from ..model.parameters import check_ranges, check_rules, choice, count, flag, quantity
 from ..model.part_file import preset_params
-from ..model.spec import Rule
 from ..model.toml_tables import spec_beside
+from .pair_rules import RULES
+from .parameter_array import as_array
 
 SURFACES = {
     "rough": "rough ground: composite RMS 2.26 um, effective roughness 4.5e-5",
@@ -70,16 +71,6 @@ ASPERITY_BASES = {
 }
 
 
-_ALWAYS = "so large that a pair is always in contact"
-
-
-def _numbers(p: Any) -> Any:
-    """Return the parameters as the kernels take them."""
-    import numpy as np
-
-    return np.array(as_numbers(p))
-
-
 def _constant(place: str) -> Callable[[Any], float]:
     """Return what makes of parameters a constant of the kernel; ``place``: its name in layout."""
 
@@ -99,102 +90,29 @@ def _module(p: Any) -> float:
     return float(2.0 * centre_distance(p) * math.cos(p.helix_angle) / teeth)
 
 
-def _interference(p: Any) -> str:
-    from .kernels import constants as g
+def _working_distance(p: Any) -> float:
+    """Return the distance of the axes [m] that the profile shifts make."""
+    from .kernels.working_pair import working_section
 
-    _, _, angle, _ = g.section(_numbers(p))
-    gear, slant = p.addendum_gear or p.addendum, math.cos(p.helix_angle)
-    if p.internal:
-        return (
-            f"addendum_gear = {gear!r}, allowed: less for a ring of {p.gear_ratio:g} x "
-            f"{p.pinion_teeth} teeth (its tips cut below the pinion's involute: interference)"
-        )
-    least = math.floor(g.least_teeth(p.gear_ratio, angle, gear * slant)) + 1
-    return (
-        f"pinion_teeth = {p.pinion_teeth!r}, allowed: {least} and more for gear_ratio = "
-        f"{p.gear_ratio:g}, pressure_angle = {math.degrees(p.pressure_angle):g} deg, addendum "
-        f"= {gear:g} (with fewer the gear's tips cut below the pinion's involute: "
-        "interference)"
-    )
+    return float(working_section(as_array(p))[1])
 
 
-def _contact_ratio(p: Any) -> str:
-    from .kernels import constants as g
+def _tip(gear: int) -> Callable[[Any], float]:
+    """Return what makes of parameters the tip diameter [m] of the pinion (0) or the gear (1)."""
 
-    contact = sum(g.path_of(_numbers(p))[1:])
-    return (
-        f"addendum = {p.addendum!r}, allowed: {_ALWAYS}; the contact ratio is {contact:.4g}, "
-        "allowed: 1 and more"
-    )
+    def value(p: Any) -> float:
+        from .kernels.working_pair import tips
 
+        return 2.0 * float(tips(as_array(p))[gear])
 
-def _base_friction(p: Any) -> str:
-    from .kernels.constants import effective_roughness
-
-    s = effective_roughness(_numbers(p))
-    return (
-        f"f0 = {p.f0!r}, allowed: {0.0864 - 1372.0 * s:.4g} .. 1 for effective_roughness = {s:g} "
-        "(below, a thick film would have negative friction)"
-    )
-
-
-def _slide_roll(p: Any) -> str:
-    from .kernels import constants as g
-
-    side = -1.0 if p.internal else 1.0
-    found = g.slide_roll(p.gear_ratio, g.path_of(_numbers(p))[0], side)
-    return (
-        "friction_law = 'li-seireg', allowed: for slide/roll ratios above 0.27 only, here "
-        f"{found:.4g} at the start of contact (pinion_teeth = {p.pinion_teeth!r}); use "
-        "friction_law = 'iso'"
-    )
-
-
-RULES = (
-    Rule(
-        "pinion_teeth = {pinion_teeth}, allowed: more for gear_ratio = {gear_ratio}, "
-        "pressure_angle = {pressure_angle} rad, addendum = {addendum} (with so few the gear's "
-        "tips cut below the pinion's involute: interference)",
-        _interference,
-    ),
-    Rule(f"addendum = {{addendum}}, allowed: {_ALWAYS} (contact ratio 1 and more)", _contact_ratio),
-    Rule(
-        "effective_roughness = {effective_roughness}, allowed: 7.459e-06 .. 6.297e-05 for "
-        "friction_law = 'li-seireg' (0: that of the surface)"
-    ),
-    Rule(
-        "f0 = {f0}, allowed: 0.0864 - 1372 effective_roughness .. 1 "
-        "(below, a thick film would have negative friction)",
-        _base_friction,
-    ),
-    Rule(
-        "friction_law = 'li-seireg', allowed: for slide/roll ratios above 0.27 only, not reached "
-        "at the start of contact (pinion_teeth = {pinion_teeth}); use friction_law = 'iso'",
-        _slide_roll,
-    ),
-    Rule(
-        "addendum = {addendum}, allowed: less (the pinion's tips cut below the gear's involute: "
-        "interference)"
-    ),
-    Rule(
-        "film_heat = 'atan', allowed: without helix_angle ({helix_angle} rad), internal "
-        "({internal}), addendum_gear ({addendum_gear}) and friction_law = 'mixed': the paper has "
-        "a spur pair; use film_heat = 'loss'"
-    ),
-    Rule("contact_limit = {contact_limit} Pa, allowed: 0 (that of the steel) or 1e+08 .. 3e+09 Pa"),
-    Rule("addendum_gear = {addendum_gear}, allowed: 0 (as addendum) or 0.3 .. 1.5"),
-    Rule("normal_module = {normal_module} m, allowed: 0 (from centre_distance) or 1e-4 .. 0.1 m"),
-    Rule(
-        "permissible_film_ratio = {permissible_film_ratio}, allowed: 0 (no limit is given) or "
-        "0.01 .. 10"
-    ),
-)
+    return value
 
 
 OF_ATAN = (("film_heat", "atan"),)
 OF_LOSS = (("film_heat", "loss"),)
 BY_FILM = tuple(("friction_law", law) for law in ("li-seireg", "iso", "mixed"))
 SIZE = ("gear_ratio", "pinion_teeth", "centre_distance", "normal_module", "face_width")
+FROM_DISTANCE = (("profile_shift_gear_from_distance", True),)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -420,6 +338,64 @@ class GearMeshParams:
     speed_smoothing: float = quantity(
         0.1, "rad/s", 1e-6, 100.0, "speed over which friction_torque passes through zero"
     )
+    profile_shift_pinion: float = quantity(
+        0.0, "1", -2.0, 2.0, "profile shift of the pinion over the normal module"
+    )
+    profile_shift_gear: float = quantity(
+        0.0, "1", -5.0, 5.0, "profile shift of the gear, of a ring positive outwards"
+    )
+    working_centre_distance: float = quantity(
+        0.0,
+        "m",
+        0.0,
+        10.0,
+        "distance of the axes as they are mounted (0: from the profile shifts)",
+        at_zero=_working_distance,
+    )
+    profile_shift_gear_from_distance: bool = flag(
+        False, "whether working_centre_distance decides the gear's profile shift"
+    )
+    tip_diameter_pinion: float = quantity(
+        0.0, "m", 0.0, 10.0, "tip diameter (0: from addendum and profile shift)", at_zero=_tip(0)
+    )
+    tip_diameter_gear: float = quantity(
+        0.0,
+        "m",
+        0.0,
+        20.0,
+        "tip diameter of the gear (0: from addendum and profile shift)",
+        at_zero=_tip(1),
+    )
+    tip_shortening: float = quantity(
+        0.0,
+        "1",
+        0.0,
+        0.5,
+        "by how much the tips of both gears are cut back, over the normal module",
+    )
+
+    root_limit: float = quantity(
+        0.0, "Pa", 0.0, 3e9, "nominal stress number of the root, sigma_Flim (0: no root safety)"
+    )
+    tool_addendum: float = quantity(
+        1.25, "1", 0.5, 2.0, "addendum of the rack that cuts the teeth, over the normal module"
+    )
+    tool_tip_radius: float = quantity(
+        0.38, "1", 0.02, 0.6, "radius at the tip of that rack, over the normal module"
+    )
+    reversed_bending: float = quantity(
+        1.0,
+        "1",
+        0.5,
+        1.0,
+        "share of root_limit for the pinion; 0.7 where its teeth bend both ways, as a planet's",
+    )
+    face_load_factor: float = quantity(
+        1.0, "1", 1.0, 5.0, "face load factor of the root stress, beside load_factor"
+    )
+    mesh_load_factor: float = quantity(
+        1.0, "1", 1.0, 2.0, "mesh load factor of the root stress: uneven load of the planets"
+    )
 
     def __post_init__(self) -> None:
         check_ranges(self)
@@ -444,10 +420,10 @@ def default_of(name: str) -> Any:
 
 
 def centre_distance(params: GearMeshParams) -> float:
-    """Return the distance of the axes [m] as it counts: by module and teeth, or as given."""
-    from .kernels.constants import section
+    """Return the reference distance [m]: of the axes without profile shift, by module and teeth."""
+    from .kernels.working_pair import section
 
-    return float(section(_numbers(params))[1])
+    return float(section(as_array(params))[1])
 
 
 def limits_assumed(params: GearMeshParams) -> str:
@@ -473,6 +449,8 @@ def absent_outputs(params: GearMeshParams) -> frozenset[str]:
     found: set[str] = set()
     if params.permissible_film_ratio == 0.0:
         found.add("micropitting_safety")
+    if params.root_limit == 0.0:
+        found.add("root_safety")
     if params.film_heat != "atan" or params.steel == "case-hardened":
         both = (f"{name}_{s}" for name in ENDURANCE_OF_BOTH for s in STEELS_OF_THE_PAPER)
         found.update(ENDURANCE, both)

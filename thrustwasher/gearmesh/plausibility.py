@@ -9,17 +9,28 @@ from .kernels import layout as k
 from .kernels.mesh_point import LEAST_LINE_LOAD, LEAST_SPEED
 from .kernels.operating_point import LEAST_RISE
 from .kernels.path_friction import LEAST_ROLLING
+from .kernels.working_pair import (
+    gear_shift,
+    is_standard,
+    section,
+    tip_thickness,
+    tips,
+    working_section,
+)
+from .parameter_array import as_array
 from .parameters import GearMeshParams, centre_distance, default_of
 
 APART = 2.0  # factor between roughness parameters from which they describe two surfaces
 WHOLE = 1e-6  # of a tooth, that a number of teeth may be off
 AGREE = 1e-3  # between a centre distance and that of module and teeth
+THIN = 0.2  # modules; the least thickness of a tip that is usual
+RACK = 1.0  # modules: straight part of a rack of addendum 1.25, tip radius 0.38
 FASTEST = 100.0  # m/s at the pitch line; faster gears have losses that are not in the model
 
 
 def doubts_of_parameters(p: GearMeshParams) -> list[str]:
     """Return what contradicts itself in parameters."""
-    return [*_teeth(p), *_roughness(p), *_fouling(p), *_load_factor(p)]
+    return [*_teeth(p), *_flanks(p), *_roughness(p), *_fouling(p), *_load_factor(p)]
 
 
 def doubts_of_point(
@@ -88,8 +99,37 @@ def _teeth(p: GearMeshParams) -> list[str]:
     if given != default_of("centre_distance") and abs(given - made) > AGREE * made:
         found.append(
             f"centre_distance = {given:g} m has no effect: normal_module = {p.normal_module:g} m "
-            f"and the teeth give {made:.6g} m (profile shift is not in the model)"
+            f"and the teeth give {made:.6g} m; the distance of the axes as mounted is "
+            "working_centre_distance"
         )
+    return found
+
+
+def _flanks(p: GearMeshParams) -> list[str]:
+    """Return lines on teeth that are thin at their tips, or undercut by a rack."""
+    par = as_array(p)
+    if is_standard(par):
+        return []
+    found, slant = [], math.cos(p.helix_angle)
+    for gear, thickness in zip(("pinion", "gear"), tip_thickness(par), strict=True):
+        if thickness < THIN:
+            found.append(
+                f"the {gear}'s teeth are {thickness:.3g} modules thick at their tips, below "
+                f"{THIN:g}: hardened through they break; take less profile shift or a smaller tip "
+                "diameter"
+            )
+    side, _, angle, _ = section(par)
+    gears = [("pinion", p.profile_shift_pinion, float(p.pinion_teeth))]
+    if side > 0.0:
+        gears.append(("gear", gear_shift(par), p.pinion_teeth * p.gear_ratio))
+    for gear, shift, teeth in gears:
+        least = RACK - 0.5 * teeth * math.sin(angle) ** 2 / slant
+        if shift < least:
+            found.append(
+                f"profile_shift_{gear} = {shift:g}, below {least:.3g}: a rack whose flank is "
+                f"straight down to {RACK:g} modules undercuts {teeth:.6g} teeth; the model has the "
+                "whole involute"
+            )
     return found
 
 
@@ -122,14 +162,11 @@ def _fouling(p: GearMeshParams) -> list[str]:
     """
     if not p.internal:
         return []
-    angle = math.atan(math.tan(p.pressure_angle) / math.cos(p.helix_angle))
-    base, addendum_gear = math.cos(angle), p.addendum_gear or p.addendum
-    r1, r2 = 0.5 * p.pinion_teeth, 0.5 * p.pinion_teeth * p.gear_ratio  # over transverse module
-    tip1, tip2 = (
-        r1 + p.addendum * math.cos(p.helix_angle),
-        r2 - addendum_gear * math.cos(p.helix_angle),
-    )
-    apart = r2 - r1
+    par = as_array(p)
+    _, apart, angle, _ = working_section(par)
+    base, r1 = math.cos(angle), apart / (p.gear_ratio - 1.0)  # of the pitch circles
+    r2 = r1 * p.gear_ratio
+    tip1, tip2, _ = tips(par)
     at1 = (tip2 * tip2 - tip1 * tip1 - apart * apart) / (2.0 * apart * tip1)
     at2 = (apart * apart + tip2 * tip2 - tip1 * tip1) / (2.0 * apart * tip2)
     if abs(at1) >= 1.0 or r2 * base >= tip2:
@@ -139,9 +176,9 @@ def _fouling(p: GearMeshParams) -> list[str]:
     if turned + _involute(angle) - along2 >= math.acos(at2):
         return []
     return [
-        f"gear_ratio = {p.gear_ratio:.6g}: a ring of {2.0 * r2:g} teeth around {p.pinion_teeth}: "
-        "their tips foul each other beside the path of contact; give the ring more teeth or a "
-        "smaller addendum_gear (profile shift is not in the model)"
+        f"gear_ratio = {p.gear_ratio:.6g}: a ring of {p.pinion_teeth * p.gear_ratio:g} teeth "
+        f"around {p.pinion_teeth}: their tips foul each other beside the path of contact; give the "
+        "ring more teeth, a smaller addendum_gear or more profile shift"
     ]
 
 

@@ -17,6 +17,7 @@ from ..model.rungs import rung_named
 from .kernels import layout as k
 from .kernels.constants import derive
 from .kernels.operating_point import solve_point
+from .kernels.working_pair import gear_shift, tips
 from .parameters import LOAD, OIL, SPEC, SPEED, GearMeshParams, absent_outputs, limits_assumed
 from .plausibility import doubts_of_parameters, doubts_of_point
 
@@ -24,6 +25,8 @@ SAFETIES = {
     "pitting_safety": "the flanks are expected to pit; lower the torque or choose a wider or "
     "harder gear",
     "scuffing_safety": "the flanks are expected to scuff; lower torque, speed or oil temperature",
+    "root_safety": "the teeth are expected to break at the root; lower the torque or choose a "
+    "wider gear or a larger module",
     "micropitting_safety": "the film is thinner than permissible_film_ratio allows, the flanks are "
     "expected to micropit; take cooler or thicker oil or smoother flanks",
 }
@@ -40,7 +43,8 @@ class GearMeshResult(Plain):
 
     With ``film_heat`` "atan" that is where contact starts, but for the fidelity "fine". None stands
     where there is no such number: ``micropitting_safety`` without a ``permissible_film_ratio``,
-    endurance under thermal stress without the paper's heat and one of its steels.
+    ``root_safety`` without a ``root_limit``, endurance under thermal
+    stress without the paper's heat and one of its steels.
     """
 
     friction_torque: float
@@ -89,10 +93,19 @@ class GearMeshResult(Plain):
     scuffing_margin: float  # [K] scuffing temperature less that of the contact
     film_ratio_gf: float  # [-] least film along the path over the mean Ra; "atan": at its start
     micropitting_safety: float | None
+    root_stress: float  # [Pa] at the root of the teeth, of the gear with more of it
+    root_safety: float | None  # [-] twice root_limit over it, the smaller of both gears
     normal_module: float  # [m] of the teeth, as given or by centre distance and teeth
-    centre_distance: float  # [m] of the axes
+    centre_distance: float  # [m] of the axes as they work
     pinion_diameter: float  # [m] of the pitch circle
     gear_diameter: float  # [m] of the pitch circle
+    pinion_tip_diameter: float  # [m]
+    gear_tip_diameter: float  # [m] of a ring: the inner one
+    profile_shift_gear: float  # [-] as given, or by the distance of the axes
+    working_pressure_angle: float  # [rad] in the transverse section
+    loss_factor: float
+    """[-] H_v, load share times sliding over the path of contact: with a constant friction the
+    friction_power is that friction times H_v times the power."""
     limits: str
     """What pitting_safety and scuffing_safety rest on; "assumed" if it is a default."""
     start_of_contact: float
@@ -216,11 +229,17 @@ def solve_gearmesh(
 
 
 def _size(p: GearMeshParams, par: Any) -> dict[str, float]:
-    """Return the lengths of the pair that module and centre distance make."""
+    """Return the lengths of the pair that module, centre distance and profile shifts make."""
     centre, side = float(par[k.D_CENTRE]), float(par[k.D_SIDE])
     pinion = 2.0 * centre / (p.gear_ratio + side)
+    tip, gear_tip, module = tips(par)
     return {
-        "normal_module": pinion / p.pinion_teeth * math.cos(p.helix_angle),
+        "normal_module": float(module),
+        "pinion_tip_diameter": 2.0 * float(tip),
+        "gear_tip_diameter": 2.0 * float(gear_tip),
+        "profile_shift_gear": float(gear_shift(par)),
+        "working_pressure_angle": float(par[k.D_ANGLE]),
+        "loss_factor": float(par[k.D_LOSS]),
         "centre_distance": centre,
         "pinion_diameter": pinion,
         "gear_diameter": pinion * p.gear_ratio,

@@ -3,6 +3,8 @@
 ==========================  ========================================================================
 ``layout``                  places in the arrays
 ``constants``               what the parameters come to before any speed or torque is known
+``working_pair``            distance of the axes, pressure angle, tips of gears with profile shift
+``tooth_root``              bending stress at the root of the teeth
 ``path_of_contact``         where the pairs touch, what each bears, what its sliding costs and heats
 ``contact``                 line contact: Hertz, oil film, friction, thermal stress, endurance
 ``flank_temperature``       rises at a sliding line contact: friction, shear of the oil film
@@ -21,12 +23,15 @@
 CALLED = {
     "thrustwasher.gearmesh.kernels.step": (
         "thrustwasher.gearmesh.kernels.constants: broken_rule derive effective_roughness",
-        "thrustwasher.gearmesh.kernels.constants: least_teeth path_lengths path_of section",
+        "thrustwasher.gearmesh.kernels.constants: least_teeth path_lengths path_of",
         "thrustwasher.gearmesh.kernels.constants: slide_roll start_of_contact",
         "thrustwasher.gearmesh.kernels.flank_temperature: heated_flank",
         "thrustwasher.gearmesh.kernels.line_of_action: place_mesh",
         "thrustwasher.gearmesh.kernels.mesh_point: mesh_point",
         "thrustwasher.gearmesh.kernels.operating_point: solve_point",
         "thrustwasher.gearmesh.kernels.step: sens step",
+        "thrustwasher.gearmesh.kernels.tooth_root: corner_left root_factors root_section",
+        "thrustwasher.gearmesh.kernels.working_pair: distance_of_shifts gear_shift is_standard",
+        "thrustwasher.gearmesh.kernels.working_pair: section tip_thickness tips working_section",
     ),
 }

@@ -1,8 +1,9 @@
 """What the parameters of a gear mesh come to before any speed or torque is known.
 
 The pair is involute, seen in the transverse section; the pinion drives. Positions on the line of
-action count from the pinion's base tangent point (0) in lengths of C sin(angle): that of the gear
-lies at 1, of a ring at -1, the pitch point at 1/(ratio + side). ``side`` is 1, of a ring -1.
+action count from the pinion's base tangent point (0) in lengths of C sin(angle), distance of the
+axes and pressure angle as the pair works (``working_pair``): that of the gear lies at 1, of a ring
+at -1, the pitch point at 1/(ratio + side). ``side`` is 1, of a ring -1.
 """
 
 import math
@@ -13,6 +14,8 @@ from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
 from .contact import compliance
 from .path_of_contact import base_pitch, derive_path, even_part, line_of_action
+from .tooth_root import derive_root, root_rule
+from .working_pair import is_standard, pair_rule, section, tips, working_section
 
 SIGMA_ROUGH, SIGMA_FINE = 2.26e-6, 0.566e-6  # m, composite RMS of two ground flanks
 ROUGHNESS_ROUGH, ROUGHNESS_FINE = 4.5e-5, 1.5e-5  # S of Li & Seireg
@@ -37,25 +40,18 @@ def effective_roughness(par: Array) -> float:
 
 
 @kernel
-def section(par: Array) -> tuple[float, float, float, float]:
-    """Return side, centre distance [m], transverse angle [rad], cosine of the base helix angle."""
-    helix, angle, cos_base = par[L.P_HELIX_ANGLE], par[L.P_PRESSURE_ANGLE], 1.0
-    side = -1.0 if par[L.P_INTERNAL] > 0.0 else 1.0
-    if helix > 0.0:
-        cos_base = math.cos(math.asin(math.sin(helix) * math.cos(angle)))
-        angle = math.atan(math.tan(angle) / math.cos(helix))
-    centre = par[L.P_CENTRE_DISTANCE]
-    if par[L.P_NORMAL_MODULE] > 0.0:
-        teeth = par[L.P_PINION_TEETH] * (par[L.P_GEAR_RATIO] + side)
-        centre = 0.5 * par[L.P_NORMAL_MODULE] * teeth / math.cos(helix)
-    return side, centre, angle, cos_base
-
-
-@kernel
 def path_of(par: Array) -> tuple[float, float, float]:
     """Return the start of contact [-], then approach and recess in base pitches."""
     ratio, teeth = par[L.P_GEAR_RATIO], par[L.P_PINION_TEETH]
-    side, _, angle, _ = section(par)
+    side, centre, angle, _ = working_section(par)
+    if not is_standard(par):
+        line, base = centre * math.sin(angle), centre * math.cos(angle) / (ratio + side)
+        tip, tip_gear, _ = tips(par)
+        reach = math.sqrt(max(tip_gear * tip_gear - (ratio * base) ** 2, 0.0))
+        start, pitch = side * (1.0 - reach / line), 2.0 * math.pi * base / teeth
+        approach = (1.0 / (ratio + side) - start) * line / pitch
+        reach = math.sqrt(max(tip * tip - base * base, 0.0))
+        return start, approach, (reach - line / (ratio + side)) / pitch
     slant = math.cos(par[L.P_HELIX_ANGLE])
     addendum = par[L.P_ADDENDUM] * slant  # over the transverse module
     gear = par[L.P_ADDENDUM_GEAR] * slant if par[L.P_ADDENDUM_GEAR] > 0.0 else addendum
@@ -68,7 +64,7 @@ def path_of(par: Array) -> tuple[float, float, float]:
 def derive_geometry(par: Array) -> None:
     """Fill section, path of contact, curvature and speeds where it starts, loads per torque."""
     ratio, teeth = par[L.P_GEAR_RATIO], par[L.P_PINION_TEETH]
-    side, centre, angle, cos_base = section(par)
+    side, centre, angle, cos_base = working_section(par)
     par[L.D_SIDE], par[L.D_CENTRE], par[L.D_ANGLE], par[L.D_COS_BASE] = (
         side,
         centre,
@@ -80,7 +76,8 @@ def derive_geometry(par: Array) -> None:
     line, pitch, width = centre * math.sin(angle), centre / (ratio + side), par[L.P_FACE_WIDTH]
     par[L.D_SLIDE_ROLL] = slide_roll(ratio, start, side)
     par[L.D_CONTACT_RATIO] = approach + recess
-    around = 2.0 * math.pi * pitch / teeth  # pitch of the teeth [m]
+    reference = pitch if is_standard(par) else section(par)[1] / (ratio + side)
+    around = 2.0 * math.pi * reference / teeth  # pitch of the teeth [m]
     par[L.D_OVERLAP] = width * math.tan(par[L.P_HELIX_ANGLE]) / around
     par[L.D_LOAD] = 1.0 / (width * pitch * math.cos(angle))
     par[L.D_UNIT_LOAD] = 1.0 / (width * pitch)
@@ -119,6 +116,7 @@ def derive(par: Array) -> int:
     constant = par[L.P_HEAT_PARTITION] == L.CONSTANT_SHARE
     par[L.D_SHARE] = par[L.P_PARTITION_SHARE] if constant else by_speed
     derive_limits(par)
+    derive_root(par)
     derive_body(par)
     par[L.D_PLACES] = par[L.D_HOTTEST] = 0.0
     if par[L.P_FILM_HEAT] == L.LOSS or par[L.P_FIDELITY] == L.FINE:
@@ -257,10 +255,13 @@ def broken_rule(par: Array) -> int:
         return 10
     if 0.0 < par[L.P_PERMISSIBLE_FILM_RATIO] < 0.01:
         return 11
-    side, _, angle, _ = section(par)
     ratio, is_paper = par[L.P_GEAR_RATIO], par[L.P_FILM_HEAT] != L.LOSS
-    if not ratio + side > 0.0:
+    if not ratio + section(par)[0] > 0.0:
         return 1
+    rule = pair_rule(par)
+    if rule > 0:
+        return rule
+    side, _, angle, _ = working_section(par)
     start, approach, recess = path_of(par)
     if not start > 0.0:
         return 1
@@ -280,6 +281,7 @@ def broken_rule(par: Array) -> int:
         if not start + reach < 1.0:
             return 6
     beyond = par[L.P_HELIX_ANGLE] + par[L.P_ADDENDUM_GEAR] + par[L.P_INTERNAL] > 0.0
+    beyond = beyond or not is_standard(par)
     if is_paper and (beyond or par[L.P_FRICTION_LAW] == L.MIXED_FRICTION):
         return 7
-    return 0
+    return root_rule(par, approach + recess)

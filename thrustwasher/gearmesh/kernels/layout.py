@@ -61,9 +61,22 @@
     P_SWITCH,
     P_ASPERITY_BASE,
     P_SPEED_SMOOTHING,
+    P_PROFILE_SHIFT_PINION,
+    P_PROFILE_SHIFT_GEAR,
+    P_WORKING_CENTRE_DISTANCE,
+    P_PROFILE_SHIFT_GEAR_FROM_DISTANCE,
+    P_TIP_DIAMETER_PINION,
+    P_TIP_DIAMETER_GEAR,
+    P_TIP_SHORTENING,
+    P_ROOT_LIMIT,
+    P_TOOL_ADDENDUM,
+    P_TOOL_TIP_RADIUS,
+    P_REVERSED_BENDING,
+    P_FACE_LOAD_FACTOR,
+    P_MESH_LOAD_FACTOR,
     P_FIDELITY,
     N_PARAM,
-) = range(61)
+) = range(74)
 # Constants that derive() adds: geometry per unit of speed and torque, surface, material; then what
 # a mesh heated by its loss needs: section, loads per torque, limits, body, extremes of the path.
 (
@@ -106,8 +119,11 @@
     D_FLASH_MOST,
     D_FILM_LEAST,
     D_PRESSURE_MOST,
+    D_ROOT_PINION,
+    D_ROOT_GEAR,
+    D_ROOT_USED,
     D_PLACES,
-) = range(N_PARAM, N_PARAM + 40)
+) = range(N_PARAM, N_PARAM + 43)
 # The line of action: positions from the pitch point in base pitches, shares of the load that the
 # pair there bears, shares of the loss; D_PLACES is the number of positions. Where the loss heats,
 # also lengths and, per root of load and speed, flash of a friction of 1, film, mean pressure.
@@ -154,6 +170,8 @@ S_STARTED, S_BULK, S_STORED, S_OIL_ENERGY, NSTATE = range(5)
     F_FILM_GF,
     F_MICROPITTING,
     F_OIL_ENERGY,
+    F_ROOT_STRESS,
+    F_ROOT_SAFETY,
     F_LINE_LOAD,
     F_WIDTH,
     F_PRESSURE,
@@ -172,7 +190,7 @@ S_STARTED, S_BULK, S_STORED, S_OIL_ENERGY, NSTATE = range(5)
     F_FREE_AREA_SLOPE,
     F_SMOOTH_SIGN,
     N_FIELD,
-) = range(50)
+) = range(52)
 # Behind them, for the rung `fine` of the paper's heat: the hottest position's own numbers, those of
 # the position at hand, the constants there; then, for both heats, the number of the hottest.
 W_HOTTEST, W_HERE, W_LOCAL, W_PLACE = N_FIELD, 2 * N_FIELD, 3 * N_FIELD, 3 * N_FIELD + D_POSITION
@@ -180,7 +198,7 @@ W_HOTTEST, W_HERE, W_LOCAL, W_PLACE = N_FIELD, 2 * N_FIELD, 3 * N_FIELD, 3 * N_F
 # duration [s]; friction of every position, in mixed friction that of the film and contact's share.
 W_BEGAN, W_FROM, W_DURATION, W_FRICTION = range(W_PLACE + 1, W_PLACE + 5)
 W_SHEARED, W_CONTACT, NWORK = (W_FRICTION + i * N_PATH for i in range(1, 4))
-NOUT = 32
+NOUT = 34
 IO_REGIME, IO_STATUS, NIOUT = range(3)
 
 FILM, MIXED, BOUNDARY = range(1, 4)  # regimes

@@ -38,6 +38,12 @@ def fill_safety(par: Array, torque: float, oil: float, field: Array) -> None:
     field[L.F_MICROPITTING] = L.NO_LIMIT
     if permissible > 0.0:
         field[L.F_MICROPITTING] = field[L.F_FILM_GF] / permissible
+    field[L.F_ROOT_STRESS] = max(par[L.D_ROOT_PINION], par[L.D_ROOT_GEAR]) * line
+    if not par[L.D_ROOT_PINION] > 0.0:
+        field[L.F_ROOT_STRESS] = L.NO_DATA
+    field[L.F_ROOT_SAFETY] = L.NO_LIMIT
+    if par[L.D_ROOT_USED] > 0.0:
+        field[L.F_ROOT_SAFETY] = 1.0 / (par[L.D_ROOT_USED] * line)
 
 
 @kernel
@@ -56,6 +62,11 @@ def safety_changes(
     line = torque * par[L.D_LOAD]
     load = floored_slope(line, LEAST_LINE_LOAD) * par[L.D_LOAD] * change[0]
     load *= 0.5 / floored(line, LEAST_LINE_LOAD)
+    bent = field[L.F_ROOT_STRESS] if par[L.D_ROOT_PINION] > 0.0 else 0.0
+    dout[L.F_ROOT_STRESS] = 2.0 * bent * load
+    dout[L.F_ROOT_SAFETY] = 0.0
+    if par[L.D_ROOT_USED] > 0.0:
+        dout[L.F_ROOT_SAFETY] = -2.0 * field[L.F_ROOT_SAFETY] * load
     dout[L.F_PITTING_STRESS] = field[L.F_PITTING_STRESS] * load
     dout[L.F_PITTING_SAFETY] = -field[L.F_PITTING_SAFETY] * load
     limit = scuffing_temperature(par, field[L.F_BULK_VISCOSITY])

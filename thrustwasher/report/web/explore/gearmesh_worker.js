@@ -33,6 +33,7 @@ class Model extends PointModel {
       regime: ratio > 3 ? 1 : ratio >= 1 ? 2 : 3,
     });
     const endures = par[L.P_FILM_HEAT] !== L.LOSS && par[L.P_STEEL] !== L.CASE_HARDENED;
+    if (par[L.P_ROOT_LIMIT] === 0) found.root_safety = null;
     for (const name of Object.keys(found)) {
       if (name === "micropitting_safety" ? par[L.P_PERMISSIBLE_FILM_RATIO] === 0 : !endures && /^(modification|allowable|stress_util)/.test(name)) found[name] = null;
     }

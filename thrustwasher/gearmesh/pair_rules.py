@@ -1,0 +1,176 @@
+"""Rules between the parameters of a gear mesh, and how they say what to change."""
+
+import math
+from typing import Any
+
+from ..model.spec import Rule
+from .parameter_array import as_array
+
+ALWAYS = "so large that a pair is always in contact"
+
+
+def _interference(p: Any) -> str:
+    from .kernels import constants as g
+    from .kernels.working_pair import is_standard, section
+
+    if not is_standard(as_array(p)):
+        return (
+            f"pinion_teeth = {p.pinion_teeth!r}, allowed: more, or a smaller tip of the gear: with "
+            f"profile_shift_pinion = {p.profile_shift_pinion!r} the gear's tips cut below the "
+            "pinion's involute (interference)"
+        )
+    _, _, angle, _ = section(as_array(p))
+    gear, slant = p.addendum_gear or p.addendum, math.cos(p.helix_angle)
+    if p.internal:
+        return (
+            f"addendum_gear = {gear!r}, allowed: less for a ring of {p.gear_ratio:g} x "
+            f"{p.pinion_teeth} teeth (its tips cut below the pinion's involute: interference)"
+        )
+    least = math.floor(g.least_teeth(p.gear_ratio, angle, gear * slant)) + 1
+    return (
+        f"pinion_teeth = {p.pinion_teeth!r}, allowed: {least} and more for gear_ratio = "
+        f"{p.gear_ratio:g}, pressure_angle = {math.degrees(p.pressure_angle):g} deg, addendum "
+        f"= {gear:g} (with fewer the gear's tips cut below the pinion's involute: "
+        "interference)"
+    )
+
+
+def _contact_ratio(p: Any) -> str:
+    from .kernels import constants as g
+
+    contact = sum(g.path_of(as_array(p))[1:])
+    return (
+        f"addendum = {p.addendum!r}, allowed: {ALWAYS}; the contact ratio is {contact:.4g}, "
+        "allowed: 1 and more"
+    )
+
+
+def _base_friction(p: Any) -> str:
+    from .kernels.constants import effective_roughness
+
+    s = effective_roughness(as_array(p))
+    return (
+        f"f0 = {p.f0!r}, allowed: {0.0864 - 1372.0 * s:.4g} .. 1 for effective_roughness = {s:g} "
+        "(below, a thick film would have negative friction)"
+    )
+
+
+def _slide_roll(p: Any) -> str:
+    from .kernels import constants as g
+
+    side = -1.0 if p.internal else 1.0
+    found = g.slide_roll(p.gear_ratio, g.path_of(as_array(p))[0], side)
+    return (
+        "friction_law = 'li-seireg', allowed: for slide/roll ratios above 0.27 only, here "
+        f"{found:.4g} at the start of contact (pinion_teeth = {p.pinion_teeth!r}); use "
+        "friction_law = 'iso'"
+    )
+
+
+def _distances(p: Any) -> str:
+    from .kernels.working_pair import distance_of_shifts, section
+
+    given = p.working_centre_distance
+    if p.profile_shift_gear_from_distance:
+        _, centre, angle, _ = section(as_array(p))
+        return (
+            f"working_centre_distance = {given!r} m, allowed: above {centre * math.cos(angle):.9g} "
+            "m, the distance at which the base circles touch"
+        )
+    found = float(distance_of_shifts(as_array(p))[0])
+    return (
+        f"working_centre_distance = {given!r} m, allowed: {found:.9g} m, that of "
+        f"profile_shift_pinion = {p.profile_shift_pinion!r} and profile_shift_gear = "
+        f"{p.profile_shift_gear!r}, within 1e-06 m; give profile_shift_gear_from_distance = True "
+        "to have it decide the gear's shift"
+    )
+
+
+def _pointed(p: Any) -> str:
+    from .kernels.working_pair import tip_thickness
+
+    first, second = tip_thickness(as_array(p))
+    gear, thickness = ("pinion", first) if not first > 0.0 else ("gear", second)
+    return (
+        f"profile_shift_pinion = {p.profile_shift_pinion!r}, profile_shift_gear = "
+        f"{p.profile_shift_gear!r}, allowed: less, or smaller tip diameters: the {gear}'s teeth "
+        f"are {thickness:.3g} modules thick at their tips, allowed: above 0"
+    )
+
+
+RULES = (
+    Rule(
+        "pinion_teeth = {pinion_teeth}, allowed: more for gear_ratio = {gear_ratio}, "
+        "pressure_angle = {pressure_angle} rad, addendum = {addendum} (with so few the gear's "
+        "tips cut below the pinion's involute: interference)",
+        _interference,
+    ),
+    Rule(f"addendum = {{addendum}}, allowed: {ALWAYS} (contact ratio 1 and more)", _contact_ratio),
+    Rule(
+        "effective_roughness = {effective_roughness}, allowed: 7.459e-06 .. 6.297e-05 for "
+        "friction_law = 'li-seireg' (0: that of the surface)"
+    ),
+    Rule(
+        "f0 = {f0}, allowed: 0.0864 - 1372 effective_roughness .. 1 "
+        "(below, a thick film would have negative friction)",
+        _base_friction,
+    ),
+    Rule(
+        "friction_law = 'li-seireg', allowed: for slide/roll ratios above 0.27 only, not reached "
+        "at the start of contact (pinion_teeth = {pinion_teeth}); use friction_law = 'iso'",
+        _slide_roll,
+    ),
+    Rule(
+        "addendum = {addendum}, allowed: less (the pinion's tips cut below the gear's involute: "
+        "interference)"
+    ),
+    Rule(
+        "film_heat = 'atan', allowed: without helix_angle ({helix_angle} rad), internal "
+        "({internal}), addendum_gear ({addendum_gear}) and friction_law = 'mixed': the paper has "
+        "a spur pair; use film_heat = 'loss'"
+    ),
+    Rule("contact_limit = {contact_limit} Pa, allowed: 0 (that of the steel) or 1e+08 .. 3e+09 Pa"),
+    Rule("addendum_gear = {addendum_gear}, allowed: 0 (as addendum) or 0.3 .. 1.5"),
+    Rule("normal_module = {normal_module} m, allowed: 0 (from centre_distance) or 1e-4 .. 0.1 m"),
+    Rule(
+        "permissible_film_ratio = {permissible_film_ratio}, allowed: 0 (no limit is given) or "
+        "0.01 .. 10"
+    ),
+    Rule(
+        "working_centre_distance = {working_centre_distance} m, allowed: 0 (from the shifts) or "
+        "0.001 .. 10 m"
+    ),
+    Rule(
+        "tip_diameter_pinion = {tip_diameter_pinion} m, allowed: 0 (from addendum and shift) or "
+        "0.001 .. 10 m"
+    ),
+    Rule(
+        "tip_diameter_gear = {tip_diameter_gear} m, allowed: 0 (from addendum and shift) or "
+        "0.001 .. 20 m"
+    ),
+    Rule(
+        "profile_shift_gear_from_distance = True, allowed: with working_centre_distance "
+        "({working_centre_distance} m) and without profile_shift_gear ({profile_shift_gear})"
+    ),
+    Rule(
+        "working_centre_distance = {working_centre_distance} m, allowed: that of "
+        "profile_shift_pinion = {profile_shift_pinion} and profile_shift_gear = "
+        "{profile_shift_gear} within 1e-06 m; give profile_shift_gear_from_distance to have it "
+        "decide the gear's shift",
+        _distances,
+    ),
+    Rule(
+        "profile_shift_pinion = {profile_shift_pinion}, allowed: more, or more profile_shift_gear "
+        "({profile_shift_gear}): with so little shift the gears do not mesh without backlash",
+    ),
+    Rule(
+        "profile_shift_pinion = {profile_shift_pinion}, profile_shift_gear = {profile_shift_gear}, "
+        "allowed: less, or smaller tip diameters: a tooth is pointed before its tip",
+        _pointed,
+    ),
+    Rule("root_limit = {root_limit} Pa, allowed: 0 (no root safety) or 1e+07 .. 3e+09 Pa"),
+    Rule(
+        "tool_tip_radius = {tool_tip_radius}, allowed: less, or less tool_addendum "
+        "({tool_addendum}): such a rack leaves no root to rate; root_limit = 0 does without"
+    ),
+)

@@ -151,13 +151,14 @@ int main(void) {
         for (unsigned i = 0; i < in.n; i++) {
             if (uniform() < 0.3) x[i] = in.a[i] + uniform() * (in.b[i] - in.a[i]);
         }
-        const int i = in.n ? (int)(uniform() * in.n) : 0, bad = in.n && uniform() < 0.02;
+        const int i = in.n ? (int)(uniform() * in.n) : 0, bad = in.n && (k == 7 || uniform() < 0.02);
         const double good = x[i];
         if (bad) x[i] = hostile((unsigned)i);
         refused += SetReal(c, in.reference, in.n, x) > fmi2Warning;
         const int known = GetReal(c, out.reference, out.n, before) <= fmi2Warning;
         double h = 1e-4 * pow(100.0, uniform());
         if (uniform() < 0.005) h = hostile(0);
+        if (k == 5) h = -1.0; /* one failure at least */
         const int rc = DoStep(c, t, h, fmi2True);
         const int shown = GetReal(c, out.reference, out.n, after) <= fmi2Warning;
         if (rc <= fmi2Warning) t += h;

@@ -71,3 +71,12 @@ def test_what_is_held_asks_for_smaller_steps():
         expected = 0.01 * capacity(END - step) / moved * step
         found = asked("transmission", step, received, capacity_extrapolation=False)
         assert found == pytest.approx(max(expected, 0.2 * step), rel=1e-6)
+
+
+@pytest.mark.slow
+def test_a_washer_without_memory_wants_no_step_and_one_with_it_does():
+    def loaded(t, h):
+        return {"load": 300.0, "speed": 545.0, "tilt": 0.002, "oil_temperature": 297.15}
+
+    assert asked("washer", 0.02, loaded) == 0.0
+    assert 1e-3 < asked("washer", 0.02, loaded, thermal_mode="transient") < 1.0

@@ -336,6 +336,14 @@ def walk_steady(
 SWEEP = Sweep(
     walk=walk_steady,
     # It slips for ever: its heat has no end.
-    not_shown=("energy", "heat_flux", "viscosity", "oil_heat", "stored_heat", "oil_energy"),
+    not_shown=(
+        "energy",
+        "heat_flux",
+        "viscosity",
+        "oil_heat",
+        "stored_heat",
+        "oil_energy",
+        "advised_step",
+    ),
     least={"film_ratio": (k.LEAST_RATIO, BEYOND_LAW)},
 )

@@ -10,5 +10,6 @@
 ``smoothing``   corners rounded to one continuous derivative; exact outside the rounded stretch
 ``spline``      weights that integrate a spline; the quintic through values, slopes, curvatures
 ``status``      numbers of the statuses that kernels return, equal to errors.Status
+``step_size``   the step at which an error would be as large as it may be
 ==============  ===============================================================================
 """

@@ -248,7 +248,7 @@ def doubt_of_rows(params: WasherParams, fidelity: str, points: Array) -> str:
 
 
 SWEEP = Sweep(
-    not_shown=("energy", "stored_heat", "oil_energy"),
+    not_shown=("energy", "stored_heat", "oil_energy", "advised_step"),
     doubt=doubt_of_rows,
     least={
         "stick_margin": (

@@ -105,6 +105,10 @@ void *make(const char *name, const char *guid, int logging, const char *oddity)
     case 'n':
         return InstantiateCoSimulation(name, guid, resources, 0, logging, 0, 0, inputs, 3, title,
                                        log, NULL);
+    case 'x': /* events, and inputs that move */
+        wants_events = 1;
+        return later.instance = InstantiateCoSimulation(name, guid, resources, 0, logging, 1, 1,
+                                                        inputs, 3, title, log, update);
     case 'u':
         return later.instance = InstantiateCoSimulation(name, guid, resources, 0, logging, 0, 0,
                                                         inputs, 3, title, log, update);

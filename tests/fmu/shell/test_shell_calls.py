@@ -120,8 +120,12 @@ def test_a_description_of_another_build_is_refused_and_both_are_named(fmi, guid)
         (2, "m", "not for model exchange"),
         (3, "m", "not for model exchange"),
         (3, "s", "not for scheduled execution"),
-        (3, "i", "inner_radius is required between communication points, allowed: Float64 inputs "
-         "and outputs"),
+        (
+            3,
+            "i",
+            "inner_radius is required between communication points, allowed: Float64 inputs "
+            "and outputs",
+        ),
         (3, "n", "intermediateUpdate is NULL"),
     ],
 )

@@ -1,7 +1,7 @@
 """A step that ends where a Boolean output changes, for hosts that want it; else nothing changes."""
 
 import pytest
-from shell_runs import GUID, SANITIZED, needs_gcc, putting, run, taking, toy_library
+from shell_runs import GUID, SANITIZED, needs_gcc, putting, ref, run, taking, toy_library
 
 pytestmark = needs_gcc
 H = 0.1
@@ -96,6 +96,16 @@ def test_at_the_end_of_a_step_the_host_is_called_back_and_may_read():
     assert len(said) == 6 and all(m.endswith("return from it first") for m in said)
     refused = [m for r in replies for m in r.messages if "fmi3FreeInstance is not allowed" in m]
     assert len(refused) == 2
+
+
+def test_inputs_that_move_have_moved_as_far_as_the_step_went():
+    """The load rises from 0 to 4000 N: the toy heats with the middle of what it went through."""
+    script = begun(" x", speed=HOT["speed"]) + f"put derivative {ref('load')} 4000\n"
+    script += step(0.0, H) + taking(["load"]) + "extra ended\n"
+    load, (event, early, time) = (r.values for r in run(3, toy_library(), script)[-2:])
+    instant = (H * LIMIT) ** 0.5
+    assert (event, early) == (1, 1) and 0.0 <= time - instant <= 1e-7
+    assert load == pytest.approx([4000.0 * time / H])
 
 
 def test_the_search_keeps_to_its_memory():

@@ -85,9 +85,9 @@ int begin_updates(Instance *m, const fmi3ValueReference wanted[], size_t n,
         if (!v) return BAD;
         m->asks |= v->cause == CAUSE_INPUT;
         m->shows |= v->cause == CAUSE_OUTPUT;
-        if (v->type == TYPE_REAL && (v->cause == CAUSE_INPUT || v->cause == CAUSE_OUTPUT)) continue;
-        return fail(m, "%s is required between communication points, allowed: Float64 inputs and "
-                    "outputs", v->name);
+        if (v->cause == CAUSE_OUTPUT || (v->cause == CAUSE_INPUT && v->type == TYPE_REAL)) continue;
+        return fail(m, "%s is required between communication points, allowed: outputs and Float64 "
+                    "inputs", v->name);
     }
     return GOOD;
 }

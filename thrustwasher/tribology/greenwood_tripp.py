@@ -149,7 +149,7 @@ def area_integrals(u: float) -> tuple[float, float]:
         return (1.0 + u * u) * tail - u * pdf, pdf - u * tail
     # Q/pdf = 1/(u + 1/(u + 2/(u + 3/(u + ...)))); k_n is the fraction from n on
     k = u
-    for n in range(12 + int(1200.0 / (u * u)), 2, -1):
+    for n in range(12 + int(600.0 / (u * u)), 2, -1):
         k = u + n / k
     k2 = u + 2.0 / k
     k1 = u + 1.0 / k2

@@ -15,7 +15,7 @@ from . import layout as L
 from .dynamics import capacity, clutch_slip, drum_speed, solve_torques, trial_step
 
 MAX_ROOT_STEPS = 100
-HALVED_FROM = 50  # steps: fifty halvings leave 1e-15 of any bracket
+ROOT_WIDTH = 1e-14  # of the step
 
 
 @kernel
@@ -109,34 +109,45 @@ def guard(par: Array, work: Array, pack: int, s: float, y: int) -> float:
 def locate(par: Array, work: Array, pack: int, s: float, h: float, start: float) -> float:
     """Return the fraction of the step ``h`` at which the guard of a pack passes through zero.
 
-    ``start`` is the guard at the beginning; at ``h`` it is negative. Regula falsi with the
-    Illinois rule; each trial integrates from the beginning, so the result lies on the solution.
+    ``start`` is the guard at the beginning; at ``h`` it is negative. Chandrupatla's method (1997):
+    inverse quadratic interpolation where the last three points allow it, else halving; each trial
+    integrates from the beginning, so the result lies on the solution.
     """
     if start <= 0.0:
         return 0.0
-    low, high, g_low, side = 0.0, 1.0, start, 0
-    g_high = guard(par, work, pack, s + h, L.W_NEW)
-    for n in range(MAX_ROOT_STEPS):
-        if high - low < 1e-15:
+    # newest point, the one on the other side of zero, the one that left the bracket
+    x, y = 1.0, guard(par, work, pack, s + h, L.W_NEW)
+    other_x, other_y, last_x, last_y = 0.0, start, 1.0, y
+    share = y / (y - start)
+    for _ in range(MAX_ROOT_STEPS):
+        width = abs(other_x - x)
+        if width < ROOT_WIDTH:
             break
-        x = (low * g_high - high * g_low) / (g_high - g_low)
-        if not low < x < high or n >= HALVED_FROM:
-            x = 0.5 * (low + high)
-        trial_step(par, work, s, x * h)
-        g = guard(par, work, pack, s + x * h, L.W_NEW)
+        least = 0.5 * ROOT_WIDTH / width
+        trial = x + min(max(share, least), 1.0 - least) * (other_x - x)
+        trial_step(par, work, s, trial * h)
+        g = guard(par, work, pack, s + trial * h, L.W_NEW)
         if g == 0.0:
-            return x
-        if g < 0.0:
-            high, g_high = x, g
-            if side < 0:
-                g_low *= 0.5
-            side = -1
+            return trial
+        if (g < 0.0) == (y < 0.0):
+            last_x, last_y = x, y
         else:
-            low, g_low = x, g
-            if side > 0:
-                g_high *= 0.5
-            side = 1
-    return high
+            last_x, last_y, other_x, other_y = other_x, other_y, x, y
+        x, y = trial, g
+        share = _next_share(x, y, other_x, other_y, last_x, last_y)
+    return x if y < 0.0 else other_x
+
+
+@kernel
+def _next_share(
+    x: float, y: float, far_x: float, far_y: float, out_x: float, out_y: float
+) -> float:
+    """Return where between ``x`` (0) and ``far_x`` (1) to look next; ``out_x`` left the bracket."""
+    place, value = (x - far_x) / (out_x - far_x), (y - far_y) / (out_y - far_y)
+    if not (value * value < place and (1.0 - value) * (1.0 - value) < 1.0 - place):
+        return 0.5
+    inner = y / (far_y - y) * (out_y / (far_y - out_y))
+    return inner + (out_x - x) / (far_x - x) * (y / (out_y - y)) * (far_y / (out_y - far_y))
 
 
 @kernel

@@ -18,6 +18,9 @@ N_PARAM, NPAR, NINP, NSTATE = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE
 NWORK, NOUT, NIOUT = L.NWORK, L.NOUT, L.NIOUT
 derive, broken_rule, sens = dynamics.derive, dynamics.broken_rule, directional_derivative
 
+SHORT = 0.5  # last steps: a shorter step takes changed inputs in part
+AHEAD = 50.0  # last steps that capacities go on changing for, at most
+
 
 @kernel
 def start_speeds(par: Array) -> tuple[float, float]:
@@ -52,32 +55,57 @@ def begin(par: Array, inp: Array, state: Array, work: Array) -> None:
 
 
 @kernel
-def receive(par: Array, inp: Array, state: Array, work: Array, dt: float) -> None:
+def take(inp: Array, state: Array, taken: Array, dt: float) -> None:
+    """Fill the inputs as the step takes them: as given, or on the way there in a short step.
+
+    A step of at least half the last one takes the inputs as given. Shorter ones go the same way in
+    that time, each a part in proportion to its length: what changes in a step then vanishes with
+    the step, as a master that estimates its error expects. Without a step an input that is still
+    as the last step was given it is what that had reached.
+    """
+    share, started = 1.0, state[L.S_STARTED] != 0.0
+    if started and 0.0 < dt < SHORT * state[L.S_SPREAD]:
+        share = dt / (SHORT * state[L.S_SPREAD])
+    for i in range(L.NINP):
+        value, reached = inp[np.uintp(i)], state[np.uintp(L.S_REACHED + i)]
+        if started and dt == 0.0 and value == state[np.uintp(L.S_GIVEN + i)]:
+            value = reached
+        elif share < 1.0:
+            value = reached + share * (value - reached)
+        taken[np.uintp(i)] = value
+
+
+@kernel
+def receive(par: Array, inp: Array, taken: Array, state: Array, work: Array, dt: float) -> None:
     """Turn the received torques into capacities over the step, or torques taken as they are.
 
     Capacities arrive once per step and would be up to a step old at its end. They go on changing
     as they did in the last step, from the instant they belong to (``torque_age`` steps ago): the
     error then falls with the square of the step. Where the friction law has a kink the capacity
-    overshoots for one step (a few percent just before lock-up at 1 ms).
+    overshoots for one step (a few percent just before lock-up at 1 ms). After a step much shorter
+    than this one they go on no further than ``AHEAD`` of its lengths.
     """
     r = par[L.D_RATIO]
-    work[L.W_ENGINE_GIVEN], work[L.W_LOAD_GIVEN] = inp[L.I_ENGINE], inp[L.I_LOAD]
-    work[L.W_WASHERS] = par[L.P_WASHERS] * abs(inp[L.I_WASHER])
-    ring = par[L.D_RING_MESHES] * abs(inp[L.I_RING_MESH])
-    work[L.W_MESHES] = par[L.D_MESHES] * abs(inp[L.I_MESH]) + ring
+    work[L.W_ENGINE_GIVEN], work[L.W_LOAD_GIVEN] = taken[L.I_ENGINE], taken[L.I_LOAD]
+    work[L.W_WASHERS] = par[L.P_WASHERS] * abs(taken[L.I_WASHER])
+    ring = par[L.D_RING_MESHES] * abs(taken[L.I_RING_MESH])
+    work[L.W_MESHES] = par[L.D_MESHES] * abs(taken[L.I_MESH]) + ring
     drag = (work[L.W_WASHERS] + work[L.W_MESHES]) * par[L.D_SPIN]
     work[L.W_DRAG] = drag * r / (1.0 + r)
     for k in range(2):
         given, start, slope = 0.0, 0.0, 0.0
         if par[L.P_COUPLING] == L.TORQUE_COUPLING:
-            given = inp[np.uintp(L.I_CLUTCH + k)]
+            given = taken[np.uintp(L.I_CLUTCH + k)]
         else:
-            start = max(0.0, inp[np.uintp(L.I_CLUTCH + k)])
+            sent = max(0.0, inp[np.uintp(L.I_CLUTCH + k)])
             last = max(0.0, state[np.uintp(L.S_LAST_CLUTCH + k)])
-            if dt == 0.0 and state[L.S_STARTED] != 0.0 and start == last:
+            start = max(0.0, taken[np.uintp(L.I_CLUTCH + k)])
+            if dt == 0.0 and state[L.S_STARTED] != 0.0 and sent == last:
                 start = state[np.uintp(L.S_CLUTCH_NOW + k)]
             elif par[L.P_CAPACITY_EXTRAPOLATION] != 0.0 and state[L.S_STARTED] != 0.0:
-                slope = (start - last) / state[L.S_LAST_DURATION]
+                slope = (sent - last) / state[L.S_SPREAD]
+                if dt > AHEAD * state[L.S_LAST_DURATION]:
+                    slope *= AHEAD * state[L.S_LAST_DURATION] / dt
                 ahead = dt if dt > 0.0 else state[L.S_LAST_DURATION]
                 start += slope * par[L.P_TORQUE_AGE] * ahead
         work[np.uintp(L.W_CLUTCH_GIVEN + k)] = given
@@ -86,12 +114,12 @@ def receive(par: Array, inp: Array, state: Array, work: Array, dt: float) -> Non
 
 
 @kernel
-def press(par: Array, inp: Array, state: Array, work: Array, t: float, dt: float) -> int:
+def press(par: Array, taken: Array, state: Array, work: Array, t: float, dt: float) -> int:
     """Carry both pistons over the step; return a status."""
     status = OK
     if par[L.P_ACTUATION] == L.PRESSURE:
         for k in range(2):
-            after = inp[np.uintp(L.I_PRESSURE + k)]
+            after = taken[np.uintp(L.I_PRESSURE + k)]
             before = state[np.uintp(L.S_LAST_PRESSURE + k)]
             if state[L.S_STARTED] == 0.0:
                 before = after
@@ -117,24 +145,27 @@ def kinetic_start(par: Array, state: Array, dt: float) -> float:
 
 
 @kernel
-def keep(inp: Array, state: Array, work: Array, start: float, dt: float, power: float) -> None:
+def keep(
+    par: Array, inp: Array, state: Array, work: Array, start: float, dt: float, power: float
+) -> None:
     """Take the result of a step over into the memory."""
     state[L.S_KINETIC_START], state[L.S_BEARING_POWER] = start, power
     state[L.S_STARTED] = 1.0
     copy(work[L.W_Y :], state[L.S_Y : L.S_KINETIC_START])
-    state[L.S_LAST_CLUTCH], state[L.S_LAST_BRAKE] = inp[L.I_CLUTCH], inp[L.I_BRAKE]
     state[L.S_LAST_DURATION] = dt
-    state[L.S_CLUTCH_NOW] = dynamics.capacity(work, 0, dt)
-    state[L.S_BRAKE_NOW] = dynamics.capacity(work, 1, dt)
+    state[L.S_SPREAD] = max(dt, state[L.S_SPREAD] - dt / SHORT)
+    copy(inp, state[L.S_GIVEN : L.S_REACHED])
+    copy(work[L.W_TAKEN :], state[L.S_REACHED :])
+    if par[L.P_COUPLING] != L.TORQUE_COUPLING:
+        for k in range(2):
+            state[np.uintp(L.S_CLUTCH_NOW + k)] = dynamics.capacity(work, k, dt)
     state[L.S_CLUTCH_MODE], state[L.S_BRAKE_MODE] = work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE]
-    copy(work[L.W_EVENTS :], state[L.S_LOCK_TIME : L.S_LAST_PRESSURE])
-    copy(work[L.W_PISTON :], state[L.S_PISTON :])
-    state[L.S_LAST_PRESSURE] = inp[L.I_PRESSURE]
-    state[L.S_LAST_BRAKE_PRESSURE] = inp[L.I_BRAKE_PRESSURE]
+    copy(work[L.W_EVENTS :], state[L.S_LOCK_TIME : L.S_BEARING_POWER])
+    copy(work[L.W_PISTON :], state[L.S_PISTON : L.S_GIVEN])
 
 
 @kernel
-def show_motion(par: Array, inp: Array, work: Array, out: Array, s: float) -> None:
+def show_motion(par: Array, taken: Array, work: Array, out: Array, s: float) -> None:
     """Fill speeds, torques and loads at ``s`` seconds into the step."""
     r = par[L.D_RATIO]
     driven, carrier = work[L.W_Y + L.Y_INPUT], work[L.W_Y + L.Y_CARRIER]
@@ -150,8 +181,8 @@ def show_motion(par: Array, inp: Array, work: Array, out: Array, s: float) -> No
         out[L.O_CLUTCH_LOAD] = piston.force(par, work, 0, drum)
         out[L.O_BRAKE_LOAD] = piston.force(par, work, 1, drum)
     else:
-        out[L.O_CLUTCH_LOAD] = inp[L.I_COMMAND] * par[L.P_CLUTCH_FORCE]
-        out[L.O_BRAKE_LOAD] = (1.0 - inp[L.I_COMMAND]) * par[L.P_BRAKE_FORCE]
+        out[L.O_CLUTCH_LOAD] = taken[L.I_COMMAND] * par[L.P_CLUTCH_FORCE]
+        out[L.O_BRAKE_LOAD] = (1.0 - taken[L.I_COMMAND]) * par[L.P_BRAKE_FORCE]
     spin = par[L.D_SPIN] * (driven - carrier)
     out[L.O_CLUTCH_SPEED] = dynamics.clutch_slip(r, driven, carrier)
     out[L.O_BRAKE_SPEED] = drum
@@ -245,11 +276,13 @@ def step(
         iout[L.IO_STATUS] = BAD_INPUT
         return BAD_INPUT
     begin(par, inp, state, work)
-    receive(par, inp, state, work, dt)
-    pressed = press(par, inp, state, work, t, dt)
+    taken = work[L.W_TAKEN :]
+    take(inp, state, taken, dt)
+    receive(par, inp, taken, state, work, dt)
+    pressed = press(par, taken, state, work, t, dt)
     status = run(par, work, t, dt, state[L.S_STARTED] != 0.0 and dt > 0.0)
     start = kinetic_start(par, state, dt)
-    show_motion(par, inp, work, out, dt)
+    show_motion(par, taken, work, out, dt)
     show_energy(par, start, work, out)
     power = mean_bearing_power(par, state, work, dt)
     out[L.O_BEARING_POWER] = power
@@ -258,7 +291,7 @@ def step(
     if status == OK and not _is_finite(work, out, dt):
         status = NOT_FINITE
     if status == OK and dt > 0.0:
-        keep(inp, state, work, start, dt, power)
+        keep(par, inp, state, work, start, dt, power)
     clutch_holds = dynamics.capacity(work, 0, dt) > 0.0
     iout[L.IO_CLUTCH_LOCKED] = 1 if work[L.W_CLUTCH_MODE] == 0.0 and clutch_holds else 0
     iout[L.IO_BRAKE_LOCKED] = 1 if work[L.W_BRAKE_MODE] == 0.0 else 0

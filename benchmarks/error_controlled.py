@@ -1,11 +1,11 @@
 """The default shift under masters that choose their step by an error estimate.
 
-Run: python benchmarks/error_controlled.py [own] [pyfmi] [--rtol 1e-3 1e-4] [--order parallel|serial]
-     [--correct] [--maxh 1e-3] [--torque-age 0] [--lead 0] [--scene planetary]
+Run: python benchmarks/error_controlled.py [own] [pyfmi] [--rtol 1e-3 1e-4]
+     [--order parallel|serial] [--correct] [--maxh 1e-3] [--torque-age 0] [--lead 0]
 
 ``own`` is the small master below, which needs nothing but this package. ``pyfmi`` runs PyFMI's
-Master with error_controlled=True where PyFMI is installed. Printed per run: host, tolerance, time of
-lock-up, its distance from the converged run, steps taken and refused, seconds.
+Master with error_controlled=True where PyFMI is installed. Printed per run: host, tolerance, time
+of lock-up, its distance from the converged run, steps taken and refused, seconds.
 
 Step doubling: every step is taken once as a whole and once as two halves with an exchange between
 them; what both end with differs by the error that the estimate goes by. A refused step starts again

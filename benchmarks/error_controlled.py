@@ -1,7 +1,7 @@
 """The default shift under masters that choose their step by an error estimate.
 
 Run: python benchmarks/error_controlled.py [own] [pyfmi] [--rtol 1e-3 1e-4]
-     [--order parallel|serial] [--correct] [--maxh 1e-3] [--torque-age 0] [--lead 0]
+     [--order parallel|serial] [--correct] [--maxh 1e-3] [--torque-age 1] [--lead 0]
 
 ``own`` is the small master below, which needs nothing but this package. ``pyfmi`` runs PyFMI's
 Master with error_controlled=True where PyFMI is installed. Printed per run: host, tolerance, time
@@ -209,6 +209,15 @@ def drive(system: Structure, instances: Mapping[str, Any], **options: Any) -> Ru
     return Run(lock, taken, refused, seconds, shortest)
 
 
+def numbers(path: Path, parameters: Mapping[str, Any]) -> dict[str, Any]:
+    """Return parameters as an FMU holds them, names of enumerations as their numbers."""
+    kinds = {"Real": float, "Boolean": bool}
+    with Instance(path, parameters=parameters) as fmu:
+        found = dict(zip(parameters, fmu.get(list(parameters)), strict=True))
+        types = {v.name: v.type for v in fmu.description.modelVariables}
+    return {name: kinds.get(types[name], int)(value) for name, value in found.items()}
+
+
 def pyfmi(
     system: Structure,
     paths: Mapping[str, Path],
@@ -223,9 +232,10 @@ def pyfmi(
 
     models = {c.name: load_fmu(str(paths[c.name]), log_level=2) for c in system.components}
     for part in system.components:
-        model = models[part.name]
-        for name, value in {**part.parameters, **part.starts}.items():
-            model.set(name, value)
+        for name, value in numbers(paths[part.name], part.parameters).items():
+            models[part.name].set(name, value)
+        for name, value in part.starts.items():
+            models[part.name].set(name, value)
     wires = [(models[k.source], k.output, models[k.target], k.input) for k in system.links]
     master = Master(list(models.values()), wires)
     options = master.simulate_options()
@@ -252,14 +262,17 @@ def main() -> None:
     parser.add_argument("--rtol", type=float, nargs="+", default=[1e-3, 1e-4])
     parser.add_argument("--order", choices=("parallel", "serial"), default="parallel")
     parser.add_argument("--correct", action="store_true", help="settle the chain by slopes")
-    parser.add_argument("--maxh", type=float, default=math.inf, help="longest step [s]")
-    parser.add_argument("--torque-age", type=int, default=0)
+    parser.add_argument("--maxh", type=float, default=1e-3, help="longest step [s]; inf: any")
+    parser.add_argument("--torque-age", type=int, help="default: 1 parallel, 0 serial")
     parser.add_argument("--lead", type=float, default=0.0, help="of the command [s]")
     parser.add_argument("--scene", default="planetary")
     parser.add_argument("--converged", type=float, help="lock-up to compare with [s]")
     given = parser.parse_args()
     scene = prepared(load_scene(given.scene))
-    system = structure(scene, torque_age=given.torque_age, lead=given.lead)
+    age = given.torque_age
+    if age is None:
+        age = 1 if given.order == "parallel" else 0
+    system = structure(scene, torque_age=age, lead=given.lead)
     truth = given.converged
     if truth is None:
         finest = load_scene(given.scene).with_options(step=CONVERGED)

@@ -205,13 +205,20 @@ int leave_initialization(Instance *m) {
 }
 
 static int is_step(Instance *m, double t, double h) {
-    if (is_finite(t) && is_finite(h) && is_finite(t + h) && h > 0.0) return 1;
+    int finite = is_finite(t) && is_finite(h) && is_finite(t + h) && h > 0.0;
+    if (finite && t + h > t) return 1;
     Text text = {0};
     add(&text, "step from t = ");
     add_exact(&text, t);
     add(&text, " s by ");
     add_exact(&text, h);
     m->now.latch = STATUS_BAD_INPUT;
+    if (finite) {
+        add(&text, " s: the time does not change; its spacing is ");
+        add_exact(&text, nextafter(t, HUGE_VAL) - t);
+        fail(m, "%s s here", text.text);
+        return 0;
+    }
     fail(m, "%s s, allowed: finite, step > 0", text.text);
     return 0;
 }

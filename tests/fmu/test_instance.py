@@ -226,6 +226,14 @@ def test_a_step_must_be_finite_and_forward(h, instance):
     instance.step(0.0, H)
 
 
+def test_a_step_too_short_for_the_spacing_of_time_is_refused(instance):
+    """The spacing of doubles at 0.5 s is 2^-53 s; half of it leaves the time where it is."""
+    with pytest.raises(ParameterError, match="by 5e-17 s: the time does not change") as raised:
+        instance.step(0.5, 5e-17)
+    assert "its spacing is 1.1102230246251565e-16 s here" in str(raised.value)
+    instance.step(0.5, 1.2e-16)
+
+
 def test_an_output_is_solved_at_most_once_per_change(monkeypatch):
     direct = DirectInstance(TOY)
     direct.initialize(inputs=TOY_START)

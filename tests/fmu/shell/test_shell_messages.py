@@ -35,6 +35,16 @@ def heated():
 
 
 @both
+def test_a_step_too_short_for_the_spacing_of_time_is_refused_with_both(fmi):
+    """Half the spacing of doubles at 0.5 s; the next step, as long as that spacing, is taken."""
+    script = MADE + "enter 0\nleave\nstep 0.5 5e-17\nstep 0.5 1.2e-16\n"
+    *_, refused, taken = run(fmi, toy_library(), script)
+    assert refused.status == 3 and taken.status == 0
+    assert "step from t = 0.5 s by 5e-17 s: the time does not change" in refused.messages[0]
+    assert refused.messages[0].endswith("its spacing is 1.1102230246251565e-16 s here")
+
+
+@both
 def test_events_are_told_once_and_as_the_core_words_them(fmi):
     script, events, _ = heated()
     told = said(fmi, MADE + script, "logEvents")

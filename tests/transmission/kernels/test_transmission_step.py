@@ -155,7 +155,7 @@ def test_a_dip_of_the_slip_below_zero_inside_one_step_is_not_missed():
             **FREE
             | {"engine_torque": 150.0, "initial_engine_speed": 144.3, "initial_drum_speed": 100.0}
         )
-        box.step(1e-4, clutch=400.8)
+        box.step(1e-3, clutch=408.0)
         for i in range(n):
             box.step(0.05 / n, clutch=400.0 * (1.0 - i / n))
         assert box["clutch_speed"] > 0.0 and box["events"] == 2.0

@@ -256,6 +256,12 @@ class Core:
         if not (0.0 < h < np.inf and -np.inf < t + h < np.inf):
             self.latch = Status.BAD_INPUT
             raise ParameterError(f"step from t = {t!r} s by {h!r} s, allowed: finite, step > 0")
+        if t + h == t:
+            self.latch, spacing = Status.BAD_INPUT, float(np.nextafter(t, np.inf)) - t
+            raise ParameterError(
+                f"step from t = {t!r} s by {h!r} s: the time does not change; its spacing is "
+                f"{spacing!r} s here"
+            )
         self._check_complete("step", t, "input", "parameter")
         if not self.prepared:
             self.prepare()

@@ -122,23 +122,18 @@ S_STARTED = 0
 S_Y = 1
 (
     S_KINETIC_START,
-    S_LAST_CLUTCH,
-    S_LAST_BRAKE,
     S_LAST_DURATION,
-    S_CLUTCH_NOW,
-    S_BRAKE_NOW,
+    S_SPREAD,  # the time that changes of inputs are spread over: the last step, or a longer one
     S_CLUTCH_MODE,
     S_BRAKE_MODE,
     S_LOCK_TIME,
     S_LOCK_SPEED,
     S_RELEASE_TIME,
     S_EVENTS,
-    S_LAST_PRESSURE,
-    S_LAST_BRAKE_PRESSURE,
     S_BEARING_POWER,
     S_ADVISED,
     S_PISTON,
-) = range(S_Y + N_Y, S_Y + N_Y + 17)
+) = range(S_Y + N_Y, S_Y + N_Y + 12)
 # Of a piston: pressure [Pa], volume of oil [m3], whether it is full, times [s] of two events.
 (
     PISTON_PRESSURE,
@@ -148,7 +143,12 @@ S_Y = 1
     PISTON_KISS_TIME,
     N_PISTON,
 ) = range(6)
-NSTATE = S_PISTON + 2 * N_PISTON
+# The inputs: as the last step was given them, and what they had reached at its end.
+S_GIVEN = S_PISTON + 2 * N_PISTON
+S_REACHED = S_GIVEN + NINP
+S_LAST_CLUTCH, S_CLUTCH_NOW = S_GIVEN + I_CLUTCH, S_REACHED + I_CLUTCH
+S_LAST_PRESSURE = S_REACHED + I_PRESSURE
+NSTATE = S_REACHED + NINP
 
 # Work: what holds during one interval of a step, then the vectors of the integrator.
 (
@@ -187,7 +187,8 @@ W_NEW = W_Y + N_Y
 W_STAGE = W_NEW + N_Y
 W_SLOPES = W_STAGE + N_Y
 N_STAGES = 7
-W_ENGINE_RATE = W_SLOPES + N_STAGES * N_Y  # of the engine torque from outside
+W_TAKEN = W_SLOPES + N_STAGES * N_Y  # the inputs as the step takes them, then their rates
+W_ENGINE_RATE = W_TAKEN + 2 * NINP  # of the engine torque from outside
 NWORK = W_ENGINE_RATE + 1
 
 # Real outputs, in the order of SPEC.outputs.

@@ -27,6 +27,9 @@ NRATES = NINP
 ADVISED_SHARE = 0.01  # of the largest torque: what that of a slipping pack may be off by
 derive, broken_rule, sens = dynamics.derive, dynamics.broken_rule, directional_derivative
 
+SHORT = 0.5  # last steps: a shorter step takes changed inputs in part
+AHEAD = 50.0  # last steps that capacities go on changing for, at most
+
 
 @kernel
 def start_speeds(par: Array) -> tuple[float, float]:
@@ -61,46 +64,76 @@ def begin(par: Array, inp: Array, state: Array, work: Array) -> None:
 
 
 @kernel
-def take_torques(par: Array, inp: Array, work: Array, s: float) -> None:
+def take_torques(par: Array, taken: Array, work: Array, s: float) -> None:
     """Take the torques that hold over a step as they are ``s`` seconds into it."""
     r = par[L.D_RATIO]
-    work[L.W_LOAD_GIVEN] = value_at(inp, L.NINP, L.I_LOAD, s)
-    work[L.W_WASHERS] = par[L.P_WASHERS] * abs(value_at(inp, L.NINP, L.I_WASHER, s))
-    ring = par[L.D_RING_MESHES] * abs(value_at(inp, L.NINP, L.I_RING_MESH, s))
-    work[L.W_MESHES] = par[L.D_MESHES] * abs(value_at(inp, L.NINP, L.I_MESH, s)) + ring
+    work[L.W_LOAD_GIVEN] = value_at(taken, L.NINP, L.I_LOAD, s)
+    work[L.W_WASHERS] = par[L.P_WASHERS] * abs(value_at(taken, L.NINP, L.I_WASHER, s))
+    ring = par[L.D_RING_MESHES] * abs(value_at(taken, L.NINP, L.I_RING_MESH, s))
+    work[L.W_MESHES] = par[L.D_MESHES] * abs(value_at(taken, L.NINP, L.I_MESH, s)) + ring
     drag = (work[L.W_WASHERS] + work[L.W_MESHES]) * par[L.D_SPIN]
     work[L.W_DRAG] = drag * r / (1.0 + r)
     for k in range(2):
-        given = value_at(inp, L.NINP, L.I_CLUTCH + k, s)
-        taken = par[L.P_COUPLING] == L.TORQUE_COUPLING
-        work[np.uintp(L.W_CLUTCH_GIVEN + k)] = given if taken else 0.0
+        given = value_at(taken, L.NINP, L.I_CLUTCH + k, s)
+        work[np.uintp(L.W_CLUTCH_GIVEN + k)] = 0.0
+        if par[L.P_COUPLING] == L.TORQUE_COUPLING:
+            work[np.uintp(L.W_CLUTCH_GIVEN + k)] = given
+
+
+def take(inp: Array, state: Array, taken: Array, dt: float) -> None:
+    """Fill the inputs as the step takes them: as given, or on the way there in a short step.
+
+    A step of at least half the last one takes the inputs as given. Shorter ones go the same way in
+    that time, each a part in proportion to its length: what changes in a step then vanishes with
+    the step, as a master that estimates its error expects. Without a step an input that is still
+    as the last step was given it is what that had reached. An input whose rate is given is taken
+    as it is, with that rate.
+    """
+    share, started = 1.0, state[L.S_STARTED] != 0.0
+    if started and 0.0 < dt < SHORT * state[L.S_SPREAD]:
+        share = dt / (SHORT * state[L.S_SPREAD])
+    for i in range(L.NINP):
+        value, reached = inp[np.uintp(i)], state[np.uintp(L.S_REACHED + i)]
+        rate = rate_of(inp, L.NINP, i)
+        taken[np.uintp(L.NINP + i)] = rate
+        if rate != 0.0:
+            reached = value
+        if started and dt == 0.0 and value == state[np.uintp(L.S_GIVEN + i)]:
+            value = reached
+        elif share < 1.0:
+            value = reached + share * (value - reached)
+        taken[np.uintp(i)] = value
 
 
 @kernel
-def receive(par: Array, inp: Array, state: Array, work: Array, dt: float) -> None:
+def receive(par: Array, inp: Array, taken: Array, state: Array, work: Array, dt: float) -> None:
     """Turn the received torques into capacities over the step, or torques taken as they are.
 
     Capacities arrive once per step and would be up to a step old at its end. They go on changing
     as they did in the last step, from the instant they belong to (``torque_age`` steps ago): the
     error then falls with the square of the step. Where the friction law has a kink the capacity
-    overshoots for one step (a few percent just before lock-up at 1 ms). A capacity whose rate is
+    overshoots for one step (a few percent just before lock-up at 1 ms). After a step much shorter
+    than this one they go on no further than ``AHEAD`` of its lengths. A capacity whose rate is
     given goes on with that rate, from the start of the step.
     """
-    take_torques(par, inp, work, 0.5 * dt)
-    work[L.W_ENGINE_GIVEN] = inp[L.I_ENGINE]
-    work[L.W_ENGINE_RATE] = rate_of(inp, L.NINP, L.I_ENGINE) if dt > 0.0 else 0.0
+    take_torques(par, taken, work, 0.5 * dt)
+    work[L.W_ENGINE_GIVEN] = taken[L.I_ENGINE]
+    work[L.W_ENGINE_RATE] = rate_of(taken, L.NINP, L.I_ENGINE) if dt > 0.0 else 0.0
     for k in range(2):
         start, slope = 0.0, 0.0
-        rate = rate_of(inp, L.NINP, L.I_CLUTCH + k) if dt > 0.0 else 0.0
+        rate = rate_of(taken, L.NINP, L.I_CLUTCH + k) if dt > 0.0 else 0.0
         if par[L.P_COUPLING] != L.TORQUE_COUPLING and rate != 0.0:
-            start, slope = inp[np.uintp(L.I_CLUTCH + k)], rate
+            start, slope = taken[np.uintp(L.I_CLUTCH + k)], rate
         elif par[L.P_COUPLING] != L.TORQUE_COUPLING:
-            start = max(0.0, inp[np.uintp(L.I_CLUTCH + k)])
+            sent = max(0.0, inp[np.uintp(L.I_CLUTCH + k)])
             last = max(0.0, state[np.uintp(L.S_LAST_CLUTCH + k)])
-            if dt == 0.0 and state[L.S_STARTED] != 0.0 and start == last:
+            start = max(0.0, taken[np.uintp(L.I_CLUTCH + k)])
+            if dt == 0.0 and state[L.S_STARTED] != 0.0 and sent == last:
                 start = state[np.uintp(L.S_CLUTCH_NOW + k)]
             elif par[L.P_CAPACITY_EXTRAPOLATION] != 0.0 and state[L.S_STARTED] != 0.0:
-                slope = (start - last) / state[L.S_LAST_DURATION]
+                slope = (sent - last) / state[L.S_SPREAD]
+                if dt > AHEAD * state[L.S_LAST_DURATION]:
+                    slope *= AHEAD * state[L.S_LAST_DURATION] / dt
                 ahead = dt if dt > 0.0 else state[L.S_LAST_DURATION]
                 start += slope * par[L.P_TORQUE_AGE] * ahead
         work[np.uintp(L.W_CLUTCH_START + 2 * k)] = start
@@ -133,15 +166,15 @@ def advise(par: Array, inp: Array, state: Array, work: Array, dt: float) -> floa
 
 
 @kernel
-def press(par: Array, inp: Array, state: Array, work: Array, t: float, dt: float) -> int:
+def press(par: Array, taken: Array, state: Array, work: Array, t: float, dt: float) -> int:
     """Carry both pistons over the step; return a status."""
     status = OK
     if par[L.P_ACTUATION] == L.PRESSURE:
         for k in range(2):
-            after = value_at(inp, L.NINP, L.I_PRESSURE + k, dt)
+            after = value_at(taken, L.NINP, L.I_PRESSURE + k, dt)
             before = state[np.uintp(L.S_LAST_PRESSURE + k)]
-            if state[L.S_STARTED] == 0.0 or rate_of(inp, L.NINP, L.I_PRESSURE + k) != 0.0:
-                before = inp[np.uintp(L.I_PRESSURE + k)]
+            if state[L.S_STARTED] == 0.0 or rate_of(taken, L.NINP, L.I_PRESSURE + k) != 0.0:
+                before = taken[np.uintp(L.I_PRESSURE + k)]
             if state[L.S_STARTED] == 0.0:
                 piston.rest(par, work, k, piston.commanded(par, k, t, t, dt, before, after))
             if dt == 0.0:
@@ -165,25 +198,28 @@ def kinetic_start(par: Array, state: Array, dt: float) -> float:
 
 
 @kernel
-def keep(inp: Array, state: Array, work: Array, start: float, dt: float, power: float) -> None:
+def keep(
+    par: Array, inp: Array, state: Array, work: Array, start: float, dt: float, power: float
+) -> None:
     """Take the result of a step over into the memory."""
     state[L.S_KINETIC_START], state[L.S_BEARING_POWER] = start, power
     state[L.S_STARTED] = 1.0
     copy(work[L.W_Y :], state[L.S_Y : L.S_KINETIC_START])
-    state[L.S_LAST_CLUTCH] = value_at(inp, L.NINP, L.I_CLUTCH, dt)
-    state[L.S_LAST_BRAKE] = value_at(inp, L.NINP, L.I_BRAKE, dt)
     state[L.S_LAST_DURATION] = dt
-    state[L.S_CLUTCH_NOW] = dynamics.capacity(work, 0, dt) + work[L.W_CLUTCH_GIVEN]
-    state[L.S_BRAKE_NOW] = dynamics.capacity(work, 1, dt) + work[L.W_BRAKE_GIVEN]
+    state[L.S_SPREAD] = max(dt, state[L.S_SPREAD] - dt / SHORT)
+    for i in range(L.NINP):
+        state[np.uintp(L.S_GIVEN + i)] = value_at(inp, L.NINP, i, dt)
+        state[np.uintp(L.S_REACHED + i)] = value_at(work[L.W_TAKEN :], L.NINP, i, dt)
+    for k in range(2):
+        now = dynamics.capacity(work, k, dt) + work[np.uintp(L.W_CLUTCH_GIVEN + k)]
+        state[np.uintp(L.S_CLUTCH_NOW + k)] = now
     state[L.S_CLUTCH_MODE], state[L.S_BRAKE_MODE] = work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE]
-    copy(work[L.W_EVENTS :], state[L.S_LOCK_TIME : L.S_LAST_PRESSURE])
-    copy(work[L.W_PISTON :], state[L.S_PISTON :])
-    state[L.S_LAST_PRESSURE] = value_at(inp, L.NINP, L.I_PRESSURE, dt)
-    state[L.S_LAST_BRAKE_PRESSURE] = value_at(inp, L.NINP, L.I_BRAKE_PRESSURE, dt)
+    copy(work[L.W_EVENTS :], state[L.S_LOCK_TIME : L.S_BEARING_POWER])
+    copy(work[L.W_PISTON :], state[L.S_PISTON : L.S_GIVEN])
 
 
 @kernel
-def show_motion(par: Array, inp: Array, work: Array, out: Array, s: float) -> None:
+def show_motion(par: Array, taken: Array, work: Array, out: Array, s: float) -> None:
     """Fill speeds, torques and loads at ``s`` seconds into the step."""
     r = par[L.D_RATIO]
     driven, carrier = work[L.W_Y + L.Y_INPUT], work[L.W_Y + L.Y_CARRIER]
@@ -199,7 +235,7 @@ def show_motion(par: Array, inp: Array, work: Array, out: Array, s: float) -> No
         out[L.O_CLUTCH_LOAD] = piston.force(par, work, 0, drum)
         out[L.O_BRAKE_LOAD] = piston.force(par, work, 1, drum)
     else:
-        command = value_at(inp, L.NINP, L.I_COMMAND, s)
+        command = value_at(taken, L.NINP, L.I_COMMAND, s)
         out[L.O_CLUTCH_LOAD] = command * par[L.P_CLUTCH_FORCE]
         out[L.O_BRAKE_LOAD] = (1.0 - command) * par[L.P_BRAKE_FORCE]
     spin = par[L.D_SPIN] * (driven - carrier)
@@ -303,12 +339,14 @@ def step(
         iout[L.IO_STATUS] = BAD_INPUT
         return BAD_INPUT
     begin(par, inp, state, work)
-    receive(par, inp, state, work, dt)
-    pressed = press(par, inp, state, work, t, dt)
+    taken = work[L.W_TAKEN :]
+    take(inp, state, taken, dt)
+    receive(par, inp, taken, state, work, dt)
+    pressed = press(par, taken, state, work, t, dt)
     status = run(par, work, t, dt, state[L.S_STARTED] != 0.0 and dt > 0.0)
     start = kinetic_start(par, state, dt)
-    take_torques(par, inp, work, dt)
-    show_motion(par, inp, work, out, dt)
+    take_torques(par, taken, work, dt)
+    show_motion(par, taken, work, out, dt)
     show_energy(par, start, work, out)
     power = mean_bearing_power(par, state, work, dt)
     out[L.O_BEARING_POWER] = power

@@ -188,8 +188,8 @@ W_STAGE = W_NEW + N_Y
 W_SLOPES = W_STAGE + N_Y
 N_STAGES = 7
 W_TAKEN = W_SLOPES + N_STAGES * N_Y  # the inputs as the step takes them, then their rates
-W_ENGINE_RATE = W_TAKEN + 2 * NINP  # of the engine torque from outside
-NWORK = W_ENGINE_RATE + 1
+W_ENGINE_RATE = W_TAKEN + NINP + I_ENGINE
+NWORK = W_TAKEN + 2 * NINP
 
 # Real outputs, in the order of SPEC.outputs.
 (

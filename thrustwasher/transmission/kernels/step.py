@@ -64,6 +64,29 @@ def begin(par: Array, inp: Array, state: Array, work: Array) -> None:
 
 
 @kernel
+def take(inp: Array, state: Array, taken: Array, dt: float) -> None:
+    """Fill the inputs as the step takes them: as given, or on the way there in a short step.
+
+    A step of at least half the last one takes the inputs as given. Shorter ones go the same way in
+    that time, each a part in proportion to its length: what changes in a step then vanishes with
+    the step, as a master that estimates its error expects. Without a step an input that is still
+    as the last step was given it is what that had reached. One with a rate is as given; the rates
+    lie behind.
+    """
+    share, started = 1.0, state[L.S_STARTED] != 0.0
+    if started and 0.0 < dt < SHORT * state[L.S_SPREAD]:
+        share = dt / (SHORT * state[L.S_SPREAD])
+    for i in range(L.NINP):
+        value, reached = inp[np.uintp(i)], state[np.uintp(L.S_REACHED + i)]
+        if started and dt == 0.0 and value == state[np.uintp(L.S_GIVEN + i)]:
+            value = reached
+        rate = rate_of(inp, L.NINP, i) if dt > 0.0 else 0.0
+        if share < 1.0 and rate == 0.0:
+            value = reached + share * (value - reached)
+        taken[np.uintp(i)], taken[np.uintp(L.NINP + i)] = value, rate
+
+
+@kernel
 def take_torques(par: Array, taken: Array, work: Array, s: float) -> None:
     """Take the torques that hold over a step as they are ``s`` seconds into it."""
     r = par[L.D_RATIO]
@@ -75,34 +98,8 @@ def take_torques(par: Array, taken: Array, work: Array, s: float) -> None:
     work[L.W_DRAG] = drag * r / (1.0 + r)
     for k in range(2):
         given = value_at(taken, L.NINP, L.I_CLUTCH + k, s)
-        work[np.uintp(L.W_CLUTCH_GIVEN + k)] = 0.0
-        if par[L.P_COUPLING] == L.TORQUE_COUPLING:
-            work[np.uintp(L.W_CLUTCH_GIVEN + k)] = given
-
-
-def take(inp: Array, state: Array, taken: Array, dt: float) -> None:
-    """Fill the inputs as the step takes them: as given, or on the way there in a short step.
-
-    A step of at least half the last one takes the inputs as given. Shorter ones go the same way in
-    that time, each a part in proportion to its length: what changes in a step then vanishes with
-    the step, as a master that estimates its error expects. Without a step an input that is still
-    as the last step was given it is what that had reached. An input whose rate is given is taken
-    as it is, with that rate.
-    """
-    share, started = 1.0, state[L.S_STARTED] != 0.0
-    if started and 0.0 < dt < SHORT * state[L.S_SPREAD]:
-        share = dt / (SHORT * state[L.S_SPREAD])
-    for i in range(L.NINP):
-        value, reached = inp[np.uintp(i)], state[np.uintp(L.S_REACHED + i)]
-        rate = rate_of(inp, L.NINP, i)
-        taken[np.uintp(L.NINP + i)] = rate
-        if rate != 0.0:
-            reached = value
-        if started and dt == 0.0 and value == state[np.uintp(L.S_GIVEN + i)]:
-            value = reached
-        elif share < 1.0:
-            value = reached + share * (value - reached)
-        taken[np.uintp(i)] = value
+        as_given = par[L.P_COUPLING] == L.TORQUE_COUPLING
+        work[np.uintp(L.W_CLUTCH_GIVEN + k)] = given if as_given else 0.0
 
 
 @kernel
@@ -113,15 +110,14 @@ def receive(par: Array, inp: Array, taken: Array, state: Array, work: Array, dt:
     as they did in the last step, from the instant they belong to (``torque_age`` steps ago): the
     error then falls with the square of the step. Where the friction law has a kink the capacity
     overshoots for one step (a few percent just before lock-up at 1 ms). After a step much shorter
-    than this one they go on no further than ``AHEAD`` of its lengths. A capacity whose rate is
-    given goes on with that rate, from the start of the step.
+    than this one they go on no further than ``AHEAD`` of its lengths. A capacity with a rate goes
+    on with that rate, from the start of the step.
     """
     take_torques(par, taken, work, 0.5 * dt)
     work[L.W_ENGINE_GIVEN] = taken[L.I_ENGINE]
-    work[L.W_ENGINE_RATE] = rate_of(taken, L.NINP, L.I_ENGINE) if dt > 0.0 else 0.0
     for k in range(2):
         start, slope = 0.0, 0.0
-        rate = rate_of(taken, L.NINP, L.I_CLUTCH + k) if dt > 0.0 else 0.0
+        rate = rate_of(taken, L.NINP, L.I_CLUTCH + k)
         if par[L.P_COUPLING] != L.TORQUE_COUPLING and rate != 0.0:
             start, slope = taken[np.uintp(L.I_CLUTCH + k)], rate
         elif par[L.P_COUPLING] != L.TORQUE_COUPLING:
@@ -207,12 +203,12 @@ def keep(
     copy(work[L.W_Y :], state[L.S_Y : L.S_KINETIC_START])
     state[L.S_LAST_DURATION] = dt
     state[L.S_SPREAD] = max(dt, state[L.S_SPREAD] - dt / SHORT)
-    for i in range(L.NINP):
+    for i in range(L.NINP):  # as they are at the end
         state[np.uintp(L.S_GIVEN + i)] = value_at(inp, L.NINP, i, dt)
         state[np.uintp(L.S_REACHED + i)] = value_at(work[L.W_TAKEN :], L.NINP, i, dt)
-    for k in range(2):
-        now = dynamics.capacity(work, k, dt) + work[np.uintp(L.W_CLUTCH_GIVEN + k)]
-        state[np.uintp(L.S_CLUTCH_NOW + k)] = now
+    if par[L.P_COUPLING] != L.TORQUE_COUPLING:
+        for k in range(2):
+            state[np.uintp(L.S_CLUTCH_NOW + k)] = dynamics.capacity(work, k, dt)
     state[L.S_CLUTCH_MODE], state[L.S_BRAKE_MODE] = work[L.W_CLUTCH_MODE], work[L.W_BRAKE_MODE]
     copy(work[L.W_EVENTS :], state[L.S_LOCK_TIME : L.S_BEARING_POWER])
     copy(work[L.W_PISTON :], state[L.S_PISTON : L.S_GIVEN])
@@ -356,7 +352,7 @@ def step(
     if status == OK and not _is_finite(work, out, dt):
         status = NOT_FINITE
     if status == OK and dt > 0.0:
-        keep(inp, state, work, start, dt, power)
+        keep(par, inp, state, work, start, dt, power)
         state[L.S_ADVISED] = out[L.O_ADVISED]
     clutch_holds = dynamics.capacity(work, 0, dt) > 0.0
     iout[L.IO_CLUTCH_LOCKED] = 1 if work[L.W_CLUTCH_MODE] == 0.0 and clutch_holds else 0

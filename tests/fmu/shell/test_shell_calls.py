@@ -123,13 +123,8 @@ def test_a_description_of_another_build_is_refused_and_both_are_named(fmi, guid)
         (
             3,
             "i",
-<<<<<<< ours
             "inner_radius is required between communication points, allowed: outputs and "
             "Float64 inputs",
-=======
-            "inner_radius is required between communication points, allowed: Float64 inputs "
-            "and outputs",
->>>>>>> theirs
         ),
         (3, "n", "intermediateUpdate is NULL"),
     ],

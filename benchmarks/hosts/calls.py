@@ -63,6 +63,17 @@ class Bench:
         package = self.folder / PACKAGES[fmi]
         return package if package.exists() else None
 
+    def plain_package(self, fmi: int) -> Path:
+        """Return a package of the shift without values and outputs of its own."""
+        target = self.scratch / f"plain-{PACKAGES[fmi]}"
+        with zipfile.ZipFile(self.folder / PACKAGES[fmi]) as given:
+            kept = {name: given.read(name) for name in given.namelist()}
+        kept["SystemStructure.ssd"] = kept.pop("Parts.ssd")
+        with zipfile.ZipFile(target, "w") as made:
+            for name, content in kept.items():
+                made.writestr(name, content)
+        return target
+
     def inputs(self, fmu: Path) -> str:
         """Return the file with the inputs of the FMU's reference results; '' if it has none."""
         target = self.scratch / f"{fmu.parent.name}-{fmu.stem}-in.csv"
@@ -115,6 +126,12 @@ def number(text: str | None) -> bool:
         return text is not None and float(text) == float(text)
     except ValueError:
         return False
+
+
+def experiment(fmu: Path) -> tuple[float, float]:
+    """Return step and stop time [s] of the FMU's default experiment."""
+    found = read_model_description(str(fmu)).defaultExperiment
+    return float(found.stepSize), float(found.stopTime)
 
 
 def nominals(fmu: Path) -> dict[str, float]:

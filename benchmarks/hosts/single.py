@@ -1,0 +1,93 @@
+"""One FMU in a host with a package for Python: inputs from a table, outputs into one.
+
+python single.py {fmpy,fmpy-events,fmuloader,pyfmi} FMU INPUTS.csv STEP STOP OUTPUTS.csv, run by
+the Python that has the host's package (run.py does so). Prints a line of JSON with the version.
+"""
+
+import json
+import sys
+from importlib import metadata
+from typing import Any
+
+import numpy as np
+
+# names, then one row of their values per point of time
+Table = tuple[list[str], Any]
+
+
+def fmpy(fmu: str, inputs: str, step: float, stop: float, **events: bool) -> Table:
+    from fmpy import simulate_fmu
+    from fmpy.util import read_csv
+
+    given = {"input": read_csv(inputs), "output_interval": step, "step_size": step}
+    found = simulate_fmu(fmu, stop_time=stop, **given, **events)
+    names = list(found.dtype.names)
+    return names, np.column_stack([found[name].astype(float) for name in names])
+
+
+def fmpy_events(fmu: str, inputs: str, step: float, stop: float) -> Table:
+    return fmpy(fmu, inputs, step, stop, early_return_allowed=True, use_event_mode=True)
+
+
+def pyfmi(fmu: str, inputs: str, step: float, stop: float) -> Table:
+    from pyfmi import load_fmu
+
+    model = load_fmu(fmu, log_level=2)
+    table = np.genfromtxt(inputs, delimiter=",", names=True)
+    names = list(table.dtype.names or ())
+    given = (names[1:], np.column_stack([table[name] for name in names]))
+    options = {"ncp": round(stop / step), "result_handling": "memory"}
+    found = model.simulate(0.0, stop, input=given, options=options)
+    outputs = ["time", *model.get_output_list()]
+    return outputs, np.column_stack([np.asarray(found[name], float) for name in outputs])
+
+
+def fmuloader(fmu: str, inputs: str, step: float, stop: float) -> Table:
+    """Step with fmuloader's bindings; it has no loop of its own."""
+    from fmpy import read_model_description
+    from fmuloader.fmi2 import Fmi2Slave, Fmi2Type
+    from fmuloader.fmi3 import Fmi3Slave
+
+    known = read_model_description(fmu)
+    variables, model = known.modelVariables, known.coSimulation.modelIdentifier
+    reals = [v for v in variables if v.type in ("Real", "Float64")]
+    knobs = {v.name: v.valueReference for v in reals if v.causality == "input"}
+    shown = [v for v in reals if v.causality == "output"]
+    table = np.genfromtxt(inputs, delimiter=",", names=True)
+    steps = round(stop / step)
+    rows = []
+    with (Fmi2Slave if known.fmiVersion == "2.0" else Fmi3Slave)(fmu, model_identifier=model) as it:
+        if known.fmiVersion == "2.0":
+            it.instantiate(model, Fmi2Type.CO_SIMULATION, guid=known.guid)
+            it.setup_experiment(0.0)
+            get, put = it.get_real, it.set_real
+        else:
+            it.instantiate_co_simulation(model, instantiation_token=known.guid)
+            get, put = it.get_float64, it.set_float64
+        it.enter_initialization_mode()
+        for k in range(steps + 1):
+            at = [float(np.interp(k * step, table["time"], table[name])) for name in knobs]
+            put(list(knobs.values()), at)
+            if k == 0:
+                it.exit_initialization_mode()
+                rows.append([0.0, *get([v.valueReference for v in shown])])
+            if k < steps:
+                it.do_step(k * step, step)
+                rows.append([(k + 1) * step, *get([v.valueReference for v in shown])])
+        it.terminate()
+    return ["time", *(v.name for v in shown)], rows
+
+
+HOSTS = {
+    "fmpy": (fmpy, "fmpy"),
+    "fmpy-events": (fmpy_events, "fmpy"),
+    "fmuloader": (fmuloader, "fmuloader"),
+    "pyfmi": (pyfmi, "pyfmi"),
+}
+
+if __name__ == "__main__":
+    run, distribution = HOSTS[sys.argv[1]]
+    fmu, inputs, step, stop, target = sys.argv[2:]
+    names, rows = run(fmu, inputs, float(step), float(stop))
+    np.savetxt(target, rows, "%.17g", ",", header=",".join(names), comments="")
+    print(json.dumps({"version": metadata.version(distribution)}))

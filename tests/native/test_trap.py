@@ -51,7 +51,7 @@ COMPILER |= {"_ITM_deregisterTMCloneTable", "_ITM_registerTMCloneTable"}
 HEADERS = Path(fmpy.__file__).parent / "c-code"
 # Bytes of stack that steps may take, failed ones and their messages among them.
 STACK = 16 * 1024
-WASHER_STACK = {"washer-map": 56 * 1024, "washer-field": 56 * 1024, "washer-fine": 56 * 1024}
+WASHER_STACK = 64 * 1024  # in the library, whose compiled kernels have large frames
 IN_SHORT = {"sump-lumped"}  # the rest of the C sources takes a minute to write and compile
 IN_C = [
     pytest.param(*r, id=i, marks=() if i in IN_SHORT else pytest.mark.slow)
@@ -148,7 +148,7 @@ def test_steps_in_other_ways_call_for_nothing(host, name, also, n):
 def test_a_step_takes_little_stack(host, spec, rung, n):
     """The washer's kernel alone has a frame of 25 kB in the library."""
     at_start, in_steps = map(int, walked(host, spec, rung, n)["stack"])
-    most = WASHER_STACK.get(f"{spec.key}-{rung}", STACK)
+    most = WASHER_STACK if spec.key == "washer" else STACK
     assert 0 < at_start <= most and 0 < in_steps <= most
 
 

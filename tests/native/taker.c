@@ -1,4 +1,4 @@
-/* What an FMU must not do: each step takes memory and gives it back. */
+/* What an FMU must not do: each step takes memory and gives it back, and writes far down the stack. */
 #include <stdlib.h>
 
 #include "fmi2Functions.h"
@@ -22,6 +22,8 @@ void fmi2FreeInstance(fmi2Component c) { (void)c; }
 
 fmi2Status fmi2DoStep(fmi2Component c, fmi2Real t, fmi2Real h, fmi2Boolean n) {
     (void)c, (void)t, (void)h, (void)n;
+    volatile char deep[20000];
+    deep[0] = 1;
     void *volatile taken = malloc(8);
     free(taken);
     return fmi2OK;

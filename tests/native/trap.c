@@ -4,7 +4,8 @@
    from standard input: LIBRARY GUID RESOURCES; how many inputs, then REFERENCE LOW HIGH LEAST MOST of
    each, the range to walk in and the allowed one; how many parameters, then KIND (r, i, b) REFERENCE
    VALUE; how many Real outputs, then the references; how many steps. One input in fifty is hostile:
-   NaN, infinite, huge, zero, or an end of the allowed range. Prints what was trapped, and counts. */
+   NaN, infinite, huge, zero, or an end of the allowed range. Prints what was trapped, counts, and
+   the stack [bytes] that initialization and steps took: they run on a painted stack of their own. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <math.h>
@@ -15,6 +16,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <ucontext.h>
 
 #include "fmi2Functions.h"
 
@@ -101,11 +103,70 @@ static int are_finite(const double *x, unsigned n) {
     return good;
 }
 
-#define TAKE(name) fmi2##name##TYPE *name; *(void **)&name = dlsym(library, "fmi2" #name)
+/* The calls of a step, or of an initialization, on a stack that shows how deep it was written to. */
+enum { ROOM = 1 << 20, PAINT = 0xa5 };
+static unsigned char stack[ROOM] __attribute__((aligned(64)));
+static unsigned char *base; /* where the frame of the call's caller ends */
+static ucontext_t here, there;
+static void (*called)(void);
+
+static void run(void) {
+    base = __builtin_frame_address(0);
+    called();
+}
+
+static void on_stack(void (*calls)(void)) {
+    called = calls;
+    getcontext(&there);
+    there.uc_stack.ss_sp = stack;
+    there.uc_stack.ss_size = sizeof stack;
+    there.uc_link = &here;
+    makecontext(&there, run, 0);
+    swapcontext(&here, &there);
+}
+
+static void paint(void) { memset(stack, PAINT, sizeof stack); }
+
+static long depth(void) {
+    const unsigned char *p = stack;
+    while (p < base && *p == PAINT) p++;
+    return base - p;
+}
+
+#define TAKE(name) *(void **)&name = dlsym(library, "fmi2" #name)
+static fmi2InstantiateTYPE *Instantiate;
+static fmi2SetupExperimentTYPE *SetupExperiment;
+static fmi2EnterInitializationModeTYPE *EnterInitializationMode;
+static fmi2ExitInitializationModeTYPE *ExitInitializationMode;
+static fmi2SetRealTYPE *SetReal;
+static fmi2SetIntegerTYPE *SetInteger;
+static fmi2SetBooleanTYPE *SetBoolean;
+static fmi2GetRealTYPE *GetReal;
+static fmi2DoStepTYPE *DoStep;
+static fmi2GetFMUstateTYPE *GetFMUstate;
+static fmi2SetFMUstateTYPE *SetFMUstate;
+static fmi2GetDirectionalDerivativeTYPE *GetDirectionalDerivative;
+static fmi2FreeInstanceTYPE *FreeInstance;
+static fmi2Component c;
+static double x[MOST], before[MOST], after[MOST], t, h;
+static int is_set, known, rc, shown;
+
+static void initialize(void) {
+    SetupExperiment(c, 0, 0.0, 0.0, 0, 0.0);
+    EnterInitializationMode(c);
+    SetReal(c, in.reference, in.n, x);
+    rc = ExitInitializationMode(c);
+}
+
+static void step(void) {
+    is_set = SetReal(c, in.reference, in.n, x) <= fmi2Warning;
+    known = GetReal(c, out.reference, out.n, before) <= fmi2Warning;
+    rc = DoStep(c, t, h, fmi2True);
+    shown = GetReal(c, out.reference, out.n, after) <= fmi2Warning;
+}
 
 int main(void) {
     static char file[4096], guid[64], resources[4096];
-    static double x[MOST], before[MOST], after[MOST];
     long steps, failed = 0, not_finite = 0, moved = 0, refused = 0;
     if (scanf("%4095s %63s %4095s", file, guid, resources) != 3) return 9;
     if (scanf("%u", &in.n) != 1) return 9;
@@ -128,7 +189,7 @@ int main(void) {
     TAKE(ExitInitializationMode); TAKE(SetInteger); TAKE(SetBoolean); TAKE(GetReal); TAKE(DoStep);
     TAKE(GetFMUstate); TAKE(SetFMUstate); TAKE(GetDirectionalDerivative); TAKE(FreeInstance);
     const fmi2CallbackFunctions callbacks = {logger, calloc, free, NULL, NULL};
-    fmi2Component c = Instantiate("trap", fmi2CoSimulation, guid, resources, &callbacks, 0, 1);
+    c = Instantiate("trap", fmi2CoSimulation, guid, resources, &callbacks, 0, 1);
     if (!c) return 9;
     for (unsigned i = 0; i < par.n; i++) {
         const int whole = (int)par.a[i];
@@ -137,13 +198,13 @@ int main(void) {
         if (kind[i] == 'b') SetBoolean(c, &par.reference[i], 1, &whole);
     }
     for (unsigned i = 0; i < in.n; i++) x[i] = 0.5 * (in.a[i] + in.b[i]);
-    SetupExperiment(c, 0, 0.0, 0.0, 0, 0.0);
-    EnterInitializationMode(c);
-    SetReal(c, in.reference, in.n, x);
-    if (ExitInitializationMode(c) > fmi2Warning) return puts("no start"), 9;
+    paint();
+    on_stack(initialize);
+    if (rc > fmi2Warning) return puts("no start"), 9;
+    const long at_start = depth();
+    paint();
     fmi2FMUstate state = NULL;
     GetFMUstate(c, &state);
-    double t = 0.0;
     const double one = 1.0;
 
     armed = 1;
@@ -154,13 +215,11 @@ int main(void) {
         const int i = in.n ? (int)(uniform() * in.n) : 0, bad = in.n && (k == 7 || uniform() < 0.02);
         const double good = x[i];
         if (bad) x[i] = hostile((unsigned)i);
-        refused += SetReal(c, in.reference, in.n, x) > fmi2Warning;
-        const int known = GetReal(c, out.reference, out.n, before) <= fmi2Warning;
-        double h = 1e-4 * pow(100.0, uniform());
+        h = 1e-4 * pow(100.0, uniform());
         if (uniform() < 0.005) h = hostile(0);
         if (k == 5) h = -1.0; /* one failure at least */
-        const int rc = DoStep(c, t, h, fmi2True);
-        const int shown = GetReal(c, out.reference, out.n, after) <= fmi2Warning;
+        on_stack(step);
+        refused += !is_set;
         if (rc <= fmi2Warning) t += h;
         failed += rc > fmi2Warning;
         not_finite += shown && !are_finite(after, out.n);
@@ -176,7 +235,8 @@ int main(void) {
     }
     armed = 0;
     FreeInstance(c);
-    printf("trapped %ld %s\nfailed %ld\nnot_finite %ld\nmoved %ld\nrefused %ld\nmessages %ld\n",
-           n_trapped, trapped, failed, not_finite, moved, refused, n_messages);
+    printf("trapped %ld %s\nfailed %ld\nnot_finite %ld\nmoved %ld\nrefused %ld\nmessages %ld\n"
+           "stack %ld %ld\n",
+           n_trapped, trapped, failed, not_finite, moved, refused, n_messages, at_start, depth());
     return 0;
 }

@@ -27,7 +27,7 @@ NRATES = NINP
 ADVISED_SHARE = 0.01  # of the largest torque: what that of a slipping pack may be off by
 derive, broken_rule, sens = dynamics.derive, dynamics.broken_rule, directional_derivative
 
-SHORT = 0.5  # last steps: a shorter step takes changed inputs in part
+SHORT = 1e-3  # last steps: a step shorter than this takes changed inputs in part
 AHEAD = 50.0  # last steps that capacities go on changing for, at most
 
 

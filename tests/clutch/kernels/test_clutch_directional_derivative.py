@@ -7,7 +7,6 @@ from thrustwasher.clutch.kernels import layout as L
 from thrustwasher.clutch.kernels import rosenbrock, rosenbrock_derivatives
 from thrustwasher.clutch.kernels import step as k
 from thrustwasher.clutch.kernels.advance import load_memory
-from thrustwasher.clutch.kernels.film_unknown import begin_film, end_film, is_pressed
 from thrustwasher.clutch.kernels.rates import n_unknowns
 from thrustwasher.clutch.parameters import FRICTION_LAWS, SPEC, ClutchParams
 from thrustwasher.clutch.solve import prepare
@@ -130,14 +129,12 @@ def passed(unit, point, sizes, seed):
         inputs[3],
     )
     work[L.W_VARIED : L.W_VARIED + L.NY] = 0.0
-    begin_film(par, is_pressed(par, state[L.S_LOAD]), work)
     done = 0.0
     for share in sizes:
         rosenbrock.substep(par, course, done, share, state[L.S_DURATION], work)
         rosenbrock_derivatives.follow(par, course, seed, done, share, state[L.S_DURATION], work)
         work[: L.NY] = work[L.W_TRIAL : L.W_TRIAL + L.NY]
         done += share
-    end_film(work, True)
     counted = [L.Y_FILM, *range(L.Y_HEAT, n_unknowns(par))]
     return work[counted], work[L.W_VARIED + np.array(counted)]
 

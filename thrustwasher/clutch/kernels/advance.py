@@ -10,11 +10,10 @@ from ...numerics.jit import Array, kernel
 from ...numerics.status import MAX_ITERATIONS, OK
 from ...tribology.lumped_body import exponential_weights
 from . import layout as L
-from .film_unknown import begin_film, end_film, is_pressed
 from .pack_friction import coefficient_slopes, settled_slope
 from .rates import moves_film, n_unknowns, settled_cooling, surfaces
 from .rosenbrock import Ramp, attempt
-from .rosenbrock_derivatives import Change, follow, jump
+from .rosenbrock_derivatives import Change, follow
 
 MAX_SUBSTEPS = 20_000
 LEAST_SHARE = 1e-13  # of the time gone by: no smaller substeps
@@ -157,15 +156,13 @@ def integrate(
     work : unknowns at W_NOW in and out; the numbers of substeps and the next size to try out
     """
     n = n_unknowns(par)
-    pressed, end = first_stretch(par, ramp)
     done, refused = 0.0, 0.0
     share = min(1.0, first / duration) if first > 0.0 else 1.0
     work[L.W_PROPOSED] = duration
     if follows:
         clear(work[L.W_VARIED : L.W_VARIED + n])
-    begin_film(par, pressed, work)
     for count in range(MAX_SUBSTEPS):
-        remaining = end - done
+        remaining = 1.0 - done
         least = LEAST_SHARE * done + FIRST_SHARE
         closing = share >= remaining * (1.0 - 1e-9)
         if closing:
@@ -180,34 +177,13 @@ def integrate(
             done += share
             proposed = share * factor * duration
             if closing:
-                # a stretch's last substep may be a crumb: it says nothing about the next one
-                proposed = max(work[L.W_PROPOSED], proposed) if count > 0 else proposed
+                # an interval's last substep may be a crumb: it says nothing about the next one
+                work[L.W_PROPOSED] = max(work[L.W_PROPOSED], proposed) if count > 0 else proposed
+                work[L.W_SUBSTEPS] = float(count + 1) - refused
+                work[L.W_REFUSED] = refused
+                return OK
             work[L.W_PROPOSED] = proposed
-            if closing:
-                end_film(work, follows)
-                if end >= 1.0:
-                    work[L.W_SUBSTEPS] = float(count + 1) - refused
-                    work[L.W_REFUSED] = refused
-                    return OK
-                if follows and moves_film(par):
-                    by = jump(par, ramp, change[0], end, duration, work)
-                    work[np.uintp(L.W_VARIED + L.Y_FILM)] += by
-                begin_film(par, not pressed, work)
-                done, end, factor, share = end, 1.0, 1.0, proposed / duration
         else:
             refused += 1.0
         share = max(share * factor, least)
     return MAX_ITERATIONS
-
-
-@kernel
-def first_stretch(par: Array, ramp: Ramp) -> tuple[bool, float]:
-    """Return if a pack is pressed at the start of an interval, and the share where that changes."""
-    limit = L.OPEN_PRESSURE * par[L.D_AREA]
-    before, after = is_pressed(par, ramp[0]), is_pressed(par, ramp[3])
-    if before == after:
-        return before, 1.0
-    x = (limit - ramp[0]) / (ramp[3] - ramp[0])
-    if not x > 0.0:
-        return after, 1.0
-    return before, min(x, 1.0)

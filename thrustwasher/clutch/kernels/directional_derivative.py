@@ -17,7 +17,6 @@ from ...numerics.status import NOT_FINITE, OK
 from ...tribology.lumped_body import exponential_weights
 from . import layout as L
 from .advance import integrate, is_integrated, load_memory, settle, settle_film
-from .film_unknown import end_film
 from .pack_friction import coefficient_slopes
 from .pack_outputs import ring_outputs
 from .rates import n_unknowns, settled_cooling, surfaces
@@ -77,7 +76,6 @@ def followed(par: Array, inp: Array, state: Array, work: Array, seed: Array) -> 
             clear(work[L.W_VARIED : L.W_VARIED + n])
             follow(par, ramp, change, 0.0, 1.0, duration, work)
             copy(work[L.W_TRIAL :], work[L.W_NOW : L.W_NOW + n])
-            end_film(work, True)
         else:
             first = state[L.S_SUBSTEP]
             status = integrate(par, ramp, change, duration, first, True, work)

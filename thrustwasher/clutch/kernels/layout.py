@@ -136,7 +136,6 @@ W_DURATION = W_SUBSTEPS + 3  # the step [s] that all this belongs to
 # Slope of the film ratio over the load where it settles with it; how well a face is cooled
 # [W/(m2 K)].
 W_SETTLED_LOAD, W_COOLING = W_SUBSTEPS + 4, W_SUBSTEPS + 5
-W_PRESSED = W_SUBSTEPS + 6  # 1: a film is squeezed, its unknown is that of ``film_of``; else 0
 # Rates and their slopes at a point: film rate, its slopes over film ratio and load; then for each
 # ring the power of a face [W], its slopes over film ratio, temperature, load of the pack, slip and
 # drum speed, the slope of the film rate over the ring's temperature, the cooling of a face [W/K],
@@ -159,7 +158,7 @@ R_RATE, R_RATE_U, R_RATE_F, R_RINGS = range(4)
 N_RATES = R_RINGS + MAX_RINGS * N_OF_RING
 # They are kept for each stage of the last substep, for where the drift of the rates was read, for a
 # neighbouring state, and as changes of the slopes.
-W_KEPT = W_SUBSTEPS + 7
+W_KEPT = W_SUBSTEPS + 6
 DRIFTED, NEIGHBOUR, BENT = N_STAGES, N_STAGES + 1, N_STAGES + 2
 W_NEIGHBOUR, W_BENT = W_KEPT + NEIGHBOUR * N_RATES, W_KEPT + BENT * N_RATES
 W_VARIED = W_KEPT + (BENT + 1) * N_RATES  # changes of the unknowns with the inputs

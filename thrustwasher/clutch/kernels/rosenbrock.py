@@ -16,8 +16,7 @@ from ...numerics.arrays import copy
 from ...numerics.jit import Array, kernel
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
-from .film_unknown import film_of, rates_of_unknowns
-from .rates import kept_of, n_unknowns, ring_of, surfaces
+from .rates import kept_of, n_unknowns, pack_rates, ring_of, surfaces
 
 Ramp = tuple[float, float, float, float, float, float, float, float]
 GAMMA = 0.25
@@ -67,7 +66,7 @@ def _rates(par: Array, ramp: Ramp, x: float, work: Array, base: int, place: int)
     drum = ramp[6] + (ramp[7] - ramp[6]) * x
     kept = L.W_KEPT + place * L.N_RATES
     surfaces(par, work, base, L.W_SURFACE)
-    rates_of_unknowns(par, load, slip, drum, work[np.uintp(base + L.Y_FILM)], work, kept)
+    pack_rates(par, max(load, 0.0), slip, drum, work[np.uintp(base + L.Y_FILM)], work, kept)
     n, total = 1 + int(par[L.D_MODES]), 0.0
     for k in range(int(par[L.D_RINGS])):
         ring, own, heat = ring_of(par, k), kept_of(work, place, k), L.Y_HEAT + k * n
@@ -200,10 +199,9 @@ def substep(par: Array, ramp: Ramp, x: float, share: float, duration: float, wor
 @kernel
 def _error(par: Array, work: Array, last: int) -> float:
     """Return the error of a substep, its last stage, in units of the tolerance."""
-    u, slope = work[np.uintp(L.W_TRIAL + L.Y_FILM)], 1.0
-    if work[L.W_PRESSED] != 0.0:
-        u, slope, _ = film_of(u)
-    film = work[np.uintp(last + L.Y_FILM)] * slope / (TOLERANCE_FILM * (1.0 + abs(u)))
+    film = work[np.uintp(last + L.Y_FILM)] / (
+        TOLERANCE_FILM * (1.0 + abs(work[np.uintp(L.W_TRIAL + L.Y_FILM)]))
+    )
     n, is_lumped = 1 + int(par[L.D_MODES]), par[L.D_FIRST] == 0.0
     tolerance = TOLERANCE_RISE if is_lumped and n > 1 else TOLERANCE_HEAT
     error = abs(film)

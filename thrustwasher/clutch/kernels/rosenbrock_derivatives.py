@@ -12,7 +12,6 @@ from ...numerics.arrays import clear, copy
 from ...numerics.jit import Array, kernel
 from . import layout as L
 from . import rosenbrock
-from .film_unknown import rates_of_unknowns
 from .rates import kept_of, n_unknowns, pack_rates, ring_of, surfaces
 from .rosenbrock import Ramp, cooled_by_film, factorise, is_moving, solve_stage
 
@@ -66,7 +65,7 @@ def _change_slopes(par: Array, ramp: Ramp, change: Change, x: float, work: Array
     u, film = work[np.uintp(L.W_NOW + L.Y_FILM)], work[np.uintp(L.W_VARIED + L.Y_FILM)]
     surfaces(par, work, L.W_VARIED, L.W_SURFACE_CHANGE)
     size = max(
-        abs(film) / (u if work[L.W_PRESSED] != 0.0 else 1.0 + abs(u)),
+        abs(film) / (1.0 + abs(u)),
         max(
             abs(load_change) / (load + L.OPEN_PRESSURE * par[L.D_AREA]),
             (abs(slip_change) + abs(drum_change)) / (abs(slip) + par[L.P_SPEED_SMOOTHING]),
@@ -82,9 +81,9 @@ def _change_slopes(par: Array, ramp: Ramp, change: Change, x: float, work: Array
         for k in range(int(par[L.D_RINGS])):
             heat = work[np.uintp(L.W_SURFACE_CHANGE + k)]
             work[np.uintp(L.W_SURFACE + k)] += e * heat
-        rates_of_unknowns(
+        pack_rates(
             par,
-            load + e * load_change,
+            max(load + e * load_change, 0.0),
             slip + e * slip_change,
             drum + e * drum_change,
             u + e * film,
@@ -97,29 +96,32 @@ def _change_slopes(par: Array, ramp: Ramp, change: Change, x: float, work: Array
 
 
 @kernel
-def jump(par: Array, ramp: Ramp, change: float, x: float, duration: float, work: Array) -> float:
-    """Return the change of the film ratio because the pack opens or closes at another instant.
-
-    ``change`` of the load at the interval's end [N]; ``x``: share of it where the load passes the
-    limit, the film ratio in W_NOW.
-    """
+def _jump(
+    par: Array, ramp: Ramp, change: float, x: float, share: float, duration: float, work: Array
+) -> float:
+    """Return the change of the film ratio because the pack opens or closes at another instant."""
     limit, rise = L.OPEN_PRESSURE * par[L.D_AREA], ramp[3] - ramp[0]
-    change_of_rate = 0.0
-    surfaces(par, work, L.W_NOW, L.W_SURFACE)
+    before, after = ramp[0] + rise * x, ramp[0] + rise * (x + share)
+    if (before < limit) == (after < limit):
+        return 0.0
+    later = -duration * (limit - ramp[0]) / rise * change / rise
+    slip, jump = ramp[1], 0.0
     for side in range(2):
+        at = x + share * side
+        base = L.W_TRIAL if side == 1 else L.W_NOW
+        surfaces(par, work, base, L.W_SURFACE)
         pack_rates(
             par,
-            limit if side == 0 else limit * (1.0 - 1e-15),
-            ramp[1] + (ramp[4] - ramp[1]) * x,
-            ramp[6] + (ramp[7] - ramp[6]) * x,
-            work[np.uintp(L.W_NOW + L.Y_FILM)],
+            max(ramp[0] + rise * at, 0.0),
+            slip + (ramp[4] - slip) * at,
+            ramp[6] + (ramp[7] - ramp[6]) * at,
+            work[np.uintp(base + L.Y_FILM)],
             work,
             L.W_NEIGHBOUR,
         )
         rate = work[np.uintp(L.W_NEIGHBOUR + L.R_RATE)]
-        change_of_rate += rate if side == 0 else -rate
-    later = -duration * x * change / rise
-    return -change_of_rate * later if rise > 0.0 else change_of_rate * later
+        jump += rate if side == 0 else -rate
+    return jump * later
 
 
 @kernel
@@ -219,8 +221,10 @@ def follow(
         _stage(par, change, x, x + rosenbrock.ALPHA[k] * share, h, k, work)
         solve_stage(par, s, work, L.W_VARIED_STAGES + k * L.NY)
     last = L.N_STAGES - 1
+    jump = _jump(par, ramp, change[0], x, share, duration, work)
     for i in range(n_unknowns(par)):
         value = work[np.uintp(L.W_VARIED_STAGES + last * L.NY + i)]
         for j in range(last):
             value += rosenbrock.A[last, j] * work[np.uintp(L.W_VARIED_STAGES + j * L.NY + i)]
         work[np.uintp(L.W_VARIED + i)] += value
+    work[np.uintp(L.W_VARIED + L.Y_FILM)] += jump

@@ -67,9 +67,9 @@ def begin(par: Array, inp: Array, state: Array, work: Array) -> None:
 def take(inp: Array, state: Array, taken: Array, dt: float) -> None:
     """Fill the inputs as the step takes them: as given, or on the way there in a short step.
 
-    A step of at least half the last one takes the inputs as given. Shorter ones go the same way in
-    that time, each a part in proportion to its length: what changes in a step then vanishes with
-    the step, as a master that estimates its error expects. Without a step an input that is still
+    A step of at least a thousandth of the last one takes the inputs as given. Shorter ones go the
+    same way in that time, each a part in proportion to its length: what changes in a step then
+    vanishes with the step, as a master that estimates its error expects. Without a step an input that is still
     as the last step was given it is what that had reached. One with a rate is as given; the rates
     lie behind.
     """

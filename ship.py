@@ -28,6 +28,7 @@ from thrustwasher.native.library import linked_library
 from thrustwasher.native.objects import Objects, compile_objects, required_for
 from thrustwasher.native.targets import TARGETS, WEB
 
+FOR_BROWSERS = "wasm"  # folder beside the libraries
 LIBRARIES = ("linux64",)  # platforms whose libraries for Python lie in the checkout
 
 
@@ -65,9 +66,10 @@ def ship(kernels: Sequence[str]) -> None:
         index["kernels"][kernel] = about
         list_all(index)
         keep |= {about["objects"]["file"], *(x["file"] for x in about["libraries"].values())}
-    for path in shipped.FOLDER.iterdir():
-        if path.is_file() and path.name not in keep:
-            path.unlink()
+    for folder in (shipped.FOLDER, shipped.FOLDER / FOR_BROWSERS):
+        for path in folder.iterdir():
+            if path.is_file() and path.relative_to(shipped.FOLDER).as_posix() not in keep:
+                path.unlink()
     shipped.read_again()
 
 
@@ -91,10 +93,14 @@ def _write(kernel: str, code: Objects, took: float) -> dict[str, Any]:
 def _write_libraries(
     folder: Path, kernel: str, name: str, code: Objects, platforms: Sequence[str]
 ) -> dict[str, Any]:
-    return {
-        platform: put(folder / f"{name}-{platform}.{TARGETS[platform].extension}", data)
-        for platform, data in libraries(kernel, code, platforms).items()
-    }
+    found = {}
+    for platform, data in libraries(kernel, code, platforms).items():
+        file = f"{name}-{platform}.{TARGETS[platform].extension}"
+        if platform == "wasm32":
+            file = f"{FOR_BROWSERS}/{file}"
+        (folder / file).parent.mkdir(exist_ok=True)
+        found[platform] = {**put(folder / file, data), "file": file}
+    return found
 
 
 def pack(

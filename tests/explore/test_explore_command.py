@@ -22,7 +22,7 @@ each = pytest.mark.parametrize("model", MODELS)
 def test_the_command_writes_a_page(tmp_path, capsys):
     out = tmp_path / "gears.html"
     assert cli.main(["explore", "GearMesh", "--out", str(out)]) == 0
-    assert capsys.readouterr().out.startswith(f"{out}: 0.2")
+    assert capsys.readouterr().out.startswith(f"{out}: 0.3")
     assert out.read_text("utf-8").startswith("<!DOCTYPE html>")
     assert [p.name for p in tmp_path.iterdir()] == ["gears.html"]
 

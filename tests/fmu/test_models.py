@@ -31,8 +31,11 @@ STANDINGS = {
         {"fidelity": "stribeck", "friction_law": "wang", "shear_temperature_slope": 1e-3},
         {"input_course": "linear", "friction_law": "wang", "shear_temperature_slope": 1e-3},
     ],
-    # endurance is the paper's, a safety against micropitting needs its limit
-    "GearMesh": [{"permissible_film_ratio": 0.3}, {"film_heat": "atan", "steel": "AISI4340"}],
+    # endurance is the paper's, a safety against micropitting needs its limit, so does the root's
+    "GearMesh": [
+        {"permissible_film_ratio": 0.3, "root_limit": 430e6},
+        {"film_heat": "atan", "steel": "AISI4340"},
+    ],
 }
 CASES = {"ThrustWasher": 40, "WetClutch": 200, "GearMesh": 100, "ShiftTransmission": 600}
 

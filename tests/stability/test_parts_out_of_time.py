@@ -118,8 +118,13 @@ def test_a_step_to_nowhere_is_refused_and_the_next_one_goes_on(h):
     pack = instances(SCENE)["clutch"]
     pack.initialize(0.0, {"oil_temperature": 297.15})
     pack.step(0.0, 1e-3)
-    before = pack.outputs()[:-1]  # the last one is the status, which tells of the refusal
+    told = pack.output_names.index("solver_status")  # it tells of the refusal
+
+    def shown():
+        return [x for i, x in enumerate(pack.outputs()) if i != told]
+
+    before = shown()
     with pytest.raises(ParameterError, match="step from t"):
         pack.step(1e-3, h)
-    assert pack.outputs()[:-1] == before
+    assert shown() == before
     pack.step(1e-3, 1e-3)

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from dataclasses import fields as dataclass_fields
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -137,6 +138,8 @@ def follow_washer(
     rows, lost = np.empty((len(points), kernel.NOUT)), np.zeros(len(points), bool)
     statuses: list[Status] = []
 
+    shown = {f.name for f in dataclass_fields(WasherCourse)}
+
     def packed(n: int) -> WasherCourse:
         """Return the first points."""
         return WasherCourse(
@@ -148,7 +151,11 @@ def follow_washer(
             grid=run.grid,
             warnings=gone_rung(SPEC, fidelity),
             **{s.name: inputs[:n, k].copy() for k, s in enumerate(SPEC.inputs)},
-            **{name: rows[:n, k].copy() for k, name in enumerate(SPEC.real_outputs)},
+            **{
+                name: rows[:n, k].copy()
+                for k, name in enumerate(SPEC.real_outputs)
+                if name in shown
+            },
         )
 
     for i in range(len(points)):

@@ -39,7 +39,7 @@ def random_mesh(rng):
     changes["permissible_film_ratio"] = float(rng.choice([0.0, 0.3]))
     unit = mesh(str(rng.choice(list(SPEC.rungs))), **changes)
     if rng.random() < 0.4:
-        unit.state[:] = 1.0, 350.0, 3.0
+        unit.state[:] = 1.0, 350.0, 3.0, 2.0
     return unit
 
 
@@ -75,7 +75,7 @@ def test_derivatives_are_those_of_differences_under_any_laws(seed):
 def test_derivatives_go_through_the_step_that_warms_the_bodies(dt, friction_law, begun):
     """Differences of whole steps, each from the same state."""
     unit = mesh(friction_law=friction_law)
-    before = np.array([begun, 350.0, 3.0])
+    before = np.array([begun, 350.0, 3.0, 2.0])
 
     def stepped(point):
         unit.state[:] = before

@@ -69,9 +69,9 @@ def take(inp: Array, state: Array, taken: Array, dt: float) -> None:
 
     A step of at least a thousandth of the last one takes the inputs as given. Shorter ones go the
     same way in that time, each a part in proportion to its length: what changes in a step then
-    vanishes with the step, as a master that estimates its error expects. Without a step an input that is still
-    as the last step was given it is what that had reached. One with a rate is as given; the rates
-    lie behind.
+    vanishes with the step, as a master that estimates its error expects. Without a step an input
+    that is still as the last step was given it is what that had reached. One with a rate is as
+    given; the rates lie behind.
     """
     share, started = 1.0, state[L.S_STARTED] != 0.0
     if started and 0.0 < dt < SHORT * state[L.S_SPREAD]:
@@ -346,14 +346,14 @@ def step(
     show_energy(par, start, work, out)
     power = mean_bearing_power(par, state, work, dt)
     out[L.O_BEARING_POWER] = power
-    out[L.O_ADVISED] = advise(par, inp, state, work, dt) if dt > 0.0 else state[L.S_ADVISED]
+    out[L.O_ADVISED_STEP] = advise(par, inp, state, work, dt) if dt > 0.0 else state[L.S_ADVISED]
     if status == OK:
         status = pressed
     if status == OK and not _is_finite(work, out, dt):
         status = NOT_FINITE
     if status == OK and dt > 0.0:
         keep(par, inp, state, work, start, dt, power)
-        state[L.S_ADVISED] = out[L.O_ADVISED]
+        state[L.S_ADVISED] = out[L.O_ADVISED_STEP]
     clutch_holds = dynamics.capacity(work, 0, dt) > 0.0
     iout[L.IO_CLUTCH_LOCKED] = 1 if work[L.W_CLUTCH_MODE] == 0.0 and clutch_holds else 0
     iout[L.IO_BRAKE_LOCKED] = 1 if work[L.W_BRAKE_MODE] == 0.0 else 0

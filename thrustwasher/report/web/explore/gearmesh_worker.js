@@ -25,6 +25,7 @@ class Model extends PointModel {
     const loss = f[L.F_MEAN_FRICTION] * par[L.D_LOSS] * torque, ratio = f[L.F_RATIO];
     found.asperity_temperature = found.temperature;
     delete found.temperature;
+    delete found.oil_energy; // of a step, not of a point
     Object.assign(found, {
       friction_torque: Math.sign(speed) * loss, friction_power: loss * Math.abs(speed),
       hertz_pressure: (4 / Math.PI) * f[L.F_PRESSURE], hertz_width: f[L.F_WIDTH], viscosity: f[L.F_VISCOSITY],

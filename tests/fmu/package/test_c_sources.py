@@ -109,13 +109,16 @@ def run(fmu, name, rung):
 def distance(name, found, wanted):
     """Return the largest difference, relative to the largest output of the same unit.
 
-    A mean power is a difference of energies over a step: they count as powers too.
+    A mean power is a difference of energies over a step: they count as powers too. An advised step
+    is made of small differences, and an advice: a thousand times as much is allowed.
     """
-    units = [v.unit for v in interface(find_spec(name)).outputs]
+    shown = interface(find_spec(name)).outputs
+    units = [v.unit for v in shown]
     largest = {u: np.abs(wanted[:, [u == x for x in units]]).max() for u in units}
     energy = largest.get("J", 0.0) / points(name)[1]
     largest["W"] = max(largest.get("W", 0.0), energy)
     scale = np.array([largest[u] or 1.0 for u in units])
+    scale[[v.name == "advised_step" for v in shown]] *= 1e3
     return (np.abs(found - wanted).max(axis=0) / scale).max()
 
 

@@ -37,7 +37,7 @@ RATCHETS = {
 
 # Who names a model, beside its own modules and the list of models: reason -> module -> models.
 PLACES = {
-    "public names": {"thrustwasher": {"washer", "clutch", "gearmesh"}},
+    "public names": {"thrustwasher": {"washer", "clutch", "gearmesh", "losses"}},
     "a shift is a system of these models: what its scene connects, and what it makes of them": {
         "shift.scene.connections": {
             "washer",

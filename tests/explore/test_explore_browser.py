@@ -80,6 +80,11 @@ VIEWS = {  # an address; what the command prints of the figures; the parameters 
         ("friction_torque", "scuffing_safety", "surface_temperature"),
         {"pinion_teeth": 23},
     ),
+    "losses": (
+        "#input_speed=300&output_speed=120&tooth_force=1500&oil_temperature=350&planets=3",
+        ("input_torque", "oil_heat", "churning_power"),
+        {"planets": 3},
+    ),
     "clutch": (
         "#speed=150&oil_temperature=340&drum_speed=20&duration=0.4&fidelity=fine&faces=6"
         "&ramp=[0,3000,6000,6000,6000,6000,6000,6000,6000]",

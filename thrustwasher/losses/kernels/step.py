@@ -38,8 +38,9 @@ from .loss_laws import churning_constants, churning_drag, seal_drag
 # of each shaft, input, output, drum; places behind P_SHAFT + ROW times its number
 A_COUNT, A_DIAMETER, A_LOAD, A_GEAR, A_WIDTH, A_IMMERSION, A_SEAL, ROW = range(8)
 SHAFTS, PLANET, SPEEDS = 3, 3, 4  # the planet's speed comes behind those of the shafts
-N_PARAM = P_SHAFT + SHAFTS * ROW
-D_SLOW, D_FAST, D_PUMP = N_PARAM + 1, N_PARAM + 1 + SHAFTS, N_PARAM + 1 + 2 * SHAFTS
+P_FIDELITY = P_SHAFT + SHAFTS * ROW
+N_PARAM = P_FIDELITY + 1
+D_SLOW, D_FAST, D_PUMP = N_PARAM, N_PARAM + SHAFTS, N_PARAM + 2 * SHAFTS
 D_NU_40 = D_PUMP + 1
 NPAR = D_NU_40 + 1
 I_FORCE, I_OIL, NINP = SPEEDS, SPEEDS + 1, SPEEDS + 2
@@ -85,7 +86,7 @@ def derive(par: Array) -> int:
     par[D_PUMP] = work / (2.0 * math.pi * par[P_PUMP_EFFICIENCY])
     thick, _ = oil_viscosity(par, 313.15)
     par[D_NU_40] = thick
-    return OK if are_finite(par[N_PARAM + 1 :]) else NOT_FINITE
+    return OK if are_finite(par[N_PARAM:]) else NOT_FINITE
 
 
 @kernel

@@ -2,6 +2,7 @@
 
 from ..losses.kernels import step
 from ..losses.parameters import SPEC
+from ..report.model_plots.losses_plot import losses_figure
 from ..report.web_worker import WebWorker, numbers_of
 from .view import View
 
@@ -19,7 +20,9 @@ VIEW = View(
     figures="oil_heat bearing_power churning_power pump_power seal_power input_torque".split(),
     solve="solve_losses",
     params="LossesParams",
-    pictures=lambda *_: [],
+    pictures=lambda params, result, point: [
+        ("Heat by source at the start.", losses_figure(result, point, params))
+    ],
     load="tooth_force",
     spans={
         **dict.fromkeys(SPEEDS, (-700.0, 700.0)),

@@ -72,31 +72,27 @@ class _LossesParams:
 def _of_shaft(name: str) -> dict[str, Any]:
     """Return the parameters of one shaft, in the kernel's order."""
     bearings, diameter, load, gear, width, immersion, seal = SHAFTS[name]
-    return {
-        f"{name}_bearing_count": count(bearings, 0, 20, f"main bearings of the {name} shaft"),
-        f"{name}_bearing_diameter": quantity(
-            diameter, "m", 1e-3, 2.0, f"mean diameter of each bearing of the {name} shaft"
+    shaft = "drum" if name == "drum" else f"{name} shaft"
+    fields = {
+        "bearing_count": count(bearings, 0, 20, f"main bearings of the {shaft}"),
+        "bearing_diameter": quantity(
+            diameter, "m", 1e-3, 2.0, f"mean diameter of each main bearing of the {shaft}"
         ),
-        f"{name}_bearing_load": quantity(
-            load, "N", 0.0, 1e6, f"radial load of each bearing of the {name} shaft"
+        "bearing_load": quantity(
+            load, "N", 0.0, 1e6, f"radial load of each main bearing of the {shaft}"
         ),
-        f"{name}_gear_diameter": quantity(
-            gear, "m", 5e-3, 5.0, f"pitch diameter of the gear of the {name} shaft that may dip"
+        "gear_diameter": quantity(
+            gear, "m", 5e-3, 5.0, f"pitch diameter of the gear of the {shaft} that may dip"
         ),
-        f"{name}_gear_width": quantity(
-            width, "m", 1e-3, 1.0, f"width of that gear of the {name} shaft"
+        "gear_width": quantity(width, "m", 1e-3, 1.0, f"width of the gear of the {shaft}"),
+        "immersion": quantity(
+            immersion, "1", 0.0, 0.5, f"depth in the oil over diameter, gear of the {shaft}"
         ),
-        f"{name}_immersion": quantity(
-            immersion,
-            "1",
-            0.0,
-            0.5,
-            f"depth of that gear of the {name} shaft in the oil over its diameter (0: none)",
-        ),
-        f"{name}_seal_diameter": quantity(
-            seal, "m", 0.0, 1.0, f"shaft under the {name} shaft's lip seal (0: no seal)"
+        "seal_diameter": quantity(
+            seal, "m", 0.0, 1.0, f"shaft under the lip seal of the {shaft} (0: no seal)"
         ),
     }
+    return {f"{name}_{key}": field for key, field in fields.items()}
 
 
 LossesParams = extended(

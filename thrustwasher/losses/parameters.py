@@ -10,8 +10,8 @@ from ..model.toml_tables import spec_beside
 # over diameter, diameter of the seal [m]; the defaults.
 SHAFTS = {
     "input": (2, 0.05, 500.0, 0.1, 0.03, 0.0, 0.045),
-    "output": (2, 0.065, 800.0, 0.16, 0.03, 0.1, 0.045),
-    "drum": (1, 0.08, 200.0, 0.17, 0.05, 0.05, 0.0),
+    "output": (2, 0.065, 800.0, 0.16, 0.03, 0.2, 0.045),
+    "drum": (1, 0.08, 200.0, 0.17, 0.05, 0.0, 0.0),
 }
 
 
@@ -20,7 +20,7 @@ class _LossesParams:
     """Bearings, dipping gears, seals and oil pump of a planetary gearbox, and its oil.
 
     The defaults are estimates of a car's automatic transmission of about 300 N m: pump of 15 cm3
-    at 10 bar, ATF of about 37 mm2/s at 40 degC, output gear and drum just dipping. Factors f0 and
+    at 10 bar, ATF of about 37 mm2/s at 40 degC, the output gear dips by a fifth of its diameter. Factors f0 and
     f1 are of the size that handbooks of rolling bearings give (Harris 2001; SKF catalogue).
     """
 

@@ -20,8 +20,8 @@ class _LossesParams:
     """Bearings, dipping gears, seals and oil pump of a planetary gearbox, and its oil.
 
     The defaults are estimates of a car's automatic transmission of about 300 N m: pump of 15 cm3
-    at 10 bar, ATF of about 37 mm2/s at 40 degC, the output gear dips by a fifth of its diameter. Factors f0 and
-    f1 are of the size that handbooks of rolling bearings give (Harris 2001; SKF catalogue).
+    at 10 bar, ATF of about 37 mm2/s at 40 degC, the output gear dips by a fifth of its diameter.
+    Factors f0 and f1 are of the size that handbooks of rolling bearings give (Harris 2001; SKF).
     """
 
     planets: int = count(4, 1, 20, "number of planets: each has planet_torque")

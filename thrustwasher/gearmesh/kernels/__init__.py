@@ -27,6 +27,7 @@ CALLED = {
         "thrustwasher.gearmesh.kernels.constants: slide_roll start_of_contact",
         "thrustwasher.gearmesh.kernels.flank_temperature: heated_flank",
         "thrustwasher.gearmesh.kernels.line_of_action: place_mesh",
+        "thrustwasher.gearmesh.kernels.load_sharing: pitch_of share_load shared single_stiffness",
         "thrustwasher.gearmesh.kernels.mesh_point: mesh_point",
         "thrustwasher.gearmesh.kernels.operating_point: solve_point",
         "thrustwasher.gearmesh.kernels.step: sens step",

@@ -13,6 +13,7 @@ from ...numerics.jit import Array, kernel
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
 from .contact import compliance
+from .load_sharing import pitch_of, sharing_rule
 from .path_of_contact import base_pitch, derive_path, even_part, line_of_action
 from .tooth_root import derive_root, root_rule
 from .working_pair import is_standard, pair_rule, section, tips, working_section
@@ -284,4 +285,5 @@ def broken_rule(par: Array) -> int:
     beyond = beyond or not is_standard(par)
     if is_paper and (beyond or par[L.P_FRICTION_LAW] == L.MIXED_FRICTION):
         return 7
-    return root_rule(par, approach + recess)
+    rule = sharing_rule(par, approach + recess, pitch_of(par))
+    return rule if rule > 0 else root_rule(par, approach + recess)

@@ -249,7 +249,7 @@ def _wrapped(p: Pairs, s: float) -> float:
 @kernel
 def _pairs_at(p: Pairs, phase: float) -> int:
     """Return how many pairs are within the path at a phase."""
-    return int(math.floor(p.recess - phase)) + 1
+    return int(p.recess - phase) + 1
 
 
 @kernel

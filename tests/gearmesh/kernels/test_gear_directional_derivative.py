@@ -29,13 +29,15 @@ def mesh(fidelity="field", **changes):
 
 
 def random_mesh(rng):
-    """Return a mesh under any laws; the paper's heat for spur gears without mixed friction only."""
+    """Return a mesh under any laws; the paper's heat for rigid spur gears without mixed friction only."""
     changes = {name: str(rng.choice(options)) for name, options in CHOICES.items()}
     if changes["film_heat"] == "loss":
         changes |= {"helix_angle": float(rng.choice([0.0, 0.2, 0.35])), "load_factor": 1.3}
         changes["bulk_conductance"] = float(rng.choice([0.0, 10.0]))
-    elif changes["friction_law"] == "mixed":
-        changes["friction_law"] = "iso"
+    else:
+        changes["load_sharing"] = "rigid"
+        if changes["friction_law"] == "mixed":
+            changes["friction_law"] = "iso"
     changes["permissible_film_ratio"] = float(rng.choice([0.0, 0.3]))
     unit = mesh(str(rng.choice(list(SPEC.rungs))), **changes)
     if rng.random() < 0.4:

@@ -128,9 +128,9 @@ def stiffness_at(p: Pairs, s: float) -> float:
 def gap_at(p: Pairs, s: float) -> float:
     """Return the gap [m] that relief leaves in front of a pair: it falls linearly from the tip."""
     gap, run, left = 0.0, s + p.approach, p.recess - s
-    if run < p.gear_length:
+    if p.gear_relief > 0.0 and run < p.gear_length:
         gap += p.gear_relief * (1.0 - run / p.gear_length)
-    if left < p.pinion_length:
+    if p.pinion_relief > 0.0 and left < p.pinion_length:
         gap += p.pinion_relief * (1.0 - left / p.pinion_length)
     return gap
 

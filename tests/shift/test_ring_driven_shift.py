@@ -71,7 +71,7 @@ def test_heat_made_is_heat_stored_and_heat_in_the_oil(name):
     r = real_shift(name)
     s, h = r.signals, np.diff(r.time)
     assert r.energy["residual_share"] < 1e-12 and r.figures["lock_time"] is not None
-    for part in r.scene.parts.keys() - {"transmission"}:
+    for part in r.scene.parts.keys() - {"transmission", "losses"}:
         oil, made = (np.sum(s[f"{part}.{n}"][1:] * h) for n in ("oil_heat", "friction_power"))
         if f"{part}.energy" in s:
             made, held = s[f"{part}.energy"][-1], made

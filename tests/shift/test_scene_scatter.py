@@ -160,8 +160,8 @@ def test_builtin_scatters_are_clean_and_have_a_source(name):
     assert found.warnings == () and all(source.reason for source in found.sources)
 
 
-def test_the_default_scene_has_twelve():
-    assert len(scene_scatter(load_scene("planetary")).sources) == 12
+def test_the_default_scene_has_sixteen():
+    assert len(scene_scatter(load_scene("planetary")).sources) == 16
 
 
 @pytest.mark.parametrize(

@@ -63,7 +63,8 @@ def test_heat_made_is_heat_stored_and_heat_in_the_oil(run):
         assert stored + oil == pytest.approx(s[f"{pack}.energy"][-1], rel=1e-12)
     factors = {"clutch": 1, "brake": 1, "washer": 8, "mesh": 4, "ring_mesh": 4}
     sent = sum(f * np.sum(s[f"{p}.oil_heat"][1:] * h) for p, f in factors.items())
-    sent += np.sum(s["transmission.bearing_power"][1:] * h)
+    for power in ("bearing_power", "loss_power"):
+        sent += np.sum(s[f"transmission.{power}"][1:] * h)
     assert s["sump.received_heat"][-1] == pytest.approx(sent, rel=1e-12)
     left = s["sump.stored_heat"][-1] + s["sump.ambient_heat"][-1]
     assert left == pytest.approx(s["sump.received_heat"][-1], rel=1e-12)

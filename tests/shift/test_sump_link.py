@@ -12,13 +12,14 @@ def test_the_oil_of_all_parts_is_the_sumps_and_every_washer_heats_it(tmp_path):
     s = run_shift(*with_all_parts(changed(tmp_path, text))).signals
     oil = s["sump.temperature"]
     assert oil[0] == 358.15 and oil[-1] > oil[0]
-    for part in ("clutch", "brake", "washer", "mesh", "ring_mesh"):
+    for part in ("clutch", "brake", "washer", "mesh", "ring_mesh", "losses"):
         assert (s[f"{part}.oil_temperature"][1:] == oil[:-1]).all()
     received = np.sum(8.0 * s["sump.heat_3"][1:]) * 1e-3
-    factors = {1: 1.0, 2: 1.0, 4: 4.0, 5: 4.0, 6: 1.0}
+    factors = {1: 1.0, 2: 1.0, 4: 4.0, 5: 4.0, 6: 1.0, 7: 1.0}
     others = sum(f * np.sum(s[f"sump.heat_{i}"][1:]) * 1e-3 for i, f in factors.items())
     assert s["sump.received_heat"][-1] == pytest.approx(received + others, rel=1e-12)
-    assert (s["sump.heat_6"][1:] == s["transmission.bearing_power"][1:]).all()
+    for port, power in ((6, "bearing_power"), (7, "loss_power")):
+        assert (s[f"sump.heat_{port}"][1:] == s[f"transmission.{power}"][1:]).all()
     assert received > 0.0 and (s["sump.heat_3"][1:] == s["washer.oil_heat"][1:]).all()
 
 

@@ -9,7 +9,7 @@ class Sump(Model):
 
     key = "sump"
     wiring = (
-        "Feed each part's oil_heat to one of heat_1 .. heat_6; factor_i says how many such parts "
+        "Feed each part's oil_heat to one of heat_1 .. heat_7; factor_i says how many such parts "
         "there are. Feed temperature back as their oil_temperature.",
         "Or feed its oil_energy to energy_i: no heat is lost or counted twice whatever the steps, "
         "also where values arrive a step late. Heat under both heat_i and energy_i is refused.",

@@ -6,7 +6,7 @@ from typing import Any
 from ..model.parameters import check_ranges, extended, quantity
 from ..model.spec import ModelSpec, Signal, Terminal, output
 
-PORTS = range(1, 7)
+PORTS = range(1, 8)
 
 
 @dataclass(frozen=True, kw_only=True)

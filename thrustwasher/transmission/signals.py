@@ -1,5 +1,6 @@
 """Inputs, outputs and plugs of the shift transmission, and a course to try it with."""
 
+from dataclasses import replace
 from itertools import chain
 
 from ..model.spec import Signal, Terminal, output
@@ -18,6 +19,19 @@ def _pressure(pack: str) -> Signal:
     return _input(f"{pack}_pressure", "Pa", text, 0.0, 1e8, 1e5)
 
 
+LOSSES = {
+    "input": "the input shaft",
+    "drum": "the drum",
+    "output": "the output shaft",
+    "planet": "one planet",
+}
+
+
+def _loss(shaft: str, words: str) -> Signal:
+    text = f"loss torque of bearings, oil, pump and seals at {words}; only its size counts"
+    return replace(_torque(f"{shaft}_loss_torque", text), late=True)
+
+
 INPUTS = (
     _torque("clutch_torque", "clutch's torque capacity (coupling torque: friction torque)"),
     _torque("brake_torque", "brake's torque capacity (coupling torque: friction torque)"),
@@ -28,11 +42,13 @@ INPUTS = (
     _torque("engine_torque_input", "torque of an engine model, beside the engine's own"),
     _torque("load_torque_input", "torque of a vehicle model against the output, beside the load's"),
     _torque("ring_mesh_torque", "friction torque of one ring mesh, referred to the planet"),
+    *(_loss(shaft, words) for shaft, words in LOSSES.items()),
 )
 _ENGINE, _LOAD = ("engine_torque_input",), ("load_torque_input",)
-_TORQUES = (*(signal.name for signal in INPUTS[:4]), *_ENGINE, *_LOAD, "ring_mesh_torque")
+_TORQUES = (*(s.name for s in (*INPUTS[:4], *INPUTS[9:])), *_ENGINE, *_LOAD)
 # Drag decides only who holds a clutch beyond its capacity, not how much.
 _PACKS = (*_TORQUES[:2], *_ENGINE, *_LOAD)
+_LOSSES = tuple(f"{shaft}_loss_torque" for shaft in LOSSES)
 _PRESSED = {pack: ("shift_command", f"{pack}_pressure") for pack in ("clutch", "brake")}
 
 
@@ -163,6 +179,8 @@ OUTPUTS = (
         "step over which torques of slipping packs are off by 1 %, by the last one (0: none yet)",
         low=0.0,
     ),
+    output("loss_power", "W", 100.0, "heat of the loss torques, mean of the step", _LOSSES),
+    output("loss_heat", "J", 1e4, "heat of the loss torques since the start"),
 )
 
 
@@ -171,7 +189,7 @@ def _plug(name: str, kind: str, text: str, flow: str = "inflow", **members: str)
 
     A torque flows in or out as ``flow`` says, all else are signals.
     """
-    found = tuple((v, m, flow if m == "tau" else "signal") for m, v in members.items())
+    found = tuple((v, m, flow if m.startswith("tau") else "signal") for m, v in members.items())
     return Terminal(name=name, kind=f"thrustwasher.{kind}", help=text, members=found)
 
 
@@ -210,6 +228,20 @@ TERMINALS = (
         tilt="washer_tilt",
     ),
     _plug(
+        "losses",
+        "LossFlange",
+        "Speeds of shafts and planets, force of a mesh out, loss torques in",
+        w_input="engine_speed",
+        w_drum="drum_speed",
+        w_output="output_speed",
+        w_planet="mesh_speed",
+        force="tooth_force",
+        tau_input="input_loss_torque",
+        tau_drum="drum_loss_torque",
+        tau_output="output_loss_torque",
+        tau_planet="planet_loss_torque",
+    ),
+    _plug(
         "input_shaft",
         "ShaftFlange",
         "Speed of the engine out, its torque in",
@@ -226,11 +258,12 @@ TERMINALS = (
     ),
 )
 
+_LOST = (3.0, 0.1, 1.0, 0.02)  # what losses take from input, drum, output and planet
 # An upshift, from row to row: the brake lets go while the clutch takes over and locks.
 COURSE = (
-    (0.0, 0.0, 400.0, 0.05, 0.2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
-    (0.2, 0.0, 400.0, 0.05, 0.2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
-    (0.5, 150.0, 0.0, 0.05, 0.2, 0.6, 0.0, 0.0, 0.0, 0.0, 0.0),
-    (0.7, 300.0, 0.0, 0.05, 0.2, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0),
-    (1.0, 300.0, 0.0, 0.05, 0.2, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    (0.0, 0.0, 400.0, 0.05, 0.2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, *_LOST),
+    (0.2, 0.0, 400.0, 0.05, 0.2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, *_LOST),
+    (0.5, 150.0, 0.0, 0.05, 0.2, 0.6, 0.0, 0.0, 0.0, 0.0, 0.0, *_LOST),
+    (0.7, 300.0, 0.0, 0.05, 0.2, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, *_LOST),
+    (1.0, 300.0, 0.0, 0.05, 0.2, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, *_LOST),
 )

@@ -29,7 +29,7 @@ def mesh(fidelity="field", **changes):
 
 
 def random_mesh(rng):
-    """Return a mesh under any laws; the paper's heat for rigid spur gears without mixed friction only."""
+    """Return a mesh under any laws; the paper's heat for rigid, not mixed friction."""
     changes = {name: str(rng.choice(options)) for name, options in CHOICES.items()}
     if changes["film_heat"] == "loss":
         changes |= {"helix_angle": float(rng.choice([0.0, 0.2, 0.35])), "load_factor": 1.3}

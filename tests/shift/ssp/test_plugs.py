@@ -19,6 +19,7 @@ JOINED = {
     "washer": "shaft",
     "mesh": "shaft",
     "ring_mesh": "shaft",
+    "losses": "shafts",
 }
 FLOWS = ("inflow", "outflow")
 

@@ -14,7 +14,7 @@ from slopes import Unit, disagreement  # isort: skip
 NAMES = [s.name for s in SPEC.outputs if s.kind == "real"]
 
 
-BESIDE = (1e5, 2e5, 0.0, 0.0, 0.05)  # pressures, torques from outside, of a ring mesh
+BESIDE = (1e5, 2e5, 0.0, 0.0, 0.05, 3.0, 0.5, -2.0, 0.1)  # pressures, torques; losses
 
 
 def gearbox(**params):
@@ -54,7 +54,9 @@ def random_point(rng):
     packs = 10.0 ** rng.uniform(0.0, 3.5, 2) * rng.choice([1.0, 1.0, 1.0, -1.0], 2)
     drag = 10.0 ** rng.uniform(-3.0, 0.5, 2) * rng.choice([-1.0, 1.0], 2)
     pressures, outside = rng.uniform(4e4, 1e6, 2), rng.uniform(-200.0, 200.0, 2)
-    return np.array([*packs, *drag, rng.uniform(0.1, 0.9), *pressures, *outside, 0.3 * drag[1]])
+    lost = 10.0 ** rng.uniform(-1.0, 1.0, 4) * rng.choice([-1.0, 1.0], 4)
+    command, ring = rng.uniform(0.1, 0.9), 0.3 * drag[1]
+    return np.array([*packs, *drag, command, *pressures, *outside, ring, *lost])
 
 
 def modes(unit):
@@ -111,7 +113,7 @@ def test_drag_that_helps_a_stuck_clutch_leaves_it_its_capacity():
     found = unit.gradient(point)
     assert modes(unit)[0] == 0.0
     assert unit.out[NAMES.index("clutch_reaction")] == point[0]
-    assert found[NAMES.index("clutch_reaction")].tolist() == [1.0] + [0.0] * 9
+    assert found[NAMES.index("clutch_reaction")].tolist() == [1.0] + [0.0] * 13
     assert disagreement(unit, point, 0.01 * point).max() < 1e-6
 
 

@@ -63,4 +63,8 @@ def heat_splits(record: Record) -> list[HeatSplit]:
     bearings = record.series("transmission.bearing_heat")
     if bearings is not None:  # whose heat is the oil's at once
         found.append(HeatSplit("thrust bearings of sun and ring", bearings, None, bearings))
+    losses = record.series("transmission.loss_heat")
+    if losses is not None and "losses.oil_heat" in record.signals:
+        words = "oil pump, churning, bearings, seals"
+        found.append(HeatSplit(words, losses, None, losses))
     return [split for split in found if split is not None and split.made[-1] > LEAST_HEAT]

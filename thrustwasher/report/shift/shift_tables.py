@@ -15,6 +15,12 @@ from ..scatter.words import BAND, band_words, varies
 from .heat_split import heat_splits
 from .shift_record import KeyFigure, Part, Record
 
+LOSSES = (
+    ("pump", "oil pump"),
+    ("churning", "churning"),
+    ("rolling", "bearings"),
+    ("seal", "seals"),
+)
 SAID_TWICE = ("slip_energy_per_area",)  # the pack's own heat per area is the same
 
 
@@ -36,6 +42,8 @@ def energy_table(record: Record) -> Table:
         ("heat in all thrust washers", book["washers"]),
         ("heat in all gear meshes", book["meshes"]),
         ("heat in the thrust bearings of sun and ring", book.get("bearings", 0.0)),
+        ("heat of oil pump, churning, bearings and seals", book.get("losses", 0.0)),
+        *((f"of it {words}", record.figures.get(f"{name}_loss") or 0.0) for name, words in LOSSES),
         ("heat in the output shaft's damping", book.get("shaft", 0.0)),
         ("energy the output shaft's spring gained", book.get("spring", 0.0)),
         ("residual: what the book cannot account for", book["residual"]),

@@ -126,6 +126,8 @@ def _meshes(r: Record) -> list[str]:
     text += f"; all meshes together took {say(r.energy['meshes'], 'J')}"
     if bearings := r.energy.get("bearings"):
         text += f", the thrust bearings of sun and ring {say(bearings, 'J')}"
+    if losses := r.energy.get("losses"):
+        text += f", oil pump, churning, bearings and seals {say(losses, 'J')}"
     return [f"{text}."]
 
 

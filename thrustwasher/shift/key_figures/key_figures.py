@@ -14,6 +14,12 @@ from .events_and_phases import Event, Signals, lock_up, turning
 from .figure_list import FIGURES, FILM_SPEED, Found, KeyFigure, assemble
 
 FULL = 0.999  # of the friction at lock-up: a little slip above the plateau is still full friction
+LOSSES = {  # figure -> source of loss
+    "pump_loss": "pump",
+    "churning_loss": "churning",
+    "rolling_loss": "bearing",
+    "seal_loss": "seal",
+}
 TIE_UP_SHARE = 0.1  # of the torque held before: less is a handover that overlaps a little
 
 
@@ -41,6 +47,7 @@ def key_figures(
         **phase_figures(scene, signals, events, lock),
         **comfort_figures(scene, time, signals, lock, None if end is None else float(time[end])),
         **judder_figures(judder),
+        **loss_figures(scene, time, signals),
     }
     if "washer.friction_torque" in signals:
         lost = (signals["washer.distress"] > 0.5) & turning(signals)
@@ -159,6 +166,7 @@ def energy_balance(signals: Signals) -> dict[str, float]:
         "washers": last("transmission.washer_heat"),
         "meshes": last("transmission.mesh_heat"),
         "bearings": last("transmission.bearing_heat"),
+        "losses": last("transmission.loss_heat"),
         "shaft": last("transmission.shaft_heat"),
         "spring": last("transmission.shaft_energy"),
         "residual": last("transmission.energy_residual"),
@@ -171,6 +179,19 @@ def energy_balance(signals: Signals) -> dict[str, float]:
         balance[f"{prefix}coupling_difference"] = difference
         balance[f"{prefix}coupling_difference_share"] = share
     return balance
+
+
+def loss_figures(scene: Scene, time: Array, signals: Signals) -> Found:
+    """Return the heat of oil pump, churning, bearings and seals: that of the book, divided.
+
+    In each step the book's heat is divided as the powers are at its end.
+    """
+    if "losses" not in scene.parts:
+        return {}
+    powers = {name: signals[f"losses.{source}_power"][1:] for name, source in LOSSES.items()}
+    heat, whole = np.diff(signals["transmission.loss_heat"]), sum(powers.values())
+    each = np.divide(heat, whole, out=np.zeros_like(heat), where=whole > 0.0)
+    return {name: (float(np.sum(power * each)), None) for name, power in powers.items()}
 
 
 def peak(values: Array, time: Array) -> tuple[float, float]:

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 from ...clutch import parameters
 from ...command import parameters as command_params
 from ...gearmesh import parameters as gearmesh_params
+from ...losses import parameters as losses_params
 from ...model.spec import ModelSpec
 from ...model.toml_tables import table_beside
 from ...sump import parameters as sump_params
@@ -21,6 +22,7 @@ PARTS: dict[str, ModelSpec] = {
     "washer": washer_params.SPEC,
     "mesh": gearmesh_params.SPEC,  # of sun and planet; without a ring mesh it stands for both
     "ring_mesh": gearmesh_params.SPEC,
+    "losses": losses_params.SPEC,
 }
 PACKS = ("clutch", "brake")
 MESHES = ("mesh", "ring_mesh")

@@ -101,6 +101,8 @@ def merged_tables(name: str, top: Mapping[str, Any] | None = None) -> dict[str, 
         if base.endswith(".toml") and name.endswith(".toml"):
             base = str(Path(name).parent / base)
         name = base
+    if merged.get("losses") is False:  # as said in a scene whose base has them
+        del merged["losses"]
     return merged
 
 
@@ -174,7 +176,8 @@ def scene_of(source: str, table: dict[str, Any]) -> Scene:
         if key in TEXTS and not isinstance(value, str):
             raise ParameterError(f"{where}: {key} = {value!r}, allowed: a text")
         if key in TABLES and not isinstance(value, dict):
-            raise ParameterError(f"{where}: {key} = {value!r}, allowed: a table [{key}]")
+            more = " or false" if key == "losses" else ""
+            raise ParameterError(f"{where}: {key} = {value!r}, allowed: a table [{key}]{more}")
     moves = "pressure" if "pressure" in table else "shift"
     if moves == "pressure" and "shift" in table:
         raise ParameterError(f"{where}: [shift] beside [pressure], allowed: a ramp or profiles")
@@ -248,6 +251,8 @@ def _parts(
             usual: dict[str, Any] = {}
             if key in MESHES:  # with how many gears a planet meshes, and sun or ring
                 usual = {"mates_pinion": 2, "mates_gear": parts["transmission"].params.planets}
+            if key == "losses":
+                usual = {"planets": parts["transmission"].params.planets}
             part, lost = _part(f"{where} [{key}]", PARTS[key], given, common, usual)
             parts[key] = _with_viscosity(f"{where} [oil]", part, factor)
             if lost:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ...numerics.jit import Array, kernel
 from ...numerics.status import BAD_INPUT, NOT_FINITE, OK
 
-PORTS = 6
+PORTS = 7
 (
     P_VOLUME,
     P_OIL_DENSITY,

@@ -16,6 +16,7 @@ from . import dynamics
 from . import layout as L
 from .dynamics import drum_speed
 from .piston import force
+from .shaft_losses import spread_losses
 from .thrust_bearings import bearing_torque
 
 LEAST_WASHER_LOAD = 1.0  # N
@@ -101,15 +102,16 @@ def balance_change(
     load: float,
     capacity: float,
     teeth: float,
+    lost: tuple[float, float, float],
 ) -> tuple[float, float, float, float, float]:
     """Return changes of tooth torque, clutch, brake, drag and the carrier's acceleration.
 
     ``teeth``: the change of the tooth torque's size as the bearings feel it; ``capacity``: that of
-    the clutch now; the others as for ``torque_changes``.
+    the clutch now; ``lost``: that of ``spread_losses``; the others as for ``torque_changes``.
     """
     r = par[L.D_RATIO]
-    drives = engine - teeth * work[L.W_BEARING_DRIVEN]
-    resists = load + teeth * work[L.W_BEARING_CARRIER]
+    drives = engine - lost[0] - teeth * work[L.W_BEARING_DRIVEN]
+    resists = load + lost[1] + teeth * work[L.W_BEARING_CARRIER]
     x, held = torque_changes(par, work, clutch, brake, drag, drives, resists)
     carried = share_change(work, clutch[0], clutch[1], x, capacity)
     c, b = (1.0 + r) / r, 1.0 / r
@@ -118,8 +120,20 @@ def balance_change(
     carrier_rate = par[L.D_INV_SC] * on_driven + par[L.D_INV_CC] * on_carrier
     dragged = (x - carried) * c
     tau = engine - carried - dragged - par[L.P_INPUT_INERTIA] * rate
-    tau -= teeth * work[L.W_BEARING_OWN]
+    tau -= lost[2] + teeth * work[L.W_BEARING_OWN]
     return tau, carried, held, dragged, carrier_rate
+
+
+@kernel
+def loss_change(par: Array, inp: Array, work: Array, seed: Array) -> tuple[float, float, float]:
+    """Return how what losses take changes: as ``spread_losses``, at the present speeds."""
+    sizes = (
+        sign_of(inp[L.I_INPUT_LOSS]) * seed[L.I_INPUT_LOSS],
+        sign_of(inp[L.I_DRUM_LOSS]) * seed[L.I_DRUM_LOSS],
+        sign_of(inp[L.I_OUTPUT_LOSS]) * seed[L.I_OUTPUT_LOSS],
+        sign_of(inp[L.I_PLANET_LOSS]) * seed[L.I_PLANET_LOSS] * par[L.P_PLANETS],
+    )
+    return spread_losses(par, work, L.W_Y, sizes)
 
 
 @kernel
@@ -165,13 +179,13 @@ def directional_derivative(
     rigid = not par[L.P_SHAFT_STIFFNESS] > 0.0
     shaft = load if rigid else 0.0
     # The bearings feel the size of the tooth torque, which feels the bearings.
-    side = sign_of(work[L.W_TEETH])
-    free = balance_change(par, work, clutch, brake, resists, engine, shaft, capacity, 0.0)[0]
-    none = (0.0, 0.0)
-    back = balance_change(par, work, none, none, 0.0, 0.0, 0.0, capacity, side)[0]
+    side, lost = sign_of(work[L.W_TEETH]), loss_change(par, inp, work, seed)
+    free = balance_change(par, work, clutch, brake, resists, engine, shaft, capacity, 0.0, lost)[0]
+    none, nothing = (0.0, 0.0), (0.0, 0.0, 0.0)
+    back = balance_change(par, work, none, none, 0.0, 0.0, 0.0, capacity, side, nothing)[0]
     teeth = side * free / (1.0 - back)
     tau, carried, held, drag, carrier_rate = balance_change(
-        par, work, clutch, brake, resists, engine, shaft, capacity, teeth
+        par, work, clutch, brake, resists, engine, shaft, capacity, teeth, lost
     )
     torque = work[L.W_TEETH]
     per_force = 1.0 / (par[L.P_PLANETS] * par[L.D_INPUT_RADIUS])
@@ -197,5 +211,7 @@ def directional_derivative(
         slips = work[L.W_BEARING_DRIVEN] * work[L.W_Y + L.Y_INPUT]
         slips += work[L.W_BEARING_CARRIER] * work[L.W_Y + L.Y_CARRIER]
         dout[L.O_BEARING_POWER] = teeth * slips
+        power = lost[0] * work[L.W_Y + L.Y_INPUT] + lost[1] * work[L.W_Y + L.Y_CARRIER]
+        dout[L.O_LOSS_POWER] = power
     dout[L.O_SUN_THRUST] = force * par[L.P_PLANETS] * par[L.D_TAN_HELIX]
     return OK if are_finite(dout) else NOT_FINITE

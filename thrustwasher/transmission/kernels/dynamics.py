@@ -9,7 +9,7 @@ work, X = T_clutch + T_drag r/(1 + r).
 
 Thrust bearings of sun and ring rub with a part of the tooth torque, which follows from the
 accelerations they take part in: an implicit relation, solved to rounding. The bearings take the
-same torque from the motion as they turn into heat.
+same torque from the motion as they turn into heat, and so do losses that come from outside.
 
 With a stiffness the shaft behind the carrier is a spring and a damper to the vehicle, which then
 has a speed of its own and meets the load. Without, the carrier is the vehicle.
@@ -23,6 +23,7 @@ from ...numerics.arrays import are_finite
 from ...numerics.jit import Array, kernel
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
+from .shaft_losses import loss_power, turn_losses
 from .thrust_bearings import bearing_power, broken_bearing, derive_bearings, turn_bearings
 
 # Dormand & Prince (1980): stage times, stage weights row by row, and fifth minus fourth order.
@@ -160,6 +161,7 @@ def solve_torques(par: Array, work: Array, s: float, y: int) -> None:
     """
     load = output_torque(par, work, y)
     turn_bearings(par, work, y)
+    turn_losses(par, work, y)
     size = balance(par, work, s, load, 0.0)
     if work[L.W_BEARING_DRIVEN] == 0.0 and work[L.W_BEARING_CARRIER] == 0.0:
         return
@@ -187,8 +189,8 @@ def balance(par: Array, work: Array, s: float, load: float, teeth: float) -> flo
     c, b = (1.0 + r) / r, 1.0 / r
     engine = work[L.W_ENGINE_START] + work[L.W_ENGINE_SLOPE] * s
     work[L.W_ENGINE] = engine
-    drives = engine - teeth * work[L.W_BEARING_DRIVEN]
-    resists = load + teeth * work[L.W_BEARING_CARRIER]
+    drives = engine - work[L.W_LOSS_DRIVEN] - teeth * work[L.W_BEARING_DRIVEN]
+    resists = load + work[L.W_LOSS_CARRIER] + teeth * work[L.W_BEARING_CARRIER]
     free_driven = i_ss * drives - i_sc * resists
     free_carrier = i_sc * drives - i_cc * resists
     free_clutch = c * (free_driven - free_carrier)
@@ -214,6 +216,7 @@ def balance(par: Array, work: Array, s: float, load: float, teeth: float) -> flo
     own = clutch_share(par, work, s)
     drag = (x - own) * (1.0 + r) / r
     tau = engine - own - drag - par[L.P_INPUT_INERTIA] * work[L.W_INPUT_RATE]
+    tau -= work[L.W_LOSS_OWN]
     work[L.W_BEARING_TEETH] = teeth
     work[L.W_TEETH] = tau - teeth * work[L.W_BEARING_OWN]
     return abs(work[L.W_TEETH])
@@ -255,6 +258,7 @@ def rates(par: Array, work: Array, s: float, y: int, slopes: int) -> None:
     work[np.uintp(slopes + L.Y_WASHER)] = washer_heat
     work[np.uintp(slopes + L.Y_MESH)] = mesh_heat
     work[np.uintp(slopes + L.Y_BEARING)] = bearing_power(par, work, y)
+    work[np.uintp(slopes + L.Y_LOSS)] = loss_power(work, y)
 
 
 @kernel

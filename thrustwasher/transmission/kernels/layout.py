@@ -98,8 +98,12 @@ NPAR = D_BEARINGS + 2 * N_TURNING
     I_ENGINE,
     I_LOAD,
     I_RING_MESH,
+    I_INPUT_LOSS,
+    I_DRUM_LOSS,
+    I_OUTPUT_LOSS,
+    I_PLANET_LOSS,
     NINP,
-) = range(11)
+) = range(15)
 
 # The integrated quantities; in `state` they follow S_Y.
 (
@@ -115,8 +119,9 @@ NPAR = D_BEARINGS + 2 * N_TURNING
     Y_MESH,
     Y_SHAFT,
     Y_BEARING,
+    Y_LOSS,
     N_Y,
-) = range(13)
+) = range(14)
 
 S_STARTED = 0
 S_Y = 1
@@ -131,9 +136,10 @@ S_Y = 1
     S_RELEASE_TIME,
     S_EVENTS,
     S_BEARING_POWER,
+    S_LOSS_POWER,
     S_ADVISED,
     S_PISTON,
-) = range(S_Y + N_Y, S_Y + N_Y + 12)
+) = range(S_Y + N_Y, S_Y + N_Y + 13)
 # Of a piston: pressure [Pa], volume of oil [m3], whether it is full, times [s] of two events.
 (
     PISTON_PRESSURE,
@@ -179,9 +185,16 @@ NSTATE = S_REACHED + NINP
     W_BEARING_DRIVEN,
     W_BEARING_CARRIER,
     W_BEARING_OWN,  # per size of it: what the bearings take
-) = range(27)
-W_EVENTS = 27  # five slots: lock time, lock speed, release time, events, largest violation
-W_PISTON = 32
+    W_INPUT_LOSS,
+    W_DRUM_LOSS,
+    W_OUTPUT_LOSS,
+    W_PLANET_LOSS,  # sizes of the torques against shafts and, all together, planets
+    W_LOSS_DRIVEN,
+    W_LOSS_CARRIER,
+    W_LOSS_OWN,  # what they take from driven gear and carrier; from the driven gear's own shaft
+) = range(34)
+W_EVENTS = 34  # five slots: lock time, lock speed, release time, events, largest violation
+W_PISTON = 39
 W_Y = W_PISTON + 2 * N_PISTON
 W_NEW = W_Y + N_Y
 W_STAGE = W_NEW + N_Y
@@ -249,8 +262,10 @@ NWORK = W_TAKEN + 2 * NINP
     O_BEARING_POWER,
     O_BEARING_HEAT,
     O_ADVISED_STEP,
+    O_LOSS_POWER,
+    O_LOSS_HEAT,
     NOUT,
-) = range(57)
+) = range(59)
 IO_CLUTCH_LOCKED, IO_BRAKE_LOCKED, IO_CLUTCH_FILLED, IO_BRAKE_FILLED = range(4)
 IO_EVENTS, IO_STATUS, NIOUT = range(4, 7)
 

@@ -19,6 +19,7 @@ from . import dynamics, piston
 from . import layout as L
 from .directional_derivative import LEAST_WASHER_LOAD, directional_derivative
 from .integrate_step import is_at_rest, run
+from .shaft_losses import loss_power
 from .thrust_bearings import bearing_power, bearing_torque
 
 N_PARAM, NPAR, NINP, NSTATE = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE
@@ -94,6 +95,10 @@ def take_torques(par: Array, taken: Array, work: Array, s: float) -> None:
     work[L.W_WASHERS] = par[L.P_WASHERS] * abs(value_at(taken, L.NINP, L.I_WASHER, s))
     ring = par[L.D_RING_MESHES] * abs(value_at(taken, L.NINP, L.I_RING_MESH, s))
     work[L.W_MESHES] = par[L.D_MESHES] * abs(value_at(taken, L.NINP, L.I_MESH, s)) + ring
+    for k in range(4):
+        size = abs(value_at(taken, L.NINP, L.I_INPUT_LOSS + k, s))
+        work[np.uintp(L.W_INPUT_LOSS + k)] = size
+    work[L.W_PLANET_LOSS] *= par[L.P_PLANETS]
     drag = (work[L.W_WASHERS] + work[L.W_MESHES]) * par[L.D_SPIN]
     work[L.W_DRAG] = drag * r / (1.0 + r)
     for k in range(2):
@@ -195,10 +200,18 @@ def kinetic_start(par: Array, state: Array, dt: float) -> float:
 
 @kernel
 def keep(
-    par: Array, inp: Array, state: Array, work: Array, start: float, dt: float, power: float
+    par: Array,
+    inp: Array,
+    state: Array,
+    work: Array,
+    start: float,
+    dt: float,
+    power: float,
+    lost: float,
 ) -> None:
     """Take the result of a step over into the memory."""
-    state[L.S_KINETIC_START], state[L.S_BEARING_POWER] = start, power
+    state[L.S_KINETIC_START] = start
+    state[L.S_BEARING_POWER], state[L.S_LOSS_POWER] = power, lost
     state[L.S_STARTED] = 1.0
     copy(work[L.W_Y :], state[L.S_Y : L.S_KINETIC_START])
     state[L.S_LAST_DURATION] = dt
@@ -274,14 +287,17 @@ def show_motion(par: Array, taken: Array, work: Array, out: Array, s: float) -> 
 
 
 @kernel
-def mean_bearing_power(par: Array, state: Array, work: Array, dt: float) -> float:
-    """Return the heat of both bearings [W]: the step's mean, before any step that of now."""
+def mean_power(state: Array, work: Array, heat: int, last: int, now: float, dt: float) -> float:
+    """Return a power [W]: the step's mean, before any step that of ``now``.
+
+    ``heat``: its place among the integrated quantities; ``last``: that of the last step's mean.
+    """
     if dt > 0.0:
-        before = state[L.S_Y + L.Y_BEARING] if state[L.S_STARTED] != 0.0 else 0.0
-        return float((work[L.W_Y + L.Y_BEARING] - before) / dt)
+        before = state[np.uintp(L.S_Y + heat)] if state[L.S_STARTED] != 0.0 else 0.0
+        return float((work[np.uintp(L.W_Y + heat)] - before) / dt)
     if state[L.S_STARTED] != 0.0:
-        return float(state[L.S_BEARING_POWER])
-    return bearing_power(par, work, L.W_Y)
+        return float(state[np.uintp(last)])
+    return now
 
 
 @kernel
@@ -303,11 +319,13 @@ def show_energy(par: Array, start: float, work: Array, out: Array) -> None:
     out[L.O_WASHER_HEAT] = work[L.W_Y + L.Y_WASHER]
     out[L.O_MESH_HEAT] = work[L.W_Y + L.Y_MESH]
     out[L.O_BEARING_HEAT] = work[L.W_Y + L.Y_BEARING]
+    out[L.O_LOSS_HEAT] = work[L.W_Y + L.Y_LOSS]
     out[L.O_SHAFT_HEAT] = work[L.W_Y + L.Y_SHAFT]
     out[L.O_SHAFT_ENERGY] = dynamics.spring_energy(par, work[L.W_Y + L.Y_TWIST])
     spent = out[L.O_KINETIC_CHANGE] + out[L.O_LOAD_WORK] + out[L.O_CLUTCH_HEAT]
     spent += out[L.O_BRAKE_HEAT] + out[L.O_WASHER_HEAT] + out[L.O_MESH_HEAT]
     spent += out[L.O_SHAFT_HEAT] + out[L.O_SHAFT_ENERGY] + out[L.O_BEARING_HEAT]
+    spent += out[L.O_LOSS_HEAT]
     out[L.O_ENERGY_RESIDUAL] = out[L.O_ENGINE_WORK] - spent
     out[L.O_LOCK_TIME], out[L.O_LOCK_SPEED] = work[L.W_EVENTS], work[L.W_EVENTS + 1]
     out[L.O_RELEASE_TIME] = work[L.W_EVENTS + 2]
@@ -344,15 +362,18 @@ def step(
     take_torques(par, taken, work, dt)
     show_motion(par, taken, work, out, dt)
     show_energy(par, start, work, out)
-    power = mean_bearing_power(par, state, work, dt)
-    out[L.O_BEARING_POWER] = power
+    now = bearing_power(par, work, L.W_Y)
+    power = mean_power(state, work, L.Y_BEARING, L.S_BEARING_POWER, now, dt)
+    now = loss_power(work, L.W_Y)
+    lost = mean_power(state, work, L.Y_LOSS, L.S_LOSS_POWER, now, dt)
+    out[L.O_BEARING_POWER], out[L.O_LOSS_POWER] = power, lost
     out[L.O_ADVISED_STEP] = advise(par, inp, state, work, dt) if dt > 0.0 else state[L.S_ADVISED]
     if status == OK:
         status = pressed
     if status == OK and not _is_finite(work, out, dt):
         status = NOT_FINITE
     if status == OK and dt > 0.0:
-        keep(par, inp, state, work, start, dt, power)
+        keep(par, inp, state, work, start, dt, power, lost)
         state[L.S_ADVISED] = out[L.O_ADVISED_STEP]
     clutch_holds = dynamics.capacity(work, 0, dt) > 0.0
     iout[L.IO_CLUTCH_LOCKED] = 1 if work[L.W_CLUTCH_MODE] == 0.0 and clutch_holds else 0

@@ -6,7 +6,7 @@ import pytest
 from scene_runs import changed
 
 from thrustwasher.model.oil_laws import roelands, vogel
-from thrustwasher.shift.run import _remarks
+from thrustwasher.shift.run import remarks
 from thrustwasher.tribology.viscosity import viscosity
 
 FLUID = ((297.15, 60.8e-3), (313.15, 31.4e-3), (373.15, 5.99e-3))
@@ -42,7 +42,7 @@ def test_a_parts_own_oil_overrides_and_is_said(tmp_path):
     scene = changed(tmp_path, "[mesh]\noil_density = 900.0")
     assert scene.parts["mesh"].params.oil_density == 900.0
     assert scene.parts["ring_mesh"].params.oil_density == 850.0
-    assert _remarks(scene) == ["mesh: oil_density of its own, not of the scene's oil"]
+    assert remarks(scene) == ["mesh: oil_density of its own, not of the scene's oil"]
 
 
 @pytest.mark.parametrize("base", ["planetary-sun", "planetary"])  # without and with an oil

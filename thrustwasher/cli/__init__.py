@@ -2,14 +2,8 @@
 
 A command module has ``HELP`` (one sentence), ``add_arguments(parser)`` and ``run(arguments)``,
 which returns the exit status. Heavy imports happen inside ``run``: ``--help`` answers at once.
-A command that solves a model at one point is no file: ``_solve`` makes it from the record.
-
-==============  ==================================================================
-``_solve``      the command that solves a model at one point, made from its record
-``_options``    options made from a model's inputs and parameters
-``_table``      columns of a CSV file, found by their names
-``_output``     JSON, tables, progress, files that are written whole or not at all
-==============  ==================================================================
+A command that solves a model at one point is no file: ``common`` makes it from the record, and has
+what commands share.
 """
 
 import argparse
@@ -38,6 +32,7 @@ COMMANDS = (
         "calibrate",
         "explore",
         "shift",
+        "efficiency",
         "sweep",
         "scatter",
         "chart",
@@ -182,7 +177,7 @@ def _dispatch(words: list[str]) -> int:
 def _command(name: str) -> Any:
     """Return the command of that name: a module, or made from the record of a model."""
     if name in MODELS:
-        return import_module("._solve", __name__).PointCommand(MODELS[name])
+        return import_module(".common._solve", __name__).PointCommand(MODELS[name])
     return import_module(f".{name}", __name__)
 
 

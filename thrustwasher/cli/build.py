@@ -9,7 +9,7 @@ from ..model.part_file import PartFile, is_part, load_part
 from ..model.registry import all_models, all_specs, find_spec
 from ..model.spec import ModelSpec
 from ..units import parse_quantity
-from . import _options, _output
+from .common import _options, _output
 
 TOL = "0.01"  # by default
 HELP = f"build FMUs for co-simulation: {', '.join(model.name for model in all_models())}"

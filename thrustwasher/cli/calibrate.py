@@ -13,7 +13,7 @@ from ..model.registry import models_with_points
 from ..model.rungs import rung_named
 from ..sweep.axes import find_place, places, split_settings
 from ..units import format_quantity, parse_quantity
-from . import _options, _output, _table
+from .common import _options, _output, _table
 
 HELP = "fit parameters of a model to measured outputs, or the clutch's friction law to friction"
 LAW_UNITS = {

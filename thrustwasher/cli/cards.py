@@ -6,7 +6,7 @@ from typing import Any
 from ..model.part_file import is_part, load_part
 from ..model.registry import ladder_of, models_with_cards
 from ..units import format_quantity, parse_quantity
-from . import _options, _output
+from .common import _options, _output
 
 TOL, POINTS = "0.01", 60  # by default
 HELP = "list the measured errors of all rungs, or measure those of a part file"

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError
-from . import _options, _output
+from .common import _options, _output
 
 HELP = "measure error and cost of every way to solve the models here, and draw the charts"
 OPTIONS = {

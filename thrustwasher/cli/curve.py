@@ -9,7 +9,7 @@ from ..model.part_file import PartFile
 from ..units import format_quantity, parse_quantity
 from ..washer.model import GRID
 from ..washer.parameters import SPEC
-from . import _options, _output
+from .common import _options, _output
 
 HELP = "trace the washer's load curve with the folds where the film is lost and regained"
 INPUTS = [signal for signal in SPEC.inputs if signal.name != "load"]

@@ -2,7 +2,7 @@
 
 import argparse
 
-from . import _output
+from .common import _output
 
 HELP = "say what works on this machine, and why not"
 

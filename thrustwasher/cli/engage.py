@@ -7,7 +7,7 @@ from typing import Any
 from ..clutch.parameters import SPEC
 from ..model.parameters import check_number
 from ..units import format_quantity, parse_quantity
-from . import _options, _output
+from .common import _options, _output
 
 HELP = "engage a wet pack: torque, film and interface temperature over time"
 COLUMNS = _output.columns(

@@ -4,7 +4,7 @@ import argparse
 
 from ..model.registry import models_with_points
 from ..model.rungs import gone_rung
-from . import _options, _output
+from .common import _options, _output
 
 HELP = "write one page in which a part is tried in any browser, without Python"
 USUAL = "washer"

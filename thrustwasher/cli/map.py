@@ -10,7 +10,7 @@ from ..model.advice import range_text
 from ..model.part_file import is_part
 from ..units import parse_quantity
 from ..washer.parameters import SPEC
-from . import _options, _output
+from .common import _options, _output
 
 INPUTS = [signal for signal in SPEC.inputs if not signal.optional]  # a map has no others
 BUILD = (  # options of a map to build alone

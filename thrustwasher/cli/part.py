@@ -18,7 +18,7 @@ from ..model.part_file import (
 )
 from ..model.record import Model
 from ..model.registry import all_models, find_model
-from . import _options, _output
+from .common import _options, _output
 
 HELP = "write a part file of one's own (new), check one, list the presets"
 NEW = ("name", "preset", "settings", "out")  # of a new part alone

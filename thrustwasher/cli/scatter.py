@@ -13,8 +13,8 @@ from ..model.registry import find_model, models_with_points
 from ..model.rungs import rung_named
 from ..storage.whole_files import new_folder
 from ..units import format_quantity
-from . import _options, _output
-from ._options import option_name
+from .common import _options, _output
+from .common._options import option_name
 
 if TYPE_CHECKING:
     from ..model.part_file import PartFile

@@ -11,9 +11,9 @@ from typing import Any
 
 from ..errors import ParameterError
 from ..units import parse_quantity
-from . import _compare, _options, _output
 from . import scatter as _scatter
 from .build import chosen_platforms
+from .common import _compare, _options, _output
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
 OF_A_RUN = (

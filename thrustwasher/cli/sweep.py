@@ -10,9 +10,9 @@ from ..errors import ParameterError, SolveError
 from ..model.registry import models_with_points
 from ..model.spec import ModelSpec
 from ..sweep.axes import places, split_settings
-from . import _options, _output
-from ._options import option_name
-from ._table import read_columns
+from .common import _options, _output
+from .common._options import option_name
+from .common._table import read_columns
 
 VALUES = "NAME=VALUES, e.g. load=50:1850:50 or speed=136,545"
 HELP = "solve a model over ranges of inputs and parameters, on all cores or on a cluster"

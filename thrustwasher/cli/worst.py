@@ -6,7 +6,7 @@ from typing import Any
 from ..errors import ParameterError
 from ..model.registry import all_models, find_model
 from ..units import format_quantity, parse_quantity
-from . import _options, _output
+from .common import _options, _output
 
 STEPS, MINUTES, SEED = 100_000, 1.0, 1  # by default
 HELP = "time the steps of the FMUs one by one here: mean, rare and longest, and what bounds them"

@@ -10,6 +10,7 @@
 ``scene``           what is simulated
 ``several_shifts``  several shifts in one run, with long steps between them
 ``shift_result``    what a run leaves: time series, events, key figures, cost
+``steady_points``   efficiency and losses in a gear, nothing accelerating
 ``ssp``             a shift as an SSP 1.0 package, for any SSP master
 ``tolerance``       a shift with the cheapest rungs that hold a tolerance
 ==================  =========================================================================

@@ -62,7 +62,7 @@ def run_shift(
     if scene.sequence is not None:
         raise ParameterError(f"scene {scene.name!r}: it has a [sequence], allowed: run_sequence")
     made_for, scene = scene, scene.with_options(step=step, master=master)
-    messages, found = _remarks(scene), _of_other_masters(made_for, scene)
+    messages, found = remarks(scene), _of_other_masters(made_for, scene)
     system = connected(scene, instances)
     run = laid_out(scene, system, messages)
     system.initialize(scene.start_time)
@@ -237,7 +237,7 @@ def check_instances(scene: Scene, instances: Mapping[str, Stepping]) -> None:
                 )
 
 
-def _remarks(scene: Scene) -> list[str]:
+def remarks(scene: Scene) -> list[str]:
     """Return what a reader has to know before looking at any number."""
     remarks = list(scene.notes)
     gearbox = scene.parts["transmission"].params

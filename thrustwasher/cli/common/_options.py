@@ -6,11 +6,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..errors import ParameterError, suggestion
-from ..model.idle import idle_warnings
-from ..model.oil import refuse_two_ways, sheet_oil
-from ..model.parameters import allowed, check_number, earlier_of
-from ..model.part_file import (
+from ...errors import ParameterError, suggestion
+from ...model.idle import idle_warnings
+from ...model.oil import refuse_two_ways, sheet_oil
+from ...model.parameters import allowed, check_number, earlier_of
+from ...model.part_file import (
     PartFile,
     find_part,
     is_part,
@@ -18,17 +18,17 @@ from ..model.part_file import (
     preset_part,
     preset_parts,
 )
-from ..model.point import Point, point_of
-from ..model.record import Option
-from ..model.registry import find_model, models_with_points, spec_of
-from ..sweep.axes import Place, places, split_settings
-from ..units import has_unit, parse_quantity
+from ...model.point import Point, point_of
+from ...model.record import Option
+from ...model.registry import find_model, models_with_points, spec_of
+from ...sweep.axes import Place, places, split_settings
+from ...units import has_unit, parse_quantity
 from ._output import note, parameters_of, warn
 
 LIKELY_RPM = 1000.0  # a speed without a unit from here on may be one in rpm
 if TYPE_CHECKING:  # they need numpy, which not every command does
-    from ..model.oil import Oil
-    from ..model.spec import ModelSpec, Signal
+    from ...model.oil import Oil
+    from ...model.spec import ModelSpec, Signal
 
 
 def add_inputs(parser: argparse.ArgumentParser, inputs: "Iterable[Signal]") -> None:

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from ..errors import ParameterError
+from ...errors import ParameterError
 from . import _output
 
 PAGE = "compare.html"
@@ -29,8 +29,8 @@ def run(arguments: argparse.Namespace, load: Step, simulate: Step) -> int:
             raise ParameterError(f"--compare {scene.name}: has several shifts, allowed: one each")
     found = [one if isinstance(one, tuple) else _run_of(simulate(arguments, one)) for one in given]
 
-    from ..report.html import render
-    from ..report.shift.comparison import NAMES, comparison_page, difference_table
+    from ...report.html import render
+    from ...report.shift.comparison import NAMES, comparison_page, difference_table
 
     runs = [run for run, _ in found]
     page = render(comparison_page(runs, [picture for _, picture in found]))
@@ -61,7 +61,7 @@ def _scene(arguments: argparse.Namespace, name: str, load: Step) -> Any:
 
 def _read(name: str) -> tuple[Any, Any]:
     """Return the run and the picture that a report's folder holds."""
-    from ..report.shift.shift_data import read_run
+    from ...report.shift.shift_data import read_run
 
     folder = Path(name)
     if not (folder / "report.html").is_file():
@@ -76,9 +76,9 @@ def _read(name: str) -> tuple[Any, Any]:
 
 def _run_of(result: Any) -> tuple[Any, Any]:
     """Return the run of a finished shift and its picture."""
-    from ..report.shift.overview_plot import overview_figure
-    from ..report.shift.shift_data import run_data
-    from ..report.shift.shift_record import record_of
+    from ...report.shift.overview_plot import overview_figure
+    from ...report.shift.shift_data import run_data
+    from ...report.shift.shift_record import record_of
 
     record = record_of(result)
     run = run_data(record, {})

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ..errors import ParameterError, suggestion
-from ..units import parse_quantity
+from ...errors import ParameterError, suggestion
+from ...units import parse_quantity
 from ._output import note
 
 LONGEST = 1_000_000  # lines; a larger file is not a table of measured points

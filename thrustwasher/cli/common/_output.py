@@ -13,12 +13,12 @@ from enum import Enum
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..errors import ParameterError, Status
-from ..model.spec import ModelSpec
-from ..storage.whole_files import new_folder
-from ..storage.whole_files import whole_file as whole_file
-from ..storage.whole_files import whole_folder as whole_folder
-from ..units import format_quantity
+from ...errors import ParameterError, Status
+from ...model.spec import ModelSpec
+from ...storage.whole_files import new_folder
+from ...storage.whole_files import whole_file as whole_file
+from ...storage.whole_files import whole_folder as whole_folder
+from ...units import format_quantity
 
 PLOT_SUFFIXES = (".png", ".svg", ".pdf")
 LINES = 16  # of a table on the screen

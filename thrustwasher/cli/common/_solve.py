@@ -6,8 +6,8 @@ import time
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ..model.record import Command, Model, Variants
-from ..model.spec import ModelSpec
+from ...model.record import Command, Model, Variants
+from ...model.spec import ModelSpec
 from . import _options, _output
 
 
@@ -48,7 +48,7 @@ class PointCommand:
         own = "" if any(options.values()) else self._model.doubt(result)
         warnings = at.warn(filter(None, [*result.warnings, own]))
         if targets.plot:
-            from ..report.model_plots import FIGURES
+            from ...report.model_plots import FIGURES
 
             targets.draw(FIGURES[spec.key](result, point, params))
         found, parameters = _output.scalars(result), _output.parameters_of(params)
@@ -83,7 +83,7 @@ def _rung(asked: str, spec: ModelSpec, params: Any, point: Mapping[str, float]) 
     """
     if asked in spec.fidelities:
         return asked
-    from ..ladder.choose import choose, rung_and_tolerance
+    from ...ladder.choose import choose, rung_and_tolerance
 
     _, tolerance = rung_and_tolerance(spec.key, spec, asked)
     choice = choose(spec.key, dict(point), tol=float(tolerance or 0.0), params=params)

@@ -1,0 +1,98 @@
+"""Efficiency at steady points: balance, sources against the models themselves, gears."""
+
+import math
+
+import numpy as np
+import pytest
+from scene_runs import changed, slow_without_jit
+
+from thrustwasher import ParameterError, solve_gearmesh, solve_losses
+from thrustwasher.shift import load_scene
+from thrustwasher.shift.steady_points import SOURCES, efficiency_map
+
+BARE = "[transmission]\nwashers = 0\n"
+
+
+@pytest.fixture(scope="module")
+def scene(tmp_path_factory):
+    return changed(tmp_path_factory.mktemp("bare"), BARE)
+
+
+@slow_without_jit
+@pytest.mark.parametrize("gear", ["first", "second"])
+def test_power_in_is_power_out_and_losses(scene, gear):
+    rng = np.random.default_rng(7)
+    found = efficiency_map(
+        scene, rng.uniform(0.0, 400.0, 6), rng.uniform(20.0, 500.0, 6), gear=gear
+    )
+    c = found.columns
+    assert found.balance < 1e-12
+    assert c["loss"] == pytest.approx(sum(c[name] for name in SOURCES), rel=1e-9)
+    out = c["output_torque"] > 0.0
+    power = (c["torque"] * c["speed"])[out]
+    assert c["efficiency"][out] == pytest.approx(1.0 - c["loss"][out] / power, rel=1e-12)
+    assert np.isnan(c["efficiency"][~out]).all()
+
+
+@slow_without_jit
+def test_sources_are_what_their_models_lose_there(scene):
+    """First gear: the ring has 150 N m at 300 rad/s, four planets turn 4.1 times as fast."""
+    at = efficiency_map(scene, [150.0], [300.0])
+    c = {name: float(x[0]) for name, x in at.columns.items()}
+    assert c["output_speed"] == pytest.approx(300.0 / (1.0 + 38.0 / 74.0), rel=1e-14)
+    spin = 74.0 / 18.0 * (300.0 - c["output_speed"])
+    oil = scene.oil_temperature
+    part = scene.parts["losses"].params
+    radius = 0.5 * 1.5e-3 * 74.0 / math.cos(math.radians(20.0))
+    # four planets have what input, open clutch (it slips at the ring's speed) and drag leave
+    left = 150.0 - (c["pump_loss"] + 0.5 * c["seal_loss"] + c["pack_loss"]) / 300.0
+    left -= c["mesh_loss"] / (300.0 - c["output_speed"])
+    force = left / (4.0 * radius)
+    own = solve_losses(
+        part,
+        input_speed=300.0,
+        output_speed=c["output_speed"],
+        planet_speed=spin,
+        tooth_force=force,
+        oil_temperature=oil,
+    )
+    for name, source in (("pump", "pump"), ("churning", "churning"), ("seal", "seal")):
+        assert c[f"{name}_loss"] == pytest.approx(getattr(own, f"{source}_power"), rel=1e-9)
+    assert c["rolling_loss"] == pytest.approx(own.bearing_power, rel=5e-3)  # the force is rough
+    lost = 0.0
+    for name in ("mesh", "ring_mesh"):
+        params = scene.parts[name].params
+        quasi = type(params)(
+            **{f: getattr(params, f) for f in params.__dataclass_fields__ if f != "thermal_mode"},
+            thermal_mode="quasi_steady",
+        )
+        torque = force * 0.5 * 1.5e-3 * 18.0 / math.cos(math.radians(20.0))
+        found = solve_gearmesh(quasi, power=torque * spin, speed=spin, oil_temperature=oil)
+        lost += 4.0 * found.friction_power
+    assert c["mesh_loss"] == pytest.approx(lost, rel=1e-2)
+
+
+@slow_without_jit
+def test_a_locked_set_has_no_losses_in_its_teeth(scene):
+    c = efficiency_map(scene, [100.0], [200.0], gear="second").columns
+    assert c["mesh_loss"] == 0.0 and c["output_speed"] == 200.0 and c["pump_loss"] > 500.0
+
+
+def test_without_losses_the_map_says_what_is_left_out(tmp_path):
+    found = efficiency_map(changed(tmp_path, f"losses = false\n{BARE}"), [100.0], [200.0])
+    assert found.columns["pump_loss"] == 0.0
+    assert any("no [losses]" in text for text in found.warnings)
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ({"gear": "third"}, "gear = 'third', allowed: 'first', 'second'"),
+        ({"torque": [-1.0]}, "torque = -1.0 N.m, allowed: 0"),
+        ({"speed": [0.0]}, "speed = 0.0 rad/s, allowed: 1"),
+        ({"speed": []}, "one value of each"),
+    ],
+)
+def test_what_is_wrong_is_named(more, words):
+    with pytest.raises(ParameterError, match=words):
+        efficiency_map(load_scene("planetary"), **{"torque": [100.0], "speed": [200.0]} | more)

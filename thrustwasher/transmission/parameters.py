@@ -228,6 +228,13 @@ class _TransmissionParams:
     ring_mesh: bool = flag(
         False, "ring_mesh_torque is the ring meshes' loss (False: mesh_torque stands for both)"
     )
+    needle_count: int = count(0, 0, 100, "needles under a planet (0: thrust_share, planet_tilt)")
+    needle_length: float = quantity(0.02, "m", 1e-3, 1.0, "length of a needle, both rows together")
+    needle_clearance: float = quantity(15e-6, "m", 0.0, 1e-3, "radial clearance of the needles")
+    needle_slices: int = count(10, 1, 50, "slices of a needle that are pressed apart")
+    planet_mass: float = quantity(0.1, "kg", 0.0, 1e4, "of a planet, which its needles hold")
+    washer_outer_radius: float = quantity(0.0115, "m", 1e-3, 1.0, "where a tilted planet touches")
+    end_play: float = quantity(3e-4, "m", 0.0, 0.1, "of a planet between its washers, in all")
 
     def __post_init__(self) -> None:
         check_ranges(self)

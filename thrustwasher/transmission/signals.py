@@ -99,7 +99,7 @@ OUTPUTS = (
     output("brake_speed", "rad/s", 100.0, "slip of the brake, speed of the drum"),
     output("washer_load", "N", 100.0, "axial load on one thrust washer", _TORQUES),
     output("washer_speed", "rad/s", 100.0, "speed of a planet on its pin"),
-    output("washer_tilt", "rad", 1e-3, "tilt of a planet against the carrier"),
+    output("washer_tilt", "rad", 1e-3, "tilt of a planet against the carrier", _TORQUES),
     output("mesh_load", "N.m", 10.0, "torque of one planet in its sun and its ring mesh", _TORQUES),
     output("mesh_speed", "rad/s", 100.0, "speed of a planet against the carrier"),
     output("engine_speed", "rad/s", 100.0, "speed of engine and driven gear"),

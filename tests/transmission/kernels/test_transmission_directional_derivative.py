@@ -130,3 +130,13 @@ def test_older_torques_look_further_ahead():
         unit.step([50.0, 40.0, 0.0, 0.0, 0.5, *BESIDE], dt=1e-3)
         found = unit.gradient([60.0, 45.0, 0.0, 0.0, 0.5, *BESIDE])
         assert abs(found[NAMES.index("clutch_reaction"), 0]) == 1.0 + age
+
+
+@pytest.mark.parametrize("end_play", [3e-4, 1e-5])
+def test_derivatives_of_a_planet_on_needles(end_play):
+    """Free to tilt, and with washers that bear; slices that come to bear bend the curve."""
+    unit = gearbox(needle_count=18, end_play=end_play, coupling="torque")
+    rng = np.random.default_rng(4)
+    for _ in range(20):
+        point = random_point(rng)
+        assert disagreement(unit, point, 0.01 * np.abs(point)).max() < 1e-3

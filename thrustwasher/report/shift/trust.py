@@ -23,6 +23,7 @@ def trust_texts(r: Record) -> list[str]:
         *_washer(r),
         *_meshes(r),
         *_thrust(r),
+        *_washers(r),
         *_jerk(r),
         *(f"{model}. {' '.join(words.split())}" for model, words in docs.items()),
         *(f"The run says: {message}." for message in r.messages),
@@ -142,6 +143,25 @@ def _thrust(r: Record) -> Iterator[str]:
             "Axial thrust: the teeth press sun and ring against each other's side with up to "
             f"{say(most, 'N')}; the planets are in balance. Needle thrust bearings take it, the "
             f"{', the '.join(rests)}. Their friction is an estimate."
+        )
+
+
+def _washers(r: Record) -> Iterator[str]:
+    """Yield where the washers' load comes from."""
+    part, most = r.part("transmission"), r.figures.get("peak_washer_load")
+    if not part or not r.part("washer") or most is None:
+        return
+    p = part.params()
+    if p.needle_count:
+        yield (
+            f"The washers' load, up to {say(most, 'N')}, is what {p.needle_count} needles with "
+            f"{say(p.needle_clearance, 'm')} of radial clearance leave of a planet's tilting couple "
+            f"from where it touches in its end play of {say(p.end_play, 'm')}."
+        )
+    else:
+        yield (
+            f"The washers' load, up to {say(most, 'N')}, is a share of a planet's tilting couple "
+            f"(thrust_share = {p.thrust_share:g}), a guess: sound needles would leave them none."
         )
 
 

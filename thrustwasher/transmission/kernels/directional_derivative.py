@@ -16,6 +16,7 @@ from . import dynamics
 from . import layout as L
 from .dynamics import drum_speed
 from .piston import force
+from .planet_bearing import washer_changes, washer_share
 from .shaft_losses import spread_losses
 from .thrust_bearings import bearing_torque
 
@@ -193,7 +194,15 @@ def directional_derivative(
     per_load = par[L.P_THRUST_SHARE] / (2.0 * par[L.P_WASHER_RADIUS])
     force = sign_of(torque) * tau * per_force
     couple = per_couple * force
-    if per_load * per_couple * abs(torque) * per_force > LEAST_WASHER_LOAD:
+    if par[L.P_NEEDLE_COUNT] > 0.0:
+        loads = work[L.W_PLANET_LOADS :]
+        loads[0], loads[1], loads[2] = 2.0 * force, 0.0, 0.0
+        loads[3] = couple / (0.5 * par[L.P_NEEDLE_LENGTH])
+        bears, tilts = washer_changes(par, loads, work[L.W_SETTLED :])
+        dout[L.O_WASHER_TILT] = tilts
+        if washer_share(par, work[L.W_SETTLED :])[0] > LEAST_WASHER_LOAD:
+            dout[L.O_WASHER_LOAD] = bears
+    elif per_load * per_couple * abs(torque) * per_force > LEAST_WASHER_LOAD:
         dout[L.O_WASHER_LOAD] = per_load * couple
     dout[L.O_DRIVE_TORQUE], dout[L.O_RESISTANCE_TORQUE] = engine, load
     dout[L.O_SHAFT_TORQUE] = shaft

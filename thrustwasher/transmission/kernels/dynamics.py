@@ -23,6 +23,7 @@ from ...numerics.arrays import are_finite
 from ...numerics.jit import Array, kernel
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
+from .planet_bearing import derive_needles
 from .shaft_losses import loss_power, turn_losses
 from .thrust_bearings import bearing_power, broken_bearing, derive_bearings, turn_bearings
 
@@ -86,6 +87,7 @@ def derive(par: Array) -> int:
     moment = outer**4 - inner**4 - supply * (outer**2 - inner**2)
     par[L.D_HEAD] = 0.25 * math.pi * par[L.P_OIL_DENSITY] * moment * (1.0 - par[L.P_BALANCE_SHARE])
     derive_bearings(par)
+    derive_needles(par)
     return OK if are_finite(par[L.N_PARAM :]) else NOT_FINITE
 
 

@@ -43,6 +43,13 @@
     P_ROLLING_TORQUE,
     P_GRADE_TORQUE,
     P_RING_MESH,
+    P_NEEDLE_COUNT,
+    P_NEEDLE_LENGTH,
+    P_NEEDLE_CLEARANCE,
+    P_NEEDLE_SLICES,
+    P_PLANET_MASS,
+    P_WASHER_OUTER_RADIUS,
+    P_END_PLAY,
     P_SUN_BEARING_SHAFT_1,
     P_SUN_BEARING_SHAFT_2,
     P_SUN_BEARING_COEFFICIENT,
@@ -52,7 +59,7 @@
     P_RING_BEARING_COEFFICIENT,
     P_RING_BEARING_MEAN_RADIUS,
     P_CLUTCH_PISTON_AREA,
-) = range(50)
+) = range(57)
 N_BEARING = 4  # parameters of a bearing
 # From P_CLUTCH_PISTON_AREA on: N_OWN of the clutch's piston, as many of the brake's, three courses.
 OWN_SPRING, OWN_VOLUME, OWN_FLOW, OWN_LAG, N_OWN = range(1, 6)
@@ -80,8 +87,11 @@ N_PARAM = P_FIDELITY + 1
     D_SLIP_BB,
     D_HEAD,
     D_RING_MESHES,
+    D_NEEDLE_LINE,
+    D_LARGEST_TILT,
+    D_CENTRE,
     D_BEARINGS,
-) = range(N_PARAM, N_PARAM + 15)
+) = range(N_PARAM, N_PARAM + 18)
 # Of a bearing, from D_BEARINGS on: torque per torque in the driven gear's teeth, slip per speed of
 # driven gear and carrier, share of its torque that stands against the driven gear itself.
 BEARING_TORQUE, BEARING_DRIVEN, BEARING_CARRIER, BEARING_OWN, N_TURNING = range(5)
@@ -202,7 +212,10 @@ W_SLOPES = W_STAGE + N_Y
 N_STAGES = 7
 W_TAKEN = W_SLOPES + N_STAGES * N_Y  # the inputs as the step takes them, then their rates
 W_ENGINE_RATE = W_TAKEN + NINP + I_ENGINE
-NWORK = W_TAKEN + 2 * NINP
+W_SETTLED = W_TAKEN + 2 * NINP  # of a planet on its needles, then its loads
+N_SETTLED = 52
+W_PLANET_LOADS = W_SETTLED + N_SETTLED
+NWORK = W_PLANET_LOADS + 4
 
 # Real outputs, in the order of SPEC.outputs.
 (

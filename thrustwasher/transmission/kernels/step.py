@@ -19,6 +19,7 @@ from . import dynamics, piston
 from . import layout as L
 from .directional_derivative import LEAST_WASHER_LOAD, directional_derivative
 from .integrate_step import is_at_rest, run
+from .planet_bearing import loads_of, settle, washer_share
 from .shaft_losses import loss_power
 from .thrust_bearings import bearing_power, bearing_torque
 
@@ -252,11 +253,17 @@ def show_motion(par: Array, taken: Array, work: Array, out: Array, s: float) -> 
     out[L.O_BRAKE_SPEED] = drum
     out[L.O_CLUTCH_HUB_SPEED], out[L.O_CLUTCH_DRUM_SPEED] = driven, drum
     out[L.O_BRAKE_HUB_SPEED], out[L.O_BRAKE_DRUM_SPEED] = drum, 0.0
-    out[L.O_WASHER_LOAD] = max(
-        LEAST_WASHER_LOAD, par[L.P_THRUST_SHARE] * couple / (2.0 * par[L.P_WASHER_RADIUS])
-    )
-    out[L.O_WASHER_SPEED] = spin
+    load = par[L.P_THRUST_SHARE] * couple / (2.0 * par[L.P_WASHER_RADIUS])
     out[L.O_WASHER_TILT] = par[L.P_PLANET_TILT]
+    if par[L.P_NEEDLE_COUNT] > 0.0:
+        loads = work[L.W_PLANET_LOADS :]
+        loads_of(par, force, carrier, couple, loads)
+        settled = settle(par, loads, work[L.W_SETTLED :])
+        load, out[L.O_WASHER_TILT] = washer_share(par, work[L.W_SETTLED :])
+        if not settled:
+            load = math.nan  # its status is NOT_FINITE
+    out[L.O_WASHER_LOAD] = max(load, LEAST_WASHER_LOAD)
+    out[L.O_WASHER_SPEED] = spin
     out[L.O_MESH_LOAD] = force * par[L.D_PLANET_RADIUS]
     out[L.O_MESH_SPEED] = spin
     out[L.O_ENGINE_SPEED], out[L.O_OUTPUT_SPEED] = driven, carrier

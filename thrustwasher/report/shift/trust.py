@@ -155,8 +155,8 @@ def _washers(r: Record) -> Iterator[str]:
     if p.needle_count:
         yield (
             f"The washers' load, up to {say(most, 'N')}, is what {p.needle_count} needles with "
-            f"{say(p.needle_clearance, 'm')} of radial clearance leave of a planet's tilting couple "
-            f"from where it touches in its end play of {say(p.end_play, 'm')}."
+            f"{say(p.needle_clearance, 'm')} of radial clearance leave of a planet's tilting "
+            f"couple from where it touches in its end play of {say(p.end_play, 'm')}."
         )
     else:
         yield (

@@ -125,8 +125,9 @@ def _of_washers(signals: Signals) -> Iterator[str]:
     if heat > 0.0:
         yield (
             f"No tilting couple loads the washers (thrust_share = 0, spur teeth, or needles that "
-            f"hold it all): each is solved with {LEAST_WASHER_LOAD:g} N, the least load; the {say(heat, 'J')} they took "
-            "and their film are of that load. Leave out [washer] or set washers = 0"
+            f"hold it all): each is solved with {LEAST_WASHER_LOAD:g} N, the least load; the "
+            f"{say(heat, 'J')} they took and their film are of that load. "
+            "Leave out [washer] or set washers = 0"
         )
 
 

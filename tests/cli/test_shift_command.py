@@ -66,7 +66,7 @@ def test_a_braking_test_is_compared_with_its_source(tmp_path, capsys):
 def test_what_a_run_left_out_or_changed_is_said_on_the_screen(tmp_path, capsys):
     scene = tmp_path / "mine.toml"
     scene.write_text('base = "planetary"\n[sun_bearing]\ncoefficient = 0.0\n', "utf-8")
-    words = ["shift", "--scene", str(scene), "--step", "20 ms", "--no-report"]
+    words = ["shift", "--scene", str(scene), "--step", "25 ms", "--no-report"]
     assert main(words) == 0
     out, err = capsys.readouterr()
     assert "the sun's thrust of up to" in out and "warning: The communication step" in err

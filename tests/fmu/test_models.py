@@ -43,7 +43,7 @@ STANDINGS = {
 CASES = {"ThrustWasher": 40, "WetClutch": 200, "GearMesh": 100, "ShiftTransmission": 600}
 
 
-HEATS = {f"heat_{i}": f"energy_{i}" for i in range(1, 7)}
+HEATS = {f"heat_{i}": f"energy_{i}" for i in range(1, 8)}
 TAKEN_ONE_WAY = HEATS | {energy: heat for heat, energy in HEATS.items()}
 
 
@@ -65,6 +65,7 @@ def test_only_listed_inputs_move_an_output_at_once_and_all_of_them_the_real_ones
         if name == "ShiftTransmission":
             bearings = {f"{gear}_bearing_coefficient": 0.02 for gear in ("sun", "ring")}
             given = given | {"ring_mesh": True} | bearings
+            given |= {"needle_count": 18 * (case % 2)}
         with DirectInstance(spec, parameters=given) as direct:
             point = one_way(spec, rng, jump(spec, rng, far))
             direct.initialize(inputs=dict(zip(direct.input_names, point, strict=True)))

@@ -12,7 +12,7 @@ from thrustwasher import GearMeshParams, ParameterError, SolveError, WasherParam
 from thrustwasher.ladder import choose as home
 from thrustwasher.ladder import error_table
 from thrustwasher.ladder.choose import choose, rungs_of
-from thrustwasher.ladder.compare import Comparison, points_of, rows_to_compare
+from thrustwasher.ladder.compare_rungs import Comparison, points_of, rows_to_compare
 from thrustwasher.ladder.error_table import Axis
 from thrustwasher.model.registry import spec_of
 

@@ -57,7 +57,7 @@ def test_the_command_times_every_step_of_three_walks(capsys):
     assert (found["model"], found["fidelity"], found["steps"]) == ("sump", "lumped", 9000)
     assert found["failed"] == found["not_finite"] == 0
     assert 0.0 < found["mean"] <= found["rare"] <= found["longest"] <= found["raw_longest"]
-    assert found["bound"] == "explicit: no solve" and len(found["point"]) == 15
+    assert found["bound"] == "explicit: no solve" and len(found["point"]) == 17
 
 
 def test_the_table_says_how_much_work_the_steps_took(capsys):

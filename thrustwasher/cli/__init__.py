@@ -33,6 +33,7 @@ COMMANDS = (
         "explore",
         "shift",
         "efficiency",
+        "compare",
         "sweep",
         "scatter",
         "chart",

@@ -13,7 +13,7 @@ from ..errors import ParameterError
 from ..units import parse_quantity
 from . import scatter as _scatter
 from .build import chosen_platforms
-from .common import _compare, _options, _output
+from .common import _two_shifts, _options, _output
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
 OF_A_RUN = (
@@ -76,7 +76,7 @@ def run(arguments: argparse.Namespace) -> int:
         _options.refuse_unused(arguments, "--list", OF_A_RUN, out=FOLDER, fmu="native")
         return _list(arguments.json)
     if arguments.compare:
-        return _compare.run(arguments, _scene, _simulate)
+        return _two_shifts.run(arguments, _scene, _simulate)
     if arguments.no_report and arguments.out != FOLDER:
         raise ParameterError(f"--out {arguments.out}: --no-report writes no files; leave one out")
     scene = _scene(arguments, arguments.scene or "planetary")

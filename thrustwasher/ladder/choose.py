@@ -17,7 +17,7 @@ from ..model.prepare import tables_of
 from ..model.registry import ladder_of, spec_of
 from ..model.spec import ModelSpec
 from ..units import format_quantity as say
-from .compare import Comparison, Point, points_of
+from .compare_rungs import Comparison, Point, points_of
 from .error_table import QUANTITIES, SAFETY, Interval, RungErrors, fresh_rungs, load_tables
 from .formats import shown_error
 

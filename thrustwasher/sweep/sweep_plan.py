@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError
 from ..ladder import choose as chooser
-from ..ladder.compare import rows_to_compare
+from ..ladder.compare_rungs import rows_to_compare
 from ..model.advice import quantity_text, range_text
 from ..model.idle import idle_warnings
 from ..model.oil import oil_doubts

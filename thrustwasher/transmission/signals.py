@@ -45,10 +45,11 @@ INPUTS = (
     *(_loss(shaft, words) for shaft, words in LOSSES.items()),
 )
 _ENGINE, _LOAD = ("engine_torque_input",), ("load_torque_input",)
-_TORQUES = (*(s.name for s in (*INPUTS[:4], *INPUTS[9:])), *_ENGINE, *_LOAD)
-# Drag decides only who holds a clutch beyond its capacity, not how much.
-_PACKS = (*_TORQUES[:2], *_ENGINE, *_LOAD)
+_TORQUES = (*_ENGINE, *_LOAD, *(s.name for s in (*INPUTS[:4], *INPUTS[9:])))
 _LOSSES = tuple(f"{shaft}_loss_torque" for shaft in LOSSES)
+# Drag decides only who holds a clutch beyond its capacity, not how much.
+_PACKS = (*_TORQUES[2:4], *_ENGINE, *_LOAD, *_LOSSES[:3])
+_HELD = tuple(name for name in _TORQUES if name != "drum_loss_torque")  # a held drum has none
 _PRESSED = {pack: ("shift_command", f"{pack}_pressure") for pack in ("clutch", "brake")}
 
 
@@ -108,9 +109,11 @@ OUTPUTS = (
     output("drive_torque", "N.m", 100.0, "torque of the engine now", _ENGINE),
     output("resistance_torque", "N.m", 100.0, "torque of the load now", _LOAD),
     output("clutch_reaction", "N.m", 100.0, "torque the clutch really transmits", _PACKS),
-    output("brake_reaction", "N.m", 100.0, "torque the brake really holds", _TORQUES),
+    output("brake_reaction", "N.m", 100.0, "torque the brake really holds", _HELD),
     output("input_tooth_torque", "N.m", 100.0, "torque in the driven gear's teeth", _TORQUES),
-    output("drag_torque", "N.m", 1.0, "drag of washers and meshes at the driven gear", _TORQUES),
+    output(
+        "drag_torque", "N.m", 1.0, "drag of washers and meshes at the driven gear", _TORQUES[:-1]
+    ),
     output("tooth_force", "N", 1e3, "tangential force in one mesh", _TORQUES),
     output("tilting_couple", "N.m", 10.0, "couple of the axial tooth forces on a planet", _TORQUES),
     output("sun_thrust", "N", 1e3, "axial force on the sun gear, against the ring's", _TORQUES),

@@ -59,7 +59,12 @@ def parameters_of(params: Any) -> dict[str, Any]:
 
 def print_json(record: Mapping[str, Any]) -> None:
     """Write one JSON object to standard output, numbers in full precision; it has ``warnings``."""
-    print(json.dumps(as_json({"warnings": [], **record}), indent=2, allow_nan=False))
+    print(json_text({"warnings": [], **record}))
+
+
+def json_text(record: Mapping[str, Any]) -> str:
+    """Return one JSON object as text."""
+    return json.dumps(as_json(record), indent=2, allow_nan=False)
 
 
 def print_rows(rows: list[tuple[str, str, str]]) -> None:

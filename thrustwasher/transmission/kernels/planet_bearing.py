@@ -28,6 +28,7 @@ from . import layout as L
 
 PALMGREN = 3.84e-5  # mm, N
 POWER = 1.0 / 0.9
+LIGHT = 1e-3  # N: below, the planet lies anywhere in its clearance, untilted here
 STAGES, SEARCHES, HALVINGS = 4, 300, 40
 ROUNDING, LOOSE = 4e-16, 1e-7  # the latter: what a search that has not ended may leave
 SETTLED = 1e-12  # of the load
@@ -108,7 +109,7 @@ def settle(par: Array, loads: Array, work: Array) -> bool:
     z = work[0:N]
     size = math.hypot(math.hypot(loads[0], loads[1]), math.hypot(loads[2], loads[3]))
     clear(work[0 : L.N_SETTLED])
-    if not size > 0.0:
+    if size < LIGHT:
         return True
     count, slices = par[L.P_NEEDLE_COUNT], par[L.P_NEEDLE_SLICES]
     reach = (4.0 * size / (count * slices * par[L.D_NEEDLE_LINE])) ** (1.0 / POWER)

@@ -1,0 +1,127 @@
+"""Measured beside computed: a rig made of the model agrees, a shifted one is fitted back."""
+
+import json
+
+import numpy as np
+import pytest
+from scipy.stats import binomtest
+
+from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
+from thrustwasher.cli import main
+from thrustwasher.rigs.rig_comparison import compare
+from thrustwasher.rigs.rig_file import load_rig
+
+TEXTS = ("title", "source", "measured", "conditions", "rights", "read", "reason")
+HEAD = "power [kW], speed [rad/s], friction_torque, friction_torque_error, origin"
+PART = """model = "gearmesh"
+name = "Mine"
+[parameters]
+film_heat = "loss"
+[scatter]
+viscosity_scale = "10 %"
+"""
+POWERS = (2.0, 4.0, 6.0, 8.0, 10.0, 12.0)
+
+
+def rig(tmp_path, lines, head=HEAD, extra='fit = ["viscosity_scale"]\n', **changed):
+    texts = {key: f"{key} of it" for key in TEXTS} | changed
+    text = "".join(f'{k} = "{x}"\n' for k, x in texts.items() if x)
+    (tmp_path / "rig.toml").write_text(text + 'part = "part.toml"\n' + extra, "utf-8")
+    (tmp_path / "part.toml").write_text(PART, "utf-8")
+    (tmp_path / "points.csv").write_text("\n".join([head, *lines]), "utf-8")
+    return tmp_path
+
+
+def lines(thicker=1.0, error=0.02):
+    usual = GearMeshParams().viscosity_scale
+    params = GearMeshParams(film_heat="loss", viscosity_scale=thicker * usual)
+    for kw in POWERS:
+        found = solve_gearmesh(params, power=1e3 * kw, speed=180.0).friction_torque
+        yield f"{kw}, 180, {found!r}, {error * found!r}, table"
+
+
+def test_what_the_model_gave_has_no_deviation_and_is_inside(tmp_path):
+    found = compare(load_rig(rig(tmp_path, lines())))
+    assert np.abs(found.deviations).max() < 1e-12 and found.inside.all()
+    told = found.to_dict()
+    assert told["points"] == 6 and told["inside_band"] == 1.0 and told["fitted"] == {}
+    low, high = told["inside_band_interval"]
+    ends = binomtest(6, 6).proportion_ci()
+    assert (low, high) == (ends.low, ends.high)
+
+
+def test_a_parameter_that_is_off_is_found_from_every_second_point(tmp_path):
+    made, usual = load_rig(rig(tmp_path, lines(thicker=1.4))), GearMeshParams().viscosity_scale
+    blind, fitted = compare(made), compare(made, fit=1)
+    assert np.abs(blind.deviations).min() > 1e-3
+    assert fitted.fitted["viscosity_scale"] == pytest.approx(1.4 * usual, rel=1e-3)
+    assert fitted.judged.tolist() == [False, True] * 3
+    assert np.abs(fitted.deviations).max() < 1e-5
+
+
+def test_the_band_holds_the_scatter_and_the_reading_error(tmp_path):
+    scatter = compare(load_rig(rig(tmp_path, lines(error=1e-9))))
+    both = compare(load_rig(rig(tmp_path, lines(error=0.2))))
+    assert ((scatter.low < scatter.computed) & (scatter.computed < scatter.high)).all()
+    wide = (both.high - both.low) / both.computed
+    assert (wide > (scatter.high - scatter.low) / scatter.computed).all()
+    assert wide == pytest.approx(2.0 * 1.645 * 0.2, rel=0.2)
+
+
+GOOD = "2.0, 180, 0.5, 0.01, table"
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"lines": ["2.0, 180, x, 0.01, table"]}, "point 1: friction_torque = 'x', a number"),
+        ({"lines": ["2.0, 180, 0.5, 0.01, guess"]}, "origin 'guess', allowed: table, figure"),
+        ({"lines": ["2.0, 180, 0.5, 0.01, fit"]}, "1 points are of a published fit"),
+        ({"lines": []}, "has no points"),
+        ({"head": HEAD.replace("speed", "spede")}, "column 'spede .rad/s.' is not known; did you"),
+        ({"head": HEAD.replace("friction_torque,", "load_factor,")}, "column 'load_factor'"),
+        ({"source": ""}, "source = None, a text is required"),
+        ({"extra": "vary = 'tilt'\n"}, "vary = 'tilt', allowed: an input that is a column"),
+        ({"extra": "sorce = 'x'\n"}, "there is no 'sorce' here"),
+        ({"extra": 'scene = "planetary"\n'}, "part or scene, allowed: the name of one"),
+    ],
+)
+def test_what_is_wrong_in_a_rig_is_named(tmp_path, change, words):
+    given = {"lines": [GOOD]} | change
+    with pytest.raises(ParameterError, match=words):
+        load_rig(rig(tmp_path, **given))
+
+
+def test_the_command_says_the_figures_and_writes_them(tmp_path, capsys):
+    (tmp_path / "rig").mkdir()
+    folder, out = rig(tmp_path / "rig", lines()), tmp_path / "out"
+    assert main(["compare", str(folder), "--json", "--draws", "8", "--out", str(out)]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert {"points", "mean_deviation", "largest_deviation", "inside_band"} <= told.keys()
+    assert json.loads((out / "comparison.json").read_text("utf-8"))["points"] == 6
+    assert (out / "comparison.png").stat().st_size > 5_000
+    page = tmp_path / "page.md"
+    assert main(["compare", str(tmp_path), "--page", str(page), "--draws", "8"]) == 0
+    text = page.read_text("utf-8")
+    assert "6 of 6" in text and "after a fit of viscosity_scale" in text
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["nix"], "rig 'nix': there is no such folder"),
+        (["tests"], "rig 'tests': there is no rig.toml in it"),
+        (["tests", "--fit", "x"], "--fit x: allowed: a whole number 0 .. 100"),
+        (["tests", "--draws", "1"], "--draws 1: allowed: a whole number 2 .. 4096"),
+    ],
+)
+def test_wrong_input_is_said_in_a_line(words, said, capsys):
+    assert main(["compare", *words]) == 2
+    error = capsys.readouterr().err
+    assert said in error and error.count("\n") == 1
+
+
+@pytest.mark.parametrize("name", ["fzg-c-mod", "wang-2012"])
+def test_rigs_of_the_shelf_can_be_compared(name):
+    found = compare(load_rig(f"examples/measured/{name}"), draws=8)
+    assert np.abs(found.deviations).max() < 0.02

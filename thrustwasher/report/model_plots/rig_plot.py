@@ -1,0 +1,50 @@
+"""Measured values of a rig with their errors, computed ones with the band of the scatter."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from ..palette import BLACK, BLUE, ORANGE
+from ..style import label, new_figure, styled
+
+SIGMAS = 1.645  # 5 .. 95 %
+
+
+@styled
+def rig_figure(found: Any) -> Figure:
+    """Return measured and computed values over the rig's varied input."""
+    rig = found.rig
+    order = np.argsort(rig.inputs[rig.vary], kind="stable")
+    x, unit = rig.inputs[rig.vary][order], _unit(rig)
+    figure, (axis, *_) = new_figure(6.4, 4.2)
+    axis.errorbar(
+        x,
+        rig.measured[order],
+        SIGMAS * rig.error[order],
+        fmt="o",
+        color=BLACK,
+        capsize=3,
+        label="measured, 5 .. 95 %",
+    )
+    ends = np.abs(np.array([found.low, found.high])[:, order] - found.computed[order])
+    axis.errorbar(
+        x,
+        found.computed[order],
+        ends,
+        fmt="s",
+        color=BLUE,
+        capsize=5,
+        label="computed, with scatter",
+    )
+    used = ~found.judged[order]
+    if used.any():
+        axis.plot(x[used], rig.measured[order][used], "o", color=ORANGE, label="used for the fit")
+    axis.legend()
+    label(axis, rig.texts["title"], f"{rig.vary} [{unit}]", f"{rig.output} [{rig.unit}]")
+    return figure
+
+
+def _unit(rig: Any) -> str:
+    known = {"load": "N", "speed": "rad/s", "torque": "N m", "power": "W", "tilt": "rad"}
+    return known.get(rig.vary, "SI")

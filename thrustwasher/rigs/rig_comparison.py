@@ -1,0 +1,223 @@
+"""Computed beside measured: blind, in the band of the scatter, and after a fit."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+from scipy.stats import binomtest, qmc
+
+from ..errors import ParameterError, SolveError
+from ..model.part_file import PartFile
+from ..model.registry import find_model
+from ..shift.scene.places import scene_places, scene_scatter
+from ..shift.scene.scene import Scene
+from ..shift.scene.variation import varied_scene
+from ..shift.steady_points import efficiency_map
+from .rig_file import Rig
+
+Array = NDArray[np.float64]
+DRAWS, NOISE, SEED = 64, 256, 1
+BAND = (0.05, 0.95)
+READ = 0.05  # of a measured value: what it counts for in a fit without reading errors
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Measured and computed values of a rig; ``judged``: those that the figures are of."""
+
+    rig: Rig
+    computed: Array
+    low: Array
+    """Lower end of the band: 5 % of scatter and reading error together."""
+    high: Array
+    judged: NDArray[np.bool_]
+    fitted: Mapping[str, float]
+    """Parameters that were fitted to the points that are not judged."""
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def deviations(self) -> Array:
+        """Computed over measured less 1, of the points judged."""
+        return (self.computed / self.rig.measured - 1.0)[self.judged]
+
+    @property
+    def inside(self) -> NDArray[np.bool_]:
+        """Which of the points judged lie in the band."""
+        m = self.rig.measured
+        return ((self.low <= m) & (m <= self.high))[self.judged]
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Interval of 95 % of the share inside (Clopper & Pearson)."""
+        found = binomtest(int(self.inside.sum()), len(self.inside)).proportion_ci()
+        return float(found.low), float(found.high)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return what JSON has of it."""
+        return {
+            "rig": self.rig.name,
+            "points": int(self.judged.sum()),
+            "mean_deviation": float(np.mean(np.abs(self.deviations))),
+            "largest_deviation": float(np.max(np.abs(self.deviations))),
+            "mean_signed_deviation": float(np.mean(self.deviations)),
+            "inside_band": float(self.inside.mean()),
+            "inside_band_interval": self.interval,
+            "fitted": dict(self.fitted),
+            "measured": self.rig.measured.tolist(),
+            "computed": self.computed.tolist(),
+            "low": self.low.tolist(),
+            "high": self.high.tolist(),
+            "judged": self.judged.tolist(),
+        }
+
+
+def compare(
+    rig: Rig,
+    *,
+    fit: int = 0,
+    draws: int = DRAWS,
+    progress: Callable[[int, int], None] | None = None,
+) -> Comparison:
+    """Return computed beside measured values.
+
+    Parameters
+    ----------
+    rig : as ``load_rig`` returns it
+    fit : number of parameters, the first of the rig's own list, that are fitted to every second
+        point in the order of ``vary``; 0: blind, nothing is fitted
+    draws : of the scatter, for the band
+    progress : called with draws done and in all
+
+    Raises
+    ------
+    ParameterError : ``fit`` is more than the rig lists, or leaves no point to judge
+    SolveError : a point has no solution
+    """
+    if not 0 <= fit <= len(rig.fit):
+        raise ParameterError(
+            f"fit = {fit}, allowed: 0 .. {len(rig.fit)}, the parameters that the rig lists"
+        )
+    judged = np.ones(len(rig.measured), bool)
+    fitted: dict[str, float] = {}
+    if fit:
+        order = np.argsort(rig.inputs[rig.vary], kind="stable")
+        judged[order[::2]] = False
+        if judged.sum() < 1 or (~judged).sum() < fit:
+            raise ParameterError(
+                f"fit = {fit}, allowed with {len(judged)} points: at most half of them"
+            )
+        fitted = _fitted(rig, rig.fit[:fit], ~judged)
+    computed = values_of(rig, fitted)
+    if not np.isfinite(computed).all():
+        row = int(np.flatnonzero(~np.isfinite(computed))[0])
+        raise SolveError(f"rig {rig.name}: point {row + 1} has no solution here")
+    low, high, warnings = _band(rig, fitted, computed, draws, progress)
+    return Comparison(rig, computed, low, high, judged, fitted, warnings)
+
+
+def values_of(rig: Rig, changes: Mapping[str, float]) -> Array:
+    """Return what is computed with changed parameters, a value per point; NaN without solution."""
+    if isinstance(rig.target, Scene):
+        return _of_scene(rig, rig.target, changes)
+    return _of_part(rig, rig.target, changes)
+
+
+def _of_part(rig: Rig, part: PartFile, changes: Mapping[str, Any]) -> Array:
+    model, found = find_model(part.spec.key), []
+    try:
+        params, _ = part.varied(changes)
+    except ParameterError:
+        return np.full(len(rig.measured), np.nan)
+    for i in range(len(rig.measured)):
+        point = {name: float(column[i]) for name, column in rig.inputs.items()}
+        if rig.output in model.fits.units and model.fits.computed:
+            whole = {**part.starts, **point}
+            value = model.fits.computed(params, whole, part.fidelity).get(rig.output, np.nan)
+        else:
+            result = model.solve(params, **point, fidelity=part.fidelity, throw=False)
+            failed = result.status.is_failure
+            value = np.nan if failed else float(getattr(result, rig.output))
+        found.append(value)
+    return np.array(found)
+
+
+def _of_scene(rig: Rig, scene: Scene, changes: Mapping[str, Any]) -> Array:
+    try:
+        own = varied_scene(scene, changes) if changes else scene
+        found = np.full(len(rig.measured), np.nan)
+        for w in np.unique(rig.inputs["speed"]):
+            rows = np.flatnonzero(rig.inputs["speed"] == w)
+            torques = rig.inputs["torque"][rows]
+            order = np.argsort(torques, kind="stable")
+            columns = efficiency_map(own, torques, [w], gear=rig.gear).columns
+            found[rows[order]] = columns[rig.output]
+        return found
+    except (ParameterError, SolveError):
+        if not changes:
+            raise
+        return np.full(len(rig.measured), np.nan)
+
+
+def _band(
+    rig: Rig,
+    fitted: Mapping[str, float],
+    computed: Array,
+    draws: int,
+    progress: Callable[[int, int], None] | None,
+) -> tuple[Array, Array, tuple[str, ...]]:
+    """Return the ends of the band of scatter and reading error, and what is to be said of it.
+
+    What was fitted scatters no more; the conditions of the points do not scatter.
+    """
+    target = rig.target
+    if isinstance(target, Scene):
+        scatter, known = scene_scatter(target), set(scene_places(target)) - {"oil_temperature"}
+    else:
+        scatter = target.scattered()
+        known = {s.place.name for s in scatter.sources} - {s.name for s in target.spec.inputs}
+    kept = [s for s in scatter.sources if s.place.name in known - {*fitted}]
+    rng = np.random.default_rng(SEED)
+    rows = [computed]
+    if kept:
+        scatter = replace(scatter, sources=tuple(kept), pairs=())
+        u = qmc.Sobol(len(kept), seed=SEED).random(draws)
+        for i, draw in enumerate(scatter.values(u)):
+            rows.append(values_of(rig, {**draw, **fitted}))
+            if progress:
+                progress(i + 1, draws)
+    sample = np.array(rows[1:] or rows)
+    good = sample[np.isfinite(sample).all(axis=1)]
+    lost = len(sample) - len(good)
+    if not len(good):
+        good = computed[None]
+    noise = rng.standard_normal((NOISE, 1, len(computed))) * rig.error
+    low, high = np.quantile((good + noise).reshape(-1, len(computed)), BAND, axis=0)
+    words = [f"{lost} of {len(sample)} draws have no solution and are left out"] if lost else []
+    return low, high, tuple(words)
+
+
+def _fitted(rig: Rig, names: Sequence[str], used: NDArray[np.bool_]) -> dict[str, float]:
+    """Return the parameters that lie nearest to the measured values in least squares."""
+    target = rig.target
+    places = scene_places(target) if isinstance(target, Scene) else target.places()
+    for name in names:
+        if name not in places:
+            raise ParameterError(f"rig {rig.name}: fit has {name!r}, which is no parameter here")
+    own = [places[name] for name in names]
+    start = np.array([float(p.nominal) for p in own])
+    scale = np.where(start != 0.0, np.abs(start), np.array([p.high - p.low for p in own]) * 0.1)
+    bounds = np.array([(p.low, p.high) for p in own]).T
+    weight = np.where(rig.error > 0.0, rig.error, READ * np.abs(rig.measured))
+
+    def off(x: Array) -> Array:
+        values = values_of(rig, dict(zip(names, (x * scale).tolist(), strict=True)))
+        gap = (values - rig.measured) / weight
+        return np.where(np.isfinite(gap), gap, 1e3)[used]
+
+    found = least_squares(
+        off, start / scale, bounds=(bounds[0] / scale, bounds[1] / scale), diff_step=1e-4
+    )
+    return dict(zip(names, (found.x * scale).tolist(), strict=True))

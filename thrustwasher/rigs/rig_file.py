@@ -1,0 +1,193 @@
+"""A rig's folder: ``rig.toml`` with its source and conditions, ``points.csv``, part or scene."""
+
+import csv
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ParameterError, suggestion
+from ..model.part_file import PartFile, find_part, load_part, preset_part
+from ..model.registry import find_model, spec_of
+from ..model.toml_tables import nothing_else, read_file
+from ..shift import load_scene
+from ..shift.scene.scene import Scene
+from ..shift.steady_points import COLUMNS, RANGES
+from ..units import parse_quantity
+
+ORIGINS = ("table", "figure", "text", "fit")
+TEXTS = ("title", "source", "measured", "conditions", "rights", "read", "reason")
+OTHERS = ("part", "scene", "gear", "vary", "fit", "coefficients")
+ERROR = "_error"
+
+
+@dataclass(frozen=True)
+class Rig:
+    """What was measured, where it is published, and what stands for it here."""
+
+    folder: Path
+    texts: dict[str, str]
+    target: PartFile | Scene
+    gear: str
+    vary: str
+    """The input over which points are drawn and, for a fit, divided."""
+    fit: tuple[str, ...]
+    """Parameters worth a fit, the first before the others."""
+    output: str
+    unit: str
+    inputs: dict[str, NDArray[np.float64]]
+    """Columns [SI], of one length."""
+    measured: NDArray[np.float64]
+    error: NDArray[np.float64]
+    """Standard deviation of the reading."""
+    origin: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """Name of the folder."""
+        return self.folder.name
+
+    @property
+    def target_name(self) -> str:
+        """The model, or the scene."""
+        if isinstance(self.target, PartFile):
+            return self.target.spec.name
+        return f"scene {self.target.name}, {self.gear} gear"
+
+
+def load_rig(path: str | Path) -> Rig:
+    """Return the rig of a folder.
+
+    Parameters
+    ----------
+    path : of the folder with ``rig.toml``, ``points.csv`` and the part or scene that it names
+
+    Raises
+    ------
+    ParameterError : a file is missing or has something that is not allowed; the message says what
+    """
+    folder = Path(path)
+    where = f"rig {str(folder)!r}"
+    if not (folder / "rig.toml").is_file():
+        raise ParameterError(f"{where}: there is no rig.toml in it")
+    table = read_file("rig", folder / "rig.toml")
+    nothing_else(where, table, (*TEXTS, *OTHERS))
+    for key in TEXTS:
+        if not isinstance(table.get(key), str) or not table[key].strip():
+            raise ParameterError(f"{where}: {key} = {table.get(key)!r}, a text is required")
+    if ("part" in table) == ("scene" in table):
+        raise ParameterError(f"{where}: part or scene, allowed: the name of one of them")
+    target: PartFile | Scene
+    if "part" in table:
+        target = _part(folder, str(table["part"]))
+        inputs = {s.name: s.unit for s in (*target.spec.inputs, *_own_inputs(target))}
+        outputs = _outputs(target)
+    else:
+        named = str(table["scene"])
+        target = load_scene(folder / named if named.endswith(".toml") else named)
+        inputs = {name: unit for name, (unit, *_) in RANGES.items()}
+        outputs = {n: unit for n, (unit, _) in COLUMNS.items() if n not in inputs}
+    columns, origin = _points(folder / "points.csv", inputs, outputs)
+    found = [name for name in columns if name in outputs]
+    if len(found) != 1:
+        raise ParameterError(
+            f"{where}: points.csv has the measured columns {', '.join(found) or 'none'}, allowed: "
+            f"one of {', '.join(outputs)}"
+        )
+    output = found[0]
+    vary = str(table.get("vary", next((n for n in columns if n in inputs), "")))
+    if vary not in columns or vary not in inputs:
+        raise ParameterError(f"{where}: vary = {vary!r}, allowed: an input that is a column")
+    most = table.get("coefficients", 0)
+    fitted = origin.count("fit")
+    if fitted > (most if isinstance(most, int) else 0):
+        raise ParameterError(
+            f"{where}: {fitted} points are of a published fit with coefficients = {most!r}, "
+            "allowed: at most as many points as the fit has coefficients"
+        )
+    return Rig(
+        folder=folder,
+        texts={key: " ".join(table[key].split()) for key in TEXTS},
+        target=target,
+        gear=str(table.get("gear", "first")),
+        vary=vary,
+        fit=tuple(table.get("fit", ())),
+        output=output,
+        unit=outputs[output],
+        inputs={name: columns[name] for name in columns if name in inputs},
+        measured=columns[output],
+        error=columns.get(output + ERROR, np.zeros(len(origin))),
+        origin=origin,
+    )
+
+
+def _part(folder: Path, named: str) -> PartFile:
+    """Return the part of a file in the folder, of "MODEL" or of "MODEL PRESET"."""
+    if named.endswith(".toml"):
+        return load_part(folder / named)
+    model, _, preset = named.partition(" ")
+    spec = spec_of(find_model(model).key)
+    return preset_part(spec, preset) if preset else find_part(spec.key)
+
+
+def _own_inputs(part: PartFile) -> Sequence[Any]:
+    """Return the inputs that the model is asked by at a point, such as a gear's power."""
+    return find_model(part.spec.key).inputs()
+
+
+def _outputs(part: PartFile) -> dict[str, str]:
+    """Return what a part can be compared by: fields of its result, and loads of its folds."""
+    model = find_model(part.spec.key)
+    units = {s.name: s.unit for s in part.spec.outputs if s.kind == "real"}
+    return units | {"loss_factor": "1"} | dict(model.fits.units)
+
+
+def _points(
+    path: Path, inputs: dict[str, str], outputs: dict[str, str]
+) -> tuple[dict[str, NDArray[np.float64]], tuple[str, ...]]:
+    """Return the columns [SI] and the origin of every point."""
+    try:
+        text = path.read_text("utf-8-sig")
+    except (OSError, ValueError):
+        raise ParameterError(f"{path}: cannot be read, a CSV file is required") from None
+    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+    rows = list(csv.reader(lines, skipinitialspace=True))
+    if len(rows) < 2:
+        raise ParameterError(f"{path}: has no points, a line of names and one of numbers at least")
+    units = {**inputs, **outputs, **{n + ERROR: u for n, u in outputs.items()}}
+    columns: dict[str, NDArray[np.float64]] = {}
+    origin: tuple[str, ...] = ()
+    for i, head in enumerate(rows[0]):
+        match = re.fullmatch(r"\s*([\w]+)\s*(?:\[(.*)\])?\s*", head)
+        name, written = (match[1], (match[2] or "").strip()) if match else ("", "")
+        cells = [row[i].strip() if i < len(row) else "" for row in rows[1:]]
+        if name == "origin":
+            origin = tuple(cells)
+            continue
+        if name not in units:
+            hint = suggestion(name, units, "did you mean {}? ")
+            raise ParameterError(f"{path}: column {head!r} is not known; {hint}".rstrip("; "))
+        written = "" if written in ("-", "1") else written
+        columns[name] = np.array(
+            [_number(path, name, j, c, written, units[name]) for j, c in enumerate(cells)]
+        )
+    wrong = [text for text in origin if text not in ORIGINS]
+    if wrong or not origin:
+        said = f"{wrong[0]!r}" if wrong else "missing"
+        raise ParameterError(f"{path}: origin {said}, allowed: {', '.join(ORIGINS)}")
+    return columns, origin
+
+
+def _number(path: Path, name: str, row: int, text: str, written: str, unit: str) -> float:
+    """Return a cell in SI units."""
+    where = f"{path}, point {row + 1}: {name}"
+    try:
+        float(text)
+    except ValueError:
+        raise ParameterError(f"{where} = {text!r}, a number is required") from None
+    difference = name.endswith(ERROR)
+    return parse_quantity(f"{text} {written}".strip(), unit, where, difference=difference)

@@ -13,7 +13,7 @@ from ..errors import ParameterError
 from ..units import parse_quantity
 from . import scatter as _scatter
 from .build import chosen_platforms
-from .common import _two_shifts, _options, _output
+from .common import _options, _output, _two_shifts
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
 OF_A_RUN = (

@@ -38,14 +38,29 @@ class Model extends PointModel {
     for (const name of Object.keys(found)) {
       if (name === "micropitting_safety" ? par[L.P_PERMISSIBLE_FILM_RATIO] === 0 : !endures && /^(modification|allowable|stress_util)/.test(name)) found[name] = null;
     }
-    return { code, outputs: found, path: this.path(oil) };
+    return { code, outputs: found, path: this.path(oil, speed), teeth: this.teeth() };
   }
 
-  /** Flash, film, pressure and friction along the path, in proportion to the hottest position's. */
-  path(oil) {
+  /** What the transverse section is drawn from: lengths [m], angles [rad], positions in base pitches. */
+  teeth() {
+    const { L, kernel } = this, par = this.par.view, [tipPinion, tipGear, module] = kernel.call("tips", this.par);
+    const transverse = module / Math.cos(par[L.P_HELIX_ANGLE]), side = par[L.D_SIDE], z = par[L.P_PINION_TEETH], ratio = par[L.P_GEAR_RATIO];
+    const thickness = kernel.call("tip_thickness", this.par), pitch = kernel.call("pitch_of", this.par), root = par[L.P_TOOL_ADDENDUM];
+    const wheel = (teeth, tip, i, shift, out) => ({
+      teeth, tip, base: (teeth * pitch) / (2 * Math.PI), tipThickness: thickness[i] * transverse, out,
+      working: (par[L.D_CENTRE] * teeth) / (z * (ratio + side)), root: (teeth * transverse) / 2 + (shift - out * root) * module,
+    });
+    return {
+      side, module, pitch, angle: par[L.D_ANGLE], approach: par[L.D_APPROACH], recess: par[L.D_RECESS],
+      pinion: wheel(z, tipPinion, 0, par[L.P_PROFILE_SHIFT_PINION], 1), gear: wheel(z * ratio, tipGear, 1, kernel.call("gear_shift", this.par), side),
+    };
+  }
+
+  /** Flash, film, pressure and friction along the path, in proportion to the hottest position's; shares of the load, sliding. */
+  path(oil, speed) {
     const { L } = this, f = this.work.view;
-    let par = this.par.view;
-    if (par[L.P_LOAD_SHARING] === L.ELASTIC) par = f.subarray(L.W_PAR, L.W_PAR + L.NPAR); // shares at this load
+    const isElastic = this.par.view[L.P_LOAD_SHARING] === L.ELASTIC;
+    const constants = isElastic ? this.work.part(L.W_PAR, L.W_PAR + L.NPAR) : this.par, par = constants.view; // shares at this load
     const n = par[L.D_PLACES];
     if (par[L.P_FILM_HEAT] !== L.LOSS || !n) return null;
     const row = (first) => Array.from(par.slice(first, first + n)), law = par[L.P_FRICTION_LAW], hot = f[L.W_PLACE];
@@ -57,8 +72,13 @@ class Model extends PointModel {
     const scuffing = f[L.F_SCUFFING_MARGIN] + f[L.F_BULK] + f[L.F_FLASH_MAX];
     const counted = (rise) => Math.max(rise, 1);
     const film = along(row(L.D_PATH_FILM), hot, f[L.F_FILM]);
+    const here = (this.place ??= this.kernel.array(L.D_POSITION));
+    const sliding = Array.from({ length: n }, (_, k) => {
+      this.kernel.call("place_mesh", constants, k, here);
+      return (here.view[L.D_V1] - here.view[L.D_V2]) * speed;
+    });
     return {
-      position: row(L.D_POSITION), friction, film, hot, scuffing, flank: flash.map((v) => v + f[L.F_BULK]),
+      sliding, position: row(L.D_POSITION), friction, film, hot, scuffing, flank: flash.map((v) => v + f[L.F_BULK]),
       bulk: f[L.F_BULK], pressure: along(pressure, most, f[L.F_PRESSURE_MAX]), share: row(L.D_PATH_SHARE),
       // in proportion, so that the least is the mesh's own, which is rounded below a rise of 1 K
       safety: flash.map((v) => (f[L.F_SCUFFING_SAFETY] * counted(f[L.F_BULK] + f[L.F_FLASH_MAX] - oil)) / counted(v + f[L.F_BULK] - oil)),

@@ -317,10 +317,11 @@ function builtControls() {
   }
   for (const f of ABOUT.parameters) {
     state.parameters[f.name] = ABOUT.given[f.name];
-    const isMain = ABOUT.main.includes(f.name);
-    fields[f.name] = new Field(f, state.parameters, parametersChanged, isMain && f.kind !== "enumeration" && f.kind !== "boolean");
+    const isMain = ABOUT.main.includes(f.name), slides = isMain ? f.kind !== "enumeration" && f.kind !== "boolean" : ABOUT.group.includes(f.name) && (f.from !== f.min || f.to !== f.max);
+    fields[f.name] = new Field(f, state.parameters, parametersChanged, slides);
     (isMain ? main : all).append(fields[f.name].box);
   }
+  byId("group-parameters")?.append(...ABOUT.group.map((name) => fields[name].box)); // in their own order
   const rungs = el("select", { id: "fidelity" }, ...Object.keys(ABOUT.worker.rungs).map((r) => el("option", { value: r, title: ABOUT.rungs[r] }, r)));
   rungs.value = state.rung;
   rungs.addEventListener("change", () => { state.rung = rungs.value; parametersChanged(); });

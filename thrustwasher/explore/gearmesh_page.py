@@ -24,7 +24,7 @@ GROUP = (
 VIEW = View(
     worker=WebWorker(
         script="gearmesh_worker",
-        calls="broken_rule derive solve_point place_mesh tips tip_thickness pitch_of "
+        calls="broken_rule derive step solve_point place_mesh tips tip_thickness pitch_of "
         "gear_shift".split(),
         layout=numbers_of(layout),
         rungs={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.rungs},

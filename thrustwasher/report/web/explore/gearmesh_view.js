@@ -16,7 +16,7 @@ const FLANK = 14, NEAR = 0.12; // points on a flank; base pitches within which t
 /** Two gears in the transverse section, the pinion below; the pitch point is the origin, lengths in m. */
 class Teeth {
   constructor(host) {
-    Object.assign(this, { rolled: 0.5, svg: el("svg", { role: "img", class: "teeth", "aria-label": "Teeth and path of contact" }), told: el("p", { class: "pairs" }) });
+    Object.assign(this, { rolled: 0.2, svg: el("svg", { role: "img", class: "teeth", "aria-label": "Teeth and path of contact" }), told: el("p", { class: "pairs" }) });
     const roll = el("input", { id: "roll", type: "range", min: 0, max: 1, step: "any", value: this.rolled, "aria-label": "position of a pair of teeth along the path, slider" });
     roll.addEventListener("input", () => { this.rolled = Number(roll.value); this.render(); });
     const keys = Object.entries({ pinion: "pinion, it drives clockwise", gear: "gear", third: "working pitch circles", fifth: "line of action", path: "path of contact A to E", touch: "pairs in contact" });

@@ -19,8 +19,9 @@ class Model extends PointModel {
     }
     const torque = power === 0 ? 0 : Math.abs(power / speed);
     this.state.view.fill(0);
-    const code = kernel.call("solve_point", this.par, torque, speed, oil, torque * Math.abs(speed), this.state, 0, this.work);
-    const f = this.work.view, par = this.par.view, found = {};
+    const constants = this.shared(torque, speed, oil);
+    const code = kernel.call("solve_point", constants, torque, speed, oil, torque * Math.abs(speed), this.state, 0, this.work);
+    const f = this.work.view, par = constants.view, found = {};
     this.about.real_outputs.forEach((name, i) => (found[name] = f[i]));
     const loss = f[L.F_MEAN_FRICTION] * par[L.D_LOSS] * torque, ratio = f[L.F_RATIO];
     found.asperity_temperature = found.temperature;
@@ -38,7 +39,17 @@ class Model extends PointModel {
     for (const name of Object.keys(found)) {
       if (name === "micropitting_safety" ? par[L.P_PERMISSIBLE_FILM_RATIO] === 0 : !endures && /^(modification|allowable|stress_util)/.test(name)) found[name] = null;
     }
-    return { code, outputs: found, path: this.path(oil, speed), teeth: this.teeth() };
+    return { code, outputs: found, path: this.path(constants, oil, speed), teeth: this.teeth() };
+  }
+
+  /** Return the constants with the shares at this torque, which a step leaves; as they are where they are rigid. */
+  shared(torque, speed, oil) {
+    const { L, kernel } = this;
+    if (this.par.view[L.P_LOAD_SHARING] !== L.ELASTIC) return this.par;
+    this.point ??= { given: kernel.array(L.NINP), status: kernel.array(L.NIOUT) };
+    this.point.given.view.set([torque, speed, oil]);
+    kernel.call("step", this.par, this.point.given, this.state, this.work, this.out, this.point.status, 0, 0);
+    return this.work.part(L.W_PAR, L.W_PAR + L.NPAR);
   }
 
   /** What the transverse section is drawn from: lengths [m], angles [rad], positions in base pitches. */
@@ -57,10 +68,8 @@ class Model extends PointModel {
   }
 
   /** Flash, film, pressure and friction along the path, in proportion to the hottest position's; shares of the load, sliding. */
-  path(oil, speed) {
-    const { L } = this, f = this.work.view;
-    const isElastic = this.par.view[L.P_LOAD_SHARING] === L.ELASTIC;
-    const constants = isElastic ? this.work.part(L.W_PAR, L.W_PAR + L.NPAR) : this.par, par = constants.view; // shares at this load
+  path(constants, oil, speed) {
+    const { L } = this, f = this.work.view, par = constants.view;
     const n = par[L.D_PLACES];
     if (par[L.P_FILM_HEAT] !== L.LOSS || !n) return null;
     const row = (first) => Array.from(par.slice(first, first + n)), law = par[L.P_FRICTION_LAW], hot = f[L.W_PLACE];

@@ -321,7 +321,11 @@ function builtControls() {
     fields[f.name] = new Field(f, state.parameters, parametersChanged, slides);
     (isMain ? main : all).append(fields[f.name].box);
   }
-  byId("group-parameters")?.append(...ABOUT.group.map((name) => fields[name].box)); // in their own order
+  if (ABOUT.group.length) {
+    const group = byId("group-parameters");
+    group.append(...ABOUT.group.map((name) => fields[name].box)); // in their own order
+    group.parentNode.open = innerWidth > 760; // above the results where it is narrower
+  }
   const rungs = el("select", { id: "fidelity" }, ...Object.keys(ABOUT.worker.rungs).map((r) => el("option", { value: r, title: ABOUT.rungs[r] }, r)));
   rungs.value = state.rung;
   rungs.addEventListener("change", () => { state.rung = rungs.value; parametersChanged(); });

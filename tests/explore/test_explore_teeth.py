@@ -158,3 +158,18 @@ def test_the_shift_slider_moves_the_teeth(opened):
         GearMeshParams(profile_shift_pinion=shift), power=7500.0, speed=180.0
     ).contact_ratio
     assert shift == pytest.approx(0.3) and page.figure("contact_ratio") == pytest.approx(wanted)
+
+
+@pytest.mark.browser
+def test_without_anything_along_the_path_only_the_teeth_are_drawn(opened):
+    page = opened("gearmesh", "#film_heat=atan").page
+    assert page.locator("#views .panel").first.is_visible()
+    assert page.locator("#views .panel").nth(1).is_hidden()
+    assert "nothing along the path" in page.text_content(".pairs")
+
+
+@pytest.mark.browser
+def test_tips_that_reach_into_the_root_are_told(opened):
+    said = opened_with(opened, {"addendum": 1.3, "pinion_teeth": 60}).page.text_content(".pairs")
+    module = 2.0 * 0.254 / (60 * 3.0)
+    assert f"Tips reach {1e6 * 0.05 * module:.4g} µm below the other gear's root circle" in said

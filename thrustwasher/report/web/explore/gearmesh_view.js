@@ -102,7 +102,9 @@ class Teeth {
     const shares = this.path ? pairs.map((s) => between(this.path, "share", s)) : [];
     const each = (s, k) => [k ? ", " : "", el("data", { value: shares[k] }, digits(shares[k], 4)), ` at ${digits(s, 3)}`];
     const sum = `; together ${digits(shares.reduce((a, b) => a + b, 0), 4)}${this.overlap > 0 ? " in this section, 1 over the teeth's width and a pitch" : ""}.`;
-    this.told.replaceChildren(...(this.path ? ["Load share of the pairs (position in base pitches from C): ", ...pairs.flatMap(each), sum] : ["With film_heat = atan no shares are computed along the path."]));
+    this.told.replaceChildren(...(this.path ? ["Load share of the pairs (position in base pitches from C): ", ...pairs.flatMap(each), sum] : ["With film_heat = atan the paper's heat is taken where contact starts: there is nothing along the path."]));
+    const { side, pinion, gear } = this.teeth, deep = Math.min(side * (gear.working - gear.root) - pinion.tip + pinion.working, pinion.working - pinion.root - side * (gear.tip - gear.working));
+    if (deep < 0) this.told.append(` Tips reach ${shown(-deep, "m")} below the other gear's root circle: a tool with more tool_addendum cuts deeper.`);
   }
 }
 
@@ -111,10 +113,11 @@ const VIEW = {
     const panel = (wide) => host.appendChild(el("section", { class: wide ? "panel wide" : "panel" }));
     const x = { label: "position from the pitch point, in base pitches", unit: "1" };
     this.teeth = new Teeth(panel(true));
+    this.along = () => [...host.querySelectorAll(".panel")].slice(1);
     this.share = new Plot(panel(), { title: "Load share of a pair along the path", part: "Geometry and load", x, y: { label: "share of the load", unit: "1", zero: true } });
     this.slide = new Plot(panel(), { title: "Sliding along the path", part: "Geometry and load", x, y: { label: "sliding, pinion's flank over the gear's", unit: "m/s" } });
     const temperatures = panel(true);
-    this.none = temperatures.appendChild(el("p", { class: "folds" }));
+    this.scuffs = temperatures.appendChild(el("p", { class: "folds" }));
     this.warm = new Plot(temperatures, { title: "Temperatures along the path of contact", part: "Heat", x, y: { label: "temperature", unit: "K" }, height: 320 });
     this.scatter = new Scatter(temperatures, {
       of: "The band of flank and scuffing safety along the path", depends: () => [state.inputs, state.parameters, state.rung], show: () => this.draw(),
@@ -141,8 +144,9 @@ const VIEW = {
   draw() {
     const { path, outputs, teeth } = this.result;
     this.teeth.show(teeth, path, outputs.overlap_ratio);
-    this.none.textContent = path ? `The contact scuffs at ${shown(path.scuffing, "K")}, ${shown(outputs.scuffing_margin, "K", true)} above its hottest place.` : "With film_heat = atan the paper's heat is taken where contact starts: there is nothing along the path.";
+    for (const panel of this.along()) panel.hidden = !path;
     if (!path) return;
+    this.scuffs.textContent = `The contact scuffs at ${shown(path.scuffing, "K")}, ${shown(outputs.scuffing_margin, "K", true)} above its hottest place.`;
     const line = (name, values, look) => ({ name, look, points: path.position.map((s, k) => [s, values[k]]).sort((a, b) => a[0] - b[0]) });
     const level = (name, value, look) => line(name, path.position.map(() => value), look);
     const [b, d] = [teeth.recess - 1, 1 - teeth.approach], inside = Math.abs(b - d) < NEAR ? [["B, D", b]] : [["B", b], ["D", d]];

@@ -58,6 +58,7 @@ def describe(
         "key": spec.key,
         "name": part.name if part.name != spec.name else f"My{spec.name}",
         "main": view.main,
+        "group": view.group[1],
         "inputs": [_input(s, view, point[s.name]) for s in inputs_of(model, view)],
         "parameters": [_field(f.name, f.metadata, view) for f in fields(spec.params)],
         "defaults": {f.name: f.default for f in fields(spec.params)},

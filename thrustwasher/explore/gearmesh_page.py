@@ -1,4 +1,4 @@
-"""The gear mesh's page: temperatures, safety and film along the path of contact."""
+"""The gear mesh's page: teeth and path of contact, temperatures, safety and film along it."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -15,16 +15,24 @@ def _pictures(params: Any, result: Any, point: Mapping[str, float]) -> list[Pict
     return [(words, gearmesh_figure(result, point, params))]
 
 
+GROUP = (
+    "profile_shift_pinion profile_shift_gear working_centre_distance "
+    "profile_shift_gear_from_distance addendum addendum_gear tip_shortening tip_diameter_pinion "
+    "tip_diameter_gear tool_addendum load_sharing stiffness_at_ends tip_relief_pinion "
+    "tip_relief_length_pinion tip_relief_gear tip_relief_length_gear internal"
+).split()
 VIEW = View(
     worker=WebWorker(
         script="gearmesh_worker",
-        calls=("broken_rule", "derive", "solve_point"),
+        calls="broken_rule derive step solve_point place_mesh tips tip_thickness pitch_of "
+        "gear_shift".split(),
         layout=numbers_of(layout),
         rungs={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.rungs},
     ),
     page="gearmesh_view",
     main="pinion_teeth gear_ratio normal_module face_width helix_angle friction_law".split(),
-    figures="friction_torque friction_power film_ratio bulk_temperature flash_max "
+    group=("Profile shift, tips and load sharing", GROUP),
+    figures="contact_ratio friction_torque friction_power film_ratio bulk_temperature flash_max "
     "scuffing_safety pitting_safety".split(),
     solve="solve_gearmesh",
     params="GearMeshParams",
@@ -34,5 +42,17 @@ VIEW = View(
     pictures=_pictures,
     load="power",
     card_point=lambda point: {**point, "load": abs(point["power"] / point["speed"])},
-    spans={"power": (100.0, 1e5), "speed": (1.0, 1000.0), "oil_temperature": (253.15, 423.15)},
+    spans={
+        "power": (100.0, 1e5),
+        "speed": (1.0, 1000.0),
+        "oil_temperature": (253.15, 423.15),
+        "profile_shift_pinion": (-1.0, 1.0),
+        "profile_shift_gear": (-1.0, 1.0),
+        "tip_shortening": (0.0, 0.3),
+        "stiffness_at_ends": (0.3, 1.0),
+        "tip_relief_pinion": (0.0, 1e-4),
+        "tip_relief_gear": (0.0, 1e-4),
+        "tip_relief_length_pinion": (0.0, 0.02),
+        "tip_relief_length_gear": (0.0, 0.02),
+    },
 )

@@ -65,6 +65,7 @@ def page(part: PartFile) -> str:
         figures=_figures(outputs_of(model, view), view.figures, result),
         large=view.figures,
         terms=view.terms,
+        group=view.group[0],
         pictures=[(words, _drawn(figure)) for words, figure in pictures],
         start=", ".join(f"{s.name} {format_quantity(point[s.name], s.unit)}" for s in inputs),
         rung=about["rung"],

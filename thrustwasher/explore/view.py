@@ -18,6 +18,9 @@ class View:
     worker: WebWorker
     page: str  # its own script: stem of a file in ``report/web/explore``
     main: Sequence[str]  # parameters with sliders
+    group: tuple[str, Sequence[str]] = ("", ())
+    """Heading and names of parameters that stand together below; with sliders where ``spans`` are.
+    """
     figures: Sequence[str]  # results shown large
     solve: str  # public name of what solves, and of its parameters
     params: str

@@ -19,8 +19,9 @@ class Model extends PointModel {
     }
     const torque = power === 0 ? 0 : Math.abs(power / speed);
     this.state.view.fill(0);
-    const code = kernel.call("solve_point", this.par, torque, speed, oil, torque * Math.abs(speed), this.state, 0, this.work);
-    const f = this.work.view, par = this.par.view, found = {};
+    const constants = this.shared(torque, speed, oil);
+    const code = kernel.call("solve_point", constants, torque, speed, oil, torque * Math.abs(speed), this.state, 0, this.work);
+    const f = this.work.view, par = constants.view, found = {};
     this.about.real_outputs.forEach((name, i) => (found[name] = f[i]));
     const loss = f[L.F_MEAN_FRICTION] * par[L.D_LOSS] * torque, ratio = f[L.F_RATIO];
     found.asperity_temperature = found.temperature;
@@ -38,14 +39,37 @@ class Model extends PointModel {
     for (const name of Object.keys(found)) {
       if (name === "micropitting_safety" ? par[L.P_PERMISSIBLE_FILM_RATIO] === 0 : !endures && /^(modification|allowable|stress_util)/.test(name)) found[name] = null;
     }
-    return { code, outputs: found, path: this.path(oil) };
+    return { code, outputs: found, path: this.path(constants, oil, speed), teeth: this.teeth() };
   }
 
-  /** Flash, film, pressure and friction along the path, in proportion to the hottest position's. */
-  path(oil) {
-    const { L } = this, f = this.work.view;
-    let par = this.par.view;
-    if (par[L.P_LOAD_SHARING] === L.ELASTIC) par = f.subarray(L.W_PAR, L.W_PAR + L.NPAR); // shares at this load
+  /** Return the constants with the shares at this torque, which a step leaves; as they are where they are rigid. */
+  shared(torque, speed, oil) {
+    const { L, kernel } = this;
+    if (this.par.view[L.P_LOAD_SHARING] !== L.ELASTIC) return this.par;
+    this.point ??= { given: kernel.array(L.NINP), status: kernel.array(L.NIOUT) };
+    this.point.given.view.set([torque, speed, oil]);
+    kernel.call("step", this.par, this.point.given, this.state, this.work, this.out, this.point.status, 0, 0);
+    return this.work.part(L.W_PAR, L.W_PAR + L.NPAR);
+  }
+
+  /** What the transverse section is drawn from: lengths [m], angles [rad], positions in base pitches. */
+  teeth() {
+    const { L, kernel } = this, par = this.par.view, [tipPinion, tipGear, module] = kernel.call("tips", this.par);
+    const transverse = module / Math.cos(par[L.P_HELIX_ANGLE]), side = par[L.D_SIDE], z = par[L.P_PINION_TEETH], ratio = par[L.P_GEAR_RATIO];
+    const thickness = kernel.call("tip_thickness", this.par), pitch = kernel.call("pitch_of", this.par), root = par[L.P_TOOL_ADDENDUM];
+    const wheel = (teeth, tip, i, shift, out) => ({
+      teeth, tip, base: (teeth * pitch) / (2 * Math.PI), tipThickness: thickness[i] * transverse, out,
+      working: (par[L.D_CENTRE] * teeth) / (z * (ratio + side)), root: (teeth * transverse) / 2 + (shift - out * root) * module,
+    });
+    return {
+      side, module, pitch, angle: par[L.D_ANGLE], approach: par[L.D_APPROACH], recess: par[L.D_RECESS],
+      pinion: wheel(z, tipPinion, 0, par[L.P_PROFILE_SHIFT_PINION], 1), gear: wheel(z * ratio, tipGear, 1, kernel.call("gear_shift", this.par), side),
+    };
+  }
+
+  /** Flash, film, pressure and friction along the path, in proportion to the hottest position's; shares of the load, sliding. */
+  path(constants, oil, speed) {
+    const { L } = this, f = this.work.view, par = constants.view;
     const n = par[L.D_PLACES];
     if (par[L.P_FILM_HEAT] !== L.LOSS || !n) return null;
     const row = (first) => Array.from(par.slice(first, first + n)), law = par[L.P_FRICTION_LAW], hot = f[L.W_PLACE];
@@ -57,8 +81,13 @@ class Model extends PointModel {
     const scuffing = f[L.F_SCUFFING_MARGIN] + f[L.F_BULK] + f[L.F_FLASH_MAX];
     const counted = (rise) => Math.max(rise, 1);
     const film = along(row(L.D_PATH_FILM), hot, f[L.F_FILM]);
+    const here = (this.place ??= this.kernel.array(L.D_POSITION));
+    const sliding = Array.from({ length: n }, (_, k) => {
+      this.kernel.call("place_mesh", constants, k, here);
+      return (here.view[L.D_V1] - here.view[L.D_V2]) * speed;
+    });
     return {
-      position: row(L.D_POSITION), friction, film, hot, scuffing, flank: flash.map((v) => v + f[L.F_BULK]),
+      sliding, position: row(L.D_POSITION), friction, film, hot, scuffing, flank: flash.map((v) => v + f[L.F_BULK]),
       bulk: f[L.F_BULK], pressure: along(pressure, most, f[L.F_PRESSURE_MAX]), share: row(L.D_PATH_SHARE),
       // in proportion, so that the least is the mesh's own, which is rounded below a rise of 1 K
       safety: flash.map((v) => (f[L.F_SCUFFING_SAFETY] * counted(f[L.F_BULK] + f[L.F_FLASH_MAX] - oil)) / counted(v + f[L.F_BULK] - oil)),

@@ -317,9 +317,14 @@ function builtControls() {
   }
   for (const f of ABOUT.parameters) {
     state.parameters[f.name] = ABOUT.given[f.name];
-    const isMain = ABOUT.main.includes(f.name);
-    fields[f.name] = new Field(f, state.parameters, parametersChanged, isMain && f.kind !== "enumeration" && f.kind !== "boolean");
+    const isMain = ABOUT.main.includes(f.name), slides = isMain ? f.kind !== "enumeration" && f.kind !== "boolean" : ABOUT.group.includes(f.name) && (f.from !== f.min || f.to !== f.max);
+    fields[f.name] = new Field(f, state.parameters, parametersChanged, slides);
     (isMain ? main : all).append(fields[f.name].box);
+  }
+  if (ABOUT.group.length) {
+    const group = byId("group-parameters");
+    group.append(...ABOUT.group.map((name) => fields[name].box)); // in their own order
+    group.parentNode.open = innerWidth > 760; // above the results where it is narrower
   }
   const rungs = el("select", { id: "fidelity" }, ...Object.keys(ABOUT.worker.rungs).map((r) => el("option", { value: r, title: ABOUT.rungs[r] }, r)));
   rungs.value = state.rung;

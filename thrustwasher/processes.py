@@ -5,7 +5,7 @@ import os
 import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor, ProcessPoolExecutor
+from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from typing import Any
@@ -100,6 +100,10 @@ def _stop_now(executor: Any) -> None:
     """End the workers in the middle of their work; it is done again."""
     processes = list((getattr(executor, "_processes", None) or {}).values())
     tasks, results = executor._call_queue, executor._result_queue  # gone after shutdown
+    # The caller's futures are cancelled now or later, by whoever waited for them; some versions of
+    # Python fail, in a thread, where a broken pool meets a cancelled future.
+    for item in list((getattr(executor, "_pending_work_items", None) or {}).values()):
+        item.future = Future()
     executor.shutdown(wait=False, cancel_futures=True)
     for process in processes:
         process.terminate()

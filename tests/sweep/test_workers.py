@@ -93,6 +93,21 @@ def test_a_worker_that_is_stopped_while_it_sends_keeps_nobody_waiting(tmp_path):
     assert begun.exists() and not thread.is_alive()
 
 
+def test_what_is_cancelled_while_workers_are_stopped_disturbs_no_thread(monkeypatch):
+    failed = []
+    monkeypatch.setattr(threading, "excepthook", failed.append)
+    with pytest.raises(KeyboardInterrupt), local_processes(1) as executor:
+        futures = [executor.submit(time.sleep, 0.05) for _ in range(20)]
+        futures[0].result()
+        for future in futures:
+            future.cancel()
+        thread = executor._executor_manager_thread
+        executor.shutdown = lambda **_: None  # it hears of the dead worker first
+        raise KeyboardInterrupt
+    thread.join(30.0)
+    assert not failed and not thread.is_alive()
+
+
 def test_a_script_without_a_guard_is_told_so(tmp_path):
     script = tmp_path / "script.py"
     script.write_text(

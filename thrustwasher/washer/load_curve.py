@@ -2,7 +2,7 @@
 
 import dataclasses
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -65,6 +65,31 @@ class LoadCurve:
         n = len(points)
         lines = (f"{len(texts)} of {n} points, {texts[0]}" for texts in found.values())
         return (*self.told, *idle, *lines)
+
+    def fold_sensitivities(
+        self, parameters: Collection[str] | None = None
+    ) -> list[dict[str, float] | None]:
+        """Return beside each of ``folds`` {parameter: derivative of its load}, N per SI unit.
+
+        Exact, without a solve per parameter. None: the fold is too flat to be found by its slope.
+
+        Parameters
+        ----------
+        parameters : names; by default all real ones but those whose 0 stands for a value from
+            elsewhere
+
+        Raises
+        ------
+        ParameterError : a name is none of them
+
+        Notes
+        -----
+        At a fold psi F_x = 0 for the residuals F over the unknowns x, so that the load W moves by
+        dW/dp = -(psi F_p)/(psi F_W); see docs/theory/washer.md.
+        """
+        from .sensitivities import fold_derivatives
+
+        return [fold_derivatives(self, fold, parameters) for fold in self.folds]
 
 
 def load_curve(

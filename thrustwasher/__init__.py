@@ -8,7 +8,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-__version__ = "0.15.0"
+__version__ = "0.16.0"
 
 if TYPE_CHECKING:
     from .calibration.estimates import Calibration
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from .errors import BranchError, ParameterError, SolveError, Status
     from .gearmesh.solve import GearMeshParams, GearMeshResult, solve_gearmesh
     from .ladder.choose import Choice, choose
+    from .losses.solve import LossesParams, LossesResult, solve_losses
     from .model.oil import Oil, oil
     from .model.part_file import PartFile, load_part
     from .scatter.propagate import propagate
@@ -38,6 +39,7 @@ _HOMES = {
     "calibration.model_fit": ("ModelCalibration", "calibrate"),
     "gearmesh.solve": ("GearMeshParams", "GearMeshResult", "solve_gearmesh"),
     "clutch.engagement": ("Engagement", "engage_clutch"),
+    "losses.solve": ("LossesParams", "LossesResult", "solve_losses"),
     "scatter.propagate": ("propagate",),
     "scatter.result": ("ScatterResult",),
     "washer.solve": ("WasherParams", "WasherResult", "solve_washer"),
@@ -56,6 +58,8 @@ __all__ = [
     "GearMeshParams",
     "GearMeshResult",
     "LoadCurve",
+    "LossesParams",
+    "LossesResult",
     "ModelCalibration",
     "Oil",
     "ParameterError",
@@ -79,6 +83,7 @@ __all__ = [
     "run_sweep",
     "solve_clutch",
     "solve_gearmesh",
+    "solve_losses",
     "solve_washer",
 ]
 

@@ -19,7 +19,7 @@ from thrustwasher.native.library import web_module
 from thrustwasher.report.web_worker import WEB
 
 HERE = Path(__file__).parent
-MODELS = ("washer", "gearmesh", "clutch")
+MODELS = ("washer", "gearmesh", "clutch", "losses")
 node = pytest.mark.skipif(
     not (shutil.which("node") or needed.IN_CI), reason="install the Debian package nodejs"
 )

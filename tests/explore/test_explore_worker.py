@@ -8,12 +8,15 @@ from thrustwasher import (
     BranchError,
     ClutchParams,
     GearMeshParams,
+    LossesParams,
     WasherParams,
     engage_clutch,
     load_curve,
     solve_gearmesh,
+    solve_losses,
     solve_washer,
 )
+from thrustwasher.model.registry import find_model
 
 SAME = 1e-10  # the C libraries differ in the last bit
 BESIDE_FOLDS = 1e-8
@@ -107,6 +110,18 @@ def test_the_gear_mesh_is_that_of_python():
         assert max(path["flank"]) == pytest.approx(wanted.surface_temperature, rel=1e-12)
         assert min(path["safety"]) == pytest.approx(wanted.scuffing_safety, rel=1e-9)
         assert min(path["micropitting"]) == pytest.approx(wanted.micropitting_safety, rel=1e-3)
+
+
+def test_the_losses_are_those_of_python():
+    share = np.random.default_rng(5).random((50, 6)) - 0.5
+    points = (share * [1e3, 600.0, 900.0, 2e3, 8e3, 120.0] + [0, 0, 0, 0, 0, 330.0]).tolist()
+    found, _ = answers("losses", [["solve", point] for point in points])
+    names = [s.name for s in find_model("losses").inputs()]
+    for point, got in zip(points, found, strict=True):
+        wanted = solve_losses(LossesParams(), **dict(zip(names, point, strict=True)))
+        for name, value in got["outputs"].items():
+            assert value == pytest.approx(getattr(wanted, name), rel=SAME), name
+        assert got["curve"][40]["oil_heat"] == got["outputs"]["oil_heat"]
 
 
 @pytest.mark.parametrize("preset", [None, "paper"])

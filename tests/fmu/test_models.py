@@ -32,6 +32,9 @@ STANDINGS = {
         {"input_course": "linear", "friction_law": "wang", "shear_temperature_slope": 1e-3},
     ],
     # endurance is the paper's, a safety against micropitting needs its limit, so does the root's
+    "DrivelineLosses": [
+        {"input_immersion": 0.1, "drum_immersion": 0.1, "drum_seal_diameter": 0.05}
+    ],
     "GearMesh": [
         {"permissible_film_ratio": 0.3, "root_limit": 430e6},
         {"film_heat": "atan", "steel": "AISI4340"},

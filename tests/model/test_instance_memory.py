@@ -8,7 +8,8 @@ LIMIT = 64 * 1024  # bytes
 
 
 @pytest.mark.parametrize(
-    "model", ["WetClutch", "GearMesh", "ShiftTransmission", "OilSump", "CommandSource"]
+    "model",
+    ["WetClutch", "GearMesh", "ShiftTransmission", "OilSump", "DrivelineLosses", "CommandSource"],
 )
 def test_the_arrays_of_an_instance_fit_into_half_of_64_kb(model):
     """Parameters, inputs, work, outputs and memory, the latter two also as before a step."""

@@ -73,6 +73,14 @@ BROKEN = {
         {"profile_shift_pinion": 2.0},
         {"root_limit": 1e6},
         {"root_limit": 1e8, "tool_tip_radius": 0.6},
+        {"load_sharing": "elastic", "film_heat": "atan"},
+        {
+            "load_sharing": "elastic",
+            "addendum": 1.5,
+            "pinion_teeth": 200,
+            "pressure_angle": 0.25,
+        },
+        {"load_sharing": "elastic", "tip_relief_pinion": 1e-5},
     ),
     "transmission": (
         {"ring_teeth": 30, "planet_teeth": 0},

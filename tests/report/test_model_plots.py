@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from curves import traced
 
-from thrustwasher import GearMeshParams, calibrate, solve_gearmesh
+from thrustwasher import GearMeshParams, LossesParams, calibrate, solve_gearmesh, solve_losses
 from thrustwasher.clutch.solve import ClutchParams, boundary_friction, solve_clutch
 from thrustwasher.report.model_plots.clutch_plot import clutch_figure
 from thrustwasher.report.model_plots.fit_plot import calibration_figure
 from thrustwasher.report.model_plots.gearmesh_plot import gearmesh_figure, over_teeth
+from thrustwasher.report.model_plots.losses_plot import losses_figure
 from thrustwasher.report.model_plots.washer_plots import curve_figure
 
 PACK = ClutchParams.preset(  # data of the asperities: with shear of the oil on top
@@ -122,3 +123,13 @@ def test_a_curve_that_leaves_its_panel_says_so():
     for points, said in ((curve.points, False), ((*curve.points, thin), True)):
         axis = curve_figure(replace(curve, points=points), WASHER_POINT).axes[0]
         assert any("down to -0.05" in text.get_text() for text in axis.texts) == said
+
+
+def test_the_heat_of_a_driveline_is_stacked_to_its_sum():
+    point = {"input_speed": 200.0, "output_speed": 80.0, "drum_speed": 0.0, "planet_speed": -200.0}
+    point |= {"tooth_force": 2e3, "oil_temperature": 353.15}
+    here = solve_losses(LossesParams(), **point)
+    figure = losses_figure(here, point, LossesParams())
+    for title, x in (("Over speed", 1.0), ("Over the oil", 80.0)):
+        corners = panel(figure, title).collections[-1].get_paths()[0].vertices
+        assert corners[np.isclose(corners[:, 0], x), 1].max() == pytest.approx(here.oil_heat, 1e-9)

@@ -20,10 +20,12 @@ from ..units import format_quantity
 from .clutch_page import VIEW as CLUTCH
 from .description import describe, inputs_of, outputs_of
 from .gearmesh_page import VIEW as GEARMESH
+from .losses_page import VIEW as LOSSES
 from .view import View
 from .washer_page import VIEW as WASHER
 
-VIEWS = {"washer": WASHER, "clutch": CLUTCH, "gearmesh": GEARMESH}  # by the models' keys
+# by the models' keys
+VIEWS = {"washer": WASHER, "clutch": CLUTCH, "gearmesh": GEARMESH, "losses": LOSSES}
 TEMPLATE = "explore.html.jinja"
 PAGE = ("../draw", "dom", "plot", "solver", "scatter")  # scripts that every page has
 DPI = 80

@@ -98,6 +98,24 @@ def _pointed(p: Any) -> str:
     )
 
 
+def _reliefs(p: Any) -> str:
+    from .kernels import constants as g
+    from .kernels.load_sharing import pitch_of
+
+    par = as_array(p)
+    path = 1e3 * float(pitch_of(par) * sum(g.path_of(par)[1:]))
+    pairs = (("pinion", p.tip_relief_pinion), ("gear", p.tip_relief_gear))
+    given = ", ".join(
+        f"tip_relief_length_{gear} = {getattr(p, f'tip_relief_length_{gear}')!r} m beside "
+        f"tip_relief_{gear} = {relief!r} m"
+        for gear, relief in pairs
+    )
+    return (
+        f"{given}, allowed: a length above 0 for each relief, together at most the path of "
+        f"contact, {path:.4g} mm"
+    )
+
+
 RULES = (
     Rule(
         "pinion_teeth = {pinion_teeth}, allowed: more for gear_ratio = {gear_ratio}, "
@@ -172,5 +190,20 @@ RULES = (
     Rule(
         "tool_tip_radius = {tool_tip_radius}, allowed: less, or less tool_addendum "
         "({tool_addendum}): such a rack leaves no root to rate; root_limit = 0 does without"
+    ),
+    Rule(
+        "load_sharing = 'elastic', allowed: with film_heat = 'loss'; the paper's heat has the "
+        "share load_share"
+    ),
+    Rule(
+        "load_sharing = 'elastic', allowed: for contact ratios below 3; take a smaller addendum "
+        "({addendum}) or load_sharing = 'rigid'"
+    ),
+    Rule(
+        "tip_relief_length_pinion = {tip_relief_length_pinion} m, tip_relief_length_gear = "
+        "{tip_relief_length_gear} m, allowed: above 0 beside tip_relief_pinion = "
+        "{tip_relief_pinion} m and tip_relief_gear = {tip_relief_gear} m, together at most the "
+        "path of contact",
+        _reliefs,
     ),
 )

@@ -15,6 +15,10 @@ SURFACES = {
     "rough": "rough ground: composite RMS 2.26 um, effective roughness 4.5e-5",
     "fine": "fine ground: composite RMS 0.566 um, effective roughness 1.5e-5",
 }
+LOAD_SHARING = {
+    "rigid": "equally, whatever the load",
+    "elastic": "by their stiffness; tip relief counts as a gap",
+}
 FRICTION_LAWS = {
     "li-seireg": "falls with film over radius (Atan Eq 4); slide/roll ratio above 0.27 only",
     "iso": "mean coefficient of ISO/TS 6336-20, at most f0",
@@ -111,6 +115,7 @@ def _tip(gear: int) -> Callable[[Any], float]:
 OF_ATAN = (("film_heat", "atan"),)
 OF_LOSS = (("film_heat", "loss"),)
 BY_FILM = tuple(("friction_law", law) for law in ("li-seireg", "iso", "mixed"))
+BY_STIFFNESS = (("load_sharing", "elastic"),)
 SIZE = ("gear_ratio", "pinion_teeth", "centre_distance", "normal_module", "face_width")
 FROM_DISTANCE = (("profile_shift_gear_from_distance", True),)
 
@@ -395,6 +400,39 @@ class GearMeshParams:
     )
     mesh_load_factor: float = quantity(
         1.0, "1", 1.0, 2.0, "mesh load factor of the root stress: uneven load of the planets"
+    )
+    load_sharing: str = choice(
+        "rigid", LOAD_SHARING, "LoadSharing", "how the pairs in contact share the load"
+    )
+    stiffness_at_ends: float = quantity(
+        0.7,
+        "1",
+        0.1,
+        1.0,
+        "stiffness of a pair where contact begins and ends over that in the middle; an estimate",
+        read_by=BY_STIFFNESS,
+    )
+    tip_relief_pinion: float = quantity(
+        0.0, "m", 0.0, 1e-3, "tip relief of the pinion, normal to the flank", read_by=BY_STIFFNESS
+    )
+    tip_relief_gear: float = quantity(
+        0.0, "m", 0.0, 1e-3, "tip relief of the gear, normal to the flank", read_by=BY_STIFFNESS
+    )
+    tip_relief_length_pinion: float = quantity(
+        0.0,
+        "m",
+        0.0,
+        1.0,
+        "length of the pinion's relief along the path of contact",
+        read_by=BY_STIFFNESS,
+    )
+    tip_relief_length_gear: float = quantity(
+        0.0,
+        "m",
+        0.0,
+        1.0,
+        "length of the gear's relief along the path of contact",
+        read_by=BY_STIFFNESS,
     )
 
     def __post_init__(self) -> None:

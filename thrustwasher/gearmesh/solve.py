@@ -16,6 +16,7 @@ from ..model.record import Sweep
 from ..model.rungs import rung_named
 from .kernels import layout as k
 from .kernels.constants import derive
+from .kernels.load_sharing import shared
 from .kernels.operating_point import solve_point
 from .kernels.working_pair import gear_shift, tips
 from .parameters import LOAD, OIL, SPEC, SPEED, GearMeshParams, absent_outputs, limits_assumed
@@ -203,6 +204,7 @@ def solve_gearmesh(
     par, field = prepare(params, fidelity), np.zeros(k.NWORK)
     torque = pinion_torque(power, speed)
     drive, state = torque * abs(speed), np.zeros(k.NSTATE)
+    par = shared(par, torque, field)
     status = Status(solve_point(par, torque, speed, oil, drive, state, 0.0, field))
     if not np.isfinite(field[: k.N_FIELD]).all():
         status = Status.NOT_FINITE

@@ -18,6 +18,7 @@ MODELS = {
     "gearmesh": "thrustwasher.gearmesh",
     "transmission": "thrustwasher.transmission",
     "sump": "thrustwasher.sump",
+    "losses": "thrustwasher.losses",
 }
 # Built when named, not with all: parts that only a system of FMUs needs.
 HELPERS = {"command": "thrustwasher.command"}

@@ -106,7 +106,7 @@ def test_it_is_known_whether_a_model_is_compiled(run_child, tmp_path, monkeypatc
         "from thrustwasher.model.registry import all_specs;"
         "print([is_compiled(spec) for spec in all_specs()])"
     )
-    assert run_child(code) == str([True] * 5)  # shipped with the package
+    assert run_child(code) == str([True] * 6)  # shipped with the package
     stale = "from thrustwasher.native import shipped; shipped.index = lambda: {'kernels': {}};"
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    assert run_child(stale + code) == str([False] * 5)
+    assert run_child(stale + code) == str([False] * 6)

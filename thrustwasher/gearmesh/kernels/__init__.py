@@ -27,6 +27,8 @@ CALLED = {
         "thrustwasher.gearmesh.kernels.constants: slide_roll start_of_contact",
         "thrustwasher.gearmesh.kernels.flank_temperature: heated_flank",
         "thrustwasher.gearmesh.kernels.line_of_action: place_mesh",
+        "thrustwasher.gearmesh.kernels.load_sharing: pitch_of share_load single_stiffness",
+        "thrustwasher.gearmesh.kernels.path_of_contact: derive_path",
         "thrustwasher.gearmesh.kernels.mesh_point: mesh_point",
         "thrustwasher.gearmesh.kernels.operating_point: solve_point",
         "thrustwasher.gearmesh.kernels.step: sens step",

@@ -13,7 +13,8 @@ from ...numerics.jit import Array, kernel
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
 from .contact import compliance
-from .path_of_contact import base_pitch, derive_path, even_part, line_of_action
+from .load_sharing import pitch_of, sharing_rule
+from .path_of_contact import base_pitch, derive_path, even_part, flanks_at, line_of_action
 from .tooth_root import derive_root, root_rule
 from .working_pair import is_standard, pair_rule, section, tips, working_section
 
@@ -203,6 +204,22 @@ def wide_loss_factor(
 
 
 @kernel
+def single_contact_factor(par: Array) -> float:
+    """Return the larger of Z_B, Z_D and 1 [-], stress of single contact over the pitch point's.
+
+    A pair is alone from B on, where the one before it has left, to D; the less the overlap, the
+    more of that counts. Source: ISO 6336-2 as publicly quoted.
+    """
+    if par[L.D_CONTACT_RATIO] >= 2.0:
+        return 1.0
+    pitch, most = flanks_at(par, 0.0)[0], 1.0
+    for s in (par[L.D_RECESS] - 1.0, 1.0 - par[L.D_APPROACH]):
+        factor = math.sqrt(pitch / flanks_at(par, s)[0])
+        most = max(most, factor - even_part(par) * (factor - 1.0))
+    return most
+
+
+@kernel
 def derive_limits(par: Array) -> None:
     """Fill pitting stress per root of the line load, its limit, scuffing temperature's slope."""
     ratio, side = par[L.P_GEAR_RATIO], par[L.D_SIDE]
@@ -216,6 +233,8 @@ def derive_limits(par: Array) -> None:
     slant = math.cos(par[L.P_HELIX_ANGLE])
     shape = zone * elastic * sharing / slant * (ratio + side) / (ratio * diameter)
     par[L.D_PITTING] = math.sqrt(shape * math.cos(angle) * par[L.P_LOAD_FACTOR])
+    if not is_standard(par):
+        par[L.D_PITTING] *= single_contact_factor(par)
     limit = LIMITS[int(par[L.P_STEEL]) - 1]
     par[L.D_LIMIT] = par[L.P_CONTACT_LIMIT] if par[L.P_CONTACT_LIMIT] > 0.0 else limit
     stage = par[L.P_FZG_STAGE]
@@ -284,4 +303,5 @@ def broken_rule(par: Array) -> int:
     beyond = beyond or not is_standard(par)
     if is_paper and (beyond or par[L.P_FRICTION_LAW] == L.MIXED_FRICTION):
         return 7
-    return root_rule(par, approach + recess)
+    rule = sharing_rule(par, approach + recess, pitch_of(par))
+    return rule if rule > 0 else root_rule(par, approach + recess)

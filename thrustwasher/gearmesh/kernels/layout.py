@@ -74,9 +74,15 @@
     P_REVERSED_BENDING,
     P_FACE_LOAD_FACTOR,
     P_MESH_LOAD_FACTOR,
+    P_LOAD_SHARING,
+    P_STIFFNESS_AT_ENDS,
+    P_TIP_RELIEF_PINION,
+    P_TIP_RELIEF_GEAR,
+    P_TIP_RELIEF_LENGTH_PINION,
+    P_TIP_RELIEF_LENGTH_GEAR,
     P_FIDELITY,
     N_PARAM,
-) = range(74)
+) = range(80)
 # Constants that derive() adds: geometry per unit of speed and torque, surface, material; then what
 # a mesh heated by its loss needs: section, loads per torque, limits, body, extremes of the path.
 (
@@ -127,7 +133,7 @@
 # The line of action: positions from the pitch point in base pitches, shares of the load that the
 # pair there bears, shares of the loss; D_PLACES is the number of positions. Where the loss heats,
 # also lengths and, per root of load and speed, flash of a friction of 1, film, mean pressure.
-N_PATH = 80
+N_PATH = 160
 D_POSITION = D_PLACES + 1
 D_PATH_SHARE, D_PATH_LOSS, D_PATH_LENGTH, D_PATH_FLASH, D_PATH_FILM, D_PATH_PRESSURE, NPAR = (
     D_POSITION + i * N_PATH for i in range(1, 8)
@@ -197,7 +203,11 @@ W_HOTTEST, W_HERE, W_LOCAL, W_PLACE = N_FIELD, 2 * N_FIELD, 3 * N_FIELD, 3 * N_F
 # Where the loss heats: how the step began (HELD and so on), the bodies over the oil then [K],
 # duration [s]; friction of every position, in mixed friction that of the film and contact's share.
 W_BEGAN, W_FROM, W_DURATION, W_FRICTION = range(W_PLACE + 1, W_PLACE + 5)
-W_SHEARED, W_CONTACT, NWORK = (W_FRICTION + i * N_PATH for i in range(1, 4))
+W_SHEARED, W_CONTACT, W_PAR = (W_FRICTION + i * N_PATH for i in range(1, 4))
+# Where stiffness shares the load: all constants with the shares at the load at hand; scratch for
+# solving the point again with others.
+W_AGAIN = W_PAR + NPAR
+NWORK = W_AGAIN + W_PAR + NSTATE
 NOUT = 34
 IO_REGIME, IO_STATUS, NIOUT = range(3)
 
@@ -215,6 +225,7 @@ HELD, STEADY, OILS = range(3)  # how a step began: as the last one ended, or wit
 AISI4340, AISI1020, CASE_HARDENED = 1, 2, 3  # steel
 AT_SURFACE = 1  # viscosity_at and film_viscosity, 2 is the inlet
 CONSTANT_SHARE = 1  # heat_partition, 2 follows the speeds
+ELASTIC = 2  # load_sharing, 1 is rigid
 AMBIENT = 1  # traction_law, 2 is limited
 BOUNDED, FREE = 1, 2  # area_law, 3 is constant
 SMOOTH, SHARP = 1, 2  # switch, 3 is none

@@ -2,18 +2,20 @@
 
 import math
 
-from ...numerics.arrays import are_finite, copy
+from ...numerics.arrays import are_finite, clear, copy
 from ...numerics.jit import Array, Ints, kernel
-from ...numerics.smoothing import soft_size, soft_size_slope
+from ...numerics.smoothing import floored, floored_slope, soft_size, soft_size_slope
 from ...numerics.status import BAD_INPUT, NOT_FINITE, OK
 from . import layout as L
 from .constants import broken_rule as broken_rule
 from .constants import derive as derive
+from .load_sharing import shared, shared_at
 from .mesh_point import LEAST_LINE_LOAD
 from .operating_point import point_changes, solve_point
 
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
 NOUT, NIOUT = L.NOUT, L.NIOUT
+SHARE_STEP = 1e-5  # of the load, for the slope of the shares
 
 
 @kernel
@@ -22,6 +24,23 @@ def regime_of(film_ratio: float) -> int:
     if film_ratio > 3.0:
         return L.FILM
     return L.MIXED if film_ratio >= 1.0 else L.BOUNDARY
+
+
+@kernel
+def _solve(
+    par: Array, load: float, speed: float, oil: float, state: Array, dt: float, work: Array
+) -> int:
+    """Fill the outputs but the oil's energy with these constants; return 0, an advice or a failure.
+
+    The loss grows from zero load with a continuous slope, over twice the least line load.
+    """
+    pressed = soft_size(load, 2.0 * LEAST_LINE_LOAD / par[L.D_LINE])
+    smooth_sign = math.tanh(speed / par[L.P_SPEED_SMOOTHING])
+    status = solve_point(par, load, speed, oil, pressed * smooth_sign * speed, state, dt, work)
+    work[L.F_SMOOTH_SIGN] = smooth_sign
+    work[L.F_TORQUE] = work[L.F_MEAN_FRICTION] * par[L.D_LOSS] * pressed * smooth_sign
+    work[L.F_POWER] = work[L.F_TORQUE] * speed
+    return status
 
 
 @kernel
@@ -36,13 +55,8 @@ def step(
     if not (are_finite(inp) and oil > 0.0 and math.isfinite(dt) and dt >= 0.0):
         iout[L.IO_STATUS] = BAD_INPUT
         return BAD_INPUT
-    # The loss grows from zero load with a continuous slope, over twice the least line load.
-    pressed = soft_size(load, 2.0 * LEAST_LINE_LOAD / par[L.D_LINE])
-    smooth_sign = math.tanh(speed / par[L.P_SPEED_SMOOTHING])
-    status = solve_point(par, load, speed, oil, pressed * smooth_sign * speed, state, dt, work)
-    work[L.F_SMOOTH_SIGN] = smooth_sign
-    work[L.F_TORQUE] = work[L.F_MEAN_FRICTION] * par[L.D_LOSS] * pressed * smooth_sign
-    work[L.F_POWER] = work[L.F_TORQUE] * speed
+    here = shared(par, load, work)
+    status = _solve(here, load, speed, oil, state, dt, work)
     work[L.F_OIL_ENERGY] = state[L.S_OIL_ENERGY] + work[L.F_OIL_HEAT] * dt
     iout[L.IO_REGIME] = regime_of(work[L.F_RATIO])
     copy(work, out)
@@ -65,6 +79,20 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
     Returns 0, or NOT_FINITE.
     """
     torque, speed, oil = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL]
+    if par[L.P_LOAD_SHARING] == L.ELASTIC:
+        _changes(work[L.W_PAR : L.W_AGAIN], torque, speed, oil, work, seed, dout)
+        if seed[L.I_LOAD] != 0.0:
+            _add_sharing(par, torque, speed, oil, work, seed[L.I_LOAD], dout)
+    else:
+        _changes(par, torque, speed, oil, work, seed, dout)
+    return OK if are_finite(dout) else NOT_FINITE
+
+
+@kernel
+def _changes(
+    par: Array, torque: float, speed: float, oil: float, work: Array, seed: Array, dout: Array
+) -> None:
+    """Fill the changes along ``seed`` with the shares of the load as they are."""
     width = 2.0 * LEAST_LINE_LOAD / par[L.D_LINE]
     pressed, smooth = soft_size(torque, width), work[L.F_SMOOTH_SIGN]
     heavier, friction = soft_size_slope(torque, width), work[L.F_MEAN_FRICTION]
@@ -83,4 +111,30 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
     )
     dout[L.F_POWER] = dout[L.F_TORQUE] * speed + work[L.F_TORQUE] * seed[L.I_SPEED]
     dout[L.F_OIL_ENERGY] = 0.0
-    return OK if are_finite(dout) else NOT_FINITE
+
+
+@kernel
+def _add_sharing(
+    par: Array, torque: float, speed: float, oil: float, work: Array, change: float, dout: Array
+) -> None:
+    """Add what the shares do as the torque changes by ``change`` [N m].
+
+    A central difference over the shares alone, at the same torque: the point is solved with those
+    of a little less and a little more load. Then the shares at the torque are made again.
+    """
+    line = torque * par[L.D_LINE]
+    load = floored(line, LEAST_LINE_LOAD)
+    per_step = floored_slope(line, LEAST_LINE_LOAD) * par[L.D_LINE] * change
+    per_step /= 2.0 * SHARE_STEP * load
+    again, state = work[L.W_AGAIN : L.W_AGAIN + L.W_PAR], work[L.W_AGAIN + L.W_PAR :]
+    for side in range(2):
+        weight = per_step if side == 1 else -per_step
+        here = shared_at(par, load * (1.0 + SHARE_STEP * (2.0 * side - 1.0)), work)
+        clear(state)
+        if work[L.W_BEGAN] == L.HELD:
+            state[L.S_STARTED], state[L.S_BULK] = 1.0, oil + work[L.W_FROM]
+        _solve(here, torque, speed, oil, state, work[L.W_DURATION], again)
+        for k in range(L.NOUT):
+            if k != L.F_STORED and k != L.F_OIL_ENERGY:
+                dout[k] += weight * again[k]
+    shared_at(par, load, work)

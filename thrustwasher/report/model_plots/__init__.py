@@ -4,6 +4,7 @@
 ``clutch_plot``    a wet pack: friction against slip, an engagement over time
 ``fit_plot``       a calibration: measured values, the fit with its confidence band, residuals
 ``gearmesh_plot``  temperatures of a gear mesh and what they leave of its endurance
+``losses_plot``    driveline losses: heat by source over speed and oil temperature
 ``washer_plots``   the washer: maps over its annulus, its load curve with the folds
 =================  =====================================================================
 """
@@ -14,6 +15,7 @@ from matplotlib.figure import Figure
 
 from .clutch_plot import slip_figure
 from .gearmesh_plot import gearmesh_figure
+from .losses_plot import losses_figure
 from .washer_plots import field_figure
 
 # What --plot of a model's command draws, by the models' keys: of (result, point, parameters).
@@ -21,4 +23,5 @@ FIGURES: dict[str, Callable[..., Figure]] = {
     "washer": field_figure,
     "clutch": slip_figure,
     "gearmesh": gearmesh_figure,
+    "losses": losses_figure,
 }

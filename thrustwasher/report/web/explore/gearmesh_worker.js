@@ -43,7 +43,10 @@ class Model extends PointModel {
 
   /** Flash, film, pressure and friction along the path, in proportion to the hottest position's. */
   path(oil) {
-    const { L } = this, par = this.par.view, f = this.work.view, n = par[L.D_PLACES];
+    const { L } = this, f = this.work.view;
+    let par = this.par.view;
+    if (par[L.P_LOAD_SHARING] === L.ELASTIC) par = f.subarray(L.W_PAR, L.W_PAR + L.NPAR); // shares at this load
+    const n = par[L.D_PLACES];
     if (par[L.P_FILM_HEAT] !== L.LOSS || !n) return null;
     const row = (first) => Array.from(par.slice(first, first + n)), law = par[L.P_FRICTION_LAW], hot = f[L.W_PLACE];
     const varies = par[L.P_FIDELITY] !== L.CLOSED && (law === L.LI_SEIREG || law === L.MIXED_FRICTION);

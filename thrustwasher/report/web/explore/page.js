@@ -255,7 +255,7 @@ function reproduced() {
   const own = view.reproduced?.(given, state.inputs, sets.join(" ")) ?? {};
   return {
     command: `thrustwasher ${key} ${[...options, ...sets].join(" ")}`,
-    python: `from thrustwasher import ${params}, ${solve}\n\nparams = ${params}(${given})\nresult = ${solve}(params, ${values})\nprint(result.friction_torque)`,
+    python: `from thrustwasher import ${params}, ${solve}\n\nparams = ${params}(${given})\nresult = ${solve}(params, ${values})\nprint(result.${Object.keys(ABOUT.outputs)[0]})`,
     part: `model = "${key}"\nname = "${name}"\nfidelity = "${rung}"\n\n[parameters]\n${changed.map(([n, v]) => `${n} = ${JSON.stringify(v)}`).join("\n")}`,
     ...own,
   };

@@ -1,0 +1,16 @@
+"""Compiled code of the driveline losses.
+
+=============  ===========================================================================
+``loss_laws``  size of the torque of a rolling bearing, of a dipping gear, of a shaft seal
+``step``       torques of all shafts, their powers and heat, and how they change: exact
+=============  ===========================================================================
+"""
+
+# What Python calls: module of the library -> functions, by their module.
+CALLED = {
+    "thrustwasher.losses.kernels.step": (
+        "thrustwasher.losses.kernels.loss_laws: bearing_drag churning_constants churning_drag",
+        "thrustwasher.losses.kernels.loss_laws: seal_drag",
+        "thrustwasher.losses.kernels.step: derive sens step",
+    ),
+}

@@ -1,0 +1,202 @@
+"""One step of the driveline losses: torques against four speeds, powers, heat.
+
+A torque is the size of a law at w = hypot(speed, s), times tanh(speed/s): odd and smooth in the
+speed; s is the parameter ``speed_smoothing``.
+"""
+
+import math
+
+import numpy as np
+
+from ...numerics.arrays import are_finite, clear
+from ...numerics.jit import Array, Ints, kernel
+from ...numerics.smoothing import soft_size, soft_size_slope
+from ...numerics.status import BAD_INPUT, NOT_FINITE, OK, OUTSIDE_VERIFIED
+from ...tribology.viscosity import viscosity
+from .loss_laws import bearing_drag as bearing_drag
+from .loss_laws import churning_constants, churning_drag, seal_drag
+
+(
+    P_PLANETS,
+    P_PLANET_BEARING_COUNT,
+    P_PLANET_BEARING_DIAMETER,
+    P_PLANET_VISCOUS_FACTOR,
+    P_PLANET_LOAD_FACTOR,
+    P_BEARING_VISCOUS_FACTOR,
+    P_BEARING_LOAD_FACTOR,
+    P_PUMP_DISPLACEMENT,
+    P_LINE_PRESSURE,
+    P_PUMP_EFFICIENCY,
+    P_OIL_VOLUME,
+    P_OIL_DENSITY,
+    P_VISCOSITY_CONSTANT,
+    P_VISCOSITY_EXPONENT,
+    P_VISCOSITY_SCALE,
+    P_SPEED_SMOOTHING,
+    P_SHAFT,
+) = range(17)
+# of each shaft, input, output, drum; places behind P_SHAFT + ROW times its number
+A_COUNT, A_DIAMETER, A_LOAD, A_GEAR, A_WIDTH, A_IMMERSION, A_SEAL, ROW = range(8)
+SHAFTS, PLANET, SPEEDS = 3, 3, 4  # the planet's speed comes behind those of the shafts
+P_FIDELITY = P_SHAFT + SHAFTS * ROW
+N_PARAM = P_FIDELITY + 1
+D_SLOW, D_FAST, D_PUMP = N_PARAM, N_PARAM + SHAFTS, N_PARAM + 2 * SHAFTS
+D_NU_40 = D_PUMP + 1
+NPAR = D_NU_40 + 1
+I_FORCE, I_OIL, NINP = SPEEDS, SPEEDS + 1, SPEEDS + 2
+NSTATE = 1  # the heat since the start [J]
+(
+    O_INPUT,
+    O_OUTPUT,
+    O_DRUM,
+    O_PLANET,
+    O_BEARING,
+    O_CHURNING,
+    O_PUMP,
+    O_SEAL,
+    O_HEAT,
+    O_ENERGY,
+    NOUT,
+) = range(11)
+NIOUT = 1
+SOURCES = 4  # of torque: bearing, churning, pump, seal; the order of their powers in the outputs
+# `work`: torques by speed and source, then their slopes over speed and over temperature; that of
+# the planet's torque over the tooth force
+W_TORQUE, W_BY_SPEED, W_BY_OIL = 0, SPEEDS * SOURCES, 2 * SPEEDS * SOURCES
+W_BY_FORCE = 3 * SPEEDS * SOURCES
+NWORK = W_BY_FORCE + 1
+LIGHT = 1.0  # N, tooth force over which the corner at none is rounded
+COLDEST, HOTTEST = 253.15, 423.15  # K, between which the laws are meant
+
+
+@kernel
+def derive(par: Array) -> int:
+    """Fill in what does not depend on speed or temperature; return 0, or NOT_FINITE."""
+    density = par[P_OIL_DENSITY]
+    for i in range(SHAFTS):
+        row = P_SHAFT + i * ROW
+        par[np.uintp(D_SLOW + i)], par[np.uintp(D_FAST + i)] = churning_constants(
+            par[np.uintp(row + A_GEAR)],
+            par[np.uintp(row + A_WIDTH)],
+            par[np.uintp(row + A_IMMERSION)],
+            par[P_OIL_VOLUME],
+            density,
+        )
+    work = par[P_PUMP_DISPLACEMENT] * par[P_LINE_PRESSURE]
+    par[D_PUMP] = work / (2.0 * math.pi * par[P_PUMP_EFFICIENCY])
+    thick, _ = oil_viscosity(par, 313.15)
+    par[D_NU_40] = thick
+    return OK if are_finite(par[N_PARAM:]) else NOT_FINITE
+
+
+@kernel
+def oil_viscosity(par: Array, oil: float) -> tuple[float, float]:
+    """Return the kinematic viscosity [m2/s] and its slope over temperature."""
+    mu, slope = viscosity(
+        oil, par[P_VISCOSITY_SCALE], par[P_VISCOSITY_CONSTANT], par[P_VISCOSITY_EXPONENT]
+    )
+    return mu / par[P_OIL_DENSITY], slope / par[P_OIL_DENSITY]
+
+
+@kernel
+def put(work: Array, at: int, sign: float, drag: tuple[float, float, float], steep: float) -> None:
+    """Add a torque and its slopes at a place of ``work``.
+
+    ``drag``: its size, its slopes over speed and temperature; ``sign`` of the motion, smooth, and
+    ``steep``, how it changes with the speed.
+    """
+    size, by_speed, by_oil = drag
+    work[np.uintp(W_TORQUE + at)] += size * sign
+    work[np.uintp(W_BY_SPEED + at)] += size * steep + by_speed * sign
+    work[np.uintp(W_BY_OIL + at)] += by_oil * sign
+
+
+@kernel
+def resist(par: Array, inp: Array, work: Array) -> None:
+    """Fill ``work`` with the torques at these inputs and their slopes."""
+    clear(work)
+    oil, force, smooth = inp[I_OIL], inp[I_FORCE], par[P_SPEED_SMOOTHING]
+    nu, nu_slope = oil_viscosity(par, oil)
+    for i in range(SPEEDS):
+        speed, at = inp[np.uintp(i)], i * SOURCES
+        turning = math.sqrt(speed * speed + smooth * smooth)
+        more, sign = speed / turning, math.tanh(speed / smooth)
+        steep = (1.0 - sign) * (1.0 + sign) / smooth
+        if i == PLANET:
+            load = 2.0 * soft_size(force, LIGHT)
+            n, diameter = par[P_PLANET_BEARING_COUNT], par[P_PLANET_BEARING_DIAMETER]
+            f0, f1 = par[P_PLANET_VISCOUS_FACTOR], par[P_PLANET_LOAD_FACTOR]
+            drag, a, b = bearing_drag(turning, nu, load / n, diameter, f0, f1)
+            put(work, at, sign, (n * drag, n * a * more, n * b * nu_slope), steep)
+            slope = 2.0 * soft_size_slope(force, LIGHT)
+            work[W_BY_FORCE] = slope * f1 * diameter * sign
+            continue
+        row = P_SHAFT + i * ROW
+        n, diameter = par[np.uintp(row + A_COUNT)], par[np.uintp(row + A_DIAMETER)]
+        f0, f1 = par[P_BEARING_VISCOUS_FACTOR], par[P_BEARING_LOAD_FACTOR]
+        drag, a, b = bearing_drag(turning, nu, par[np.uintp(row + A_LOAD)], diameter, f0, f1)
+        put(work, at, sign, (n * drag, n * a * more, n * b * nu_slope), steep)
+        area = 0.5 * par[np.uintp(row + A_GEAR)] * par[np.uintp(row + A_WIDTH)]
+        slow, fast = par[np.uintp(D_SLOW + i)], par[np.uintp(D_FAST + i)]
+        drag, a, b = churning_drag(turning, nu, slow, fast, area)
+        put(work, at + 1, sign, (drag, a * more, b * nu_slope), steep)
+        if i == O_INPUT:
+            put(work, at + 2, sign, (par[D_PUMP], 0.0, 0.0), steep)
+        drag, b = seal_drag(oil, par[D_NU_40], par[np.uintp(row + A_SEAL)])
+        put(work, at + 3, sign, (drag, 0.0, b), steep)
+
+
+@kernel
+def step(
+    par: Array, inp: Array, state: Array, work: Array, out: Array, iout: Ints, t: float, dt: float
+) -> int:
+    """Fill the outputs at the present inputs, held from t to t + dt.
+
+    Returns 0 or the status of a failure; advice stands in ``iout`` only.
+    """
+    oil = inp[I_OIL]
+    if not (are_finite(inp) and oil > 0.0 and math.isfinite(dt) and dt >= 0.0):
+        iout[0] = BAD_INPUT
+        return BAD_INPUT
+    resist(par, inp, work)
+    clear(out)
+    for i in range(SPEEDS):
+        speed = inp[np.uintp(i)]
+        if i == PLANET:
+            speed *= par[P_PLANETS]
+        for k in range(SOURCES):
+            torque = work[np.uintp(W_TORQUE + i * SOURCES + k)]
+            out[np.uintp(i)] += torque
+            out[np.uintp(O_BEARING + k)] += torque * speed
+    out[O_HEAT] = out[O_BEARING] + out[O_CHURNING] + out[O_PUMP] + out[O_SEAL]
+    out[O_ENERGY] = state[0] + out[O_HEAT] * dt
+    status = OK if COLDEST <= oil <= HOTTEST else OUTSIDE_VERIFIED
+    if not are_finite(out):
+        status = NOT_FINITE
+    elif dt > 0.0:
+        state[0] = out[O_ENERGY]
+    iout[0] = status
+    return status if status >= 10 else 0
+
+
+@kernel
+def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: Array) -> int:
+    """Fill ``dout`` with the change of the real outputs when the inputs change by ``seed``.
+
+    ``work`` is as the last successful step with these inputs left it. Returns 0, or NOT_FINITE.
+    """
+    clear(dout)
+    for i in range(SPEEDS):
+        speed, faster = inp[np.uintp(i)], seed[np.uintp(i)]
+        count = par[P_PLANETS] if i == PLANET else 1.0
+        for k in range(SOURCES):
+            at = i * SOURCES + k
+            change = work[np.uintp(W_BY_SPEED + at)] * faster
+            change += work[np.uintp(W_BY_OIL + at)] * seed[I_OIL]
+            if i == PLANET and k == 0:
+                change += work[W_BY_FORCE] * seed[I_FORCE]
+            dout[np.uintp(i)] += change
+            power = change * speed + work[np.uintp(W_TORQUE + at)] * faster
+            dout[np.uintp(O_BEARING + k)] += count * power
+    dout[O_HEAT] = dout[O_BEARING] + dout[O_CHURNING] + dout[O_PUMP] + dout[O_SEAL]
+    return OK if are_finite(dout) else NOT_FINITE

@@ -1,0 +1,101 @@
+"""Parameters of the driveline losses; ``interface.toml`` has inputs and outputs."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from ..model.parameters import check_ranges, count, extended, quantity
+from ..model.toml_tables import spec_beside
+
+# Shaft -> bearings, their mean diameter [m] and load [N] each, gear's diameter and width [m], depth
+# over diameter, diameter of the seal [m]; the defaults.
+SHAFTS = {
+    "input": (2, 0.05, 500.0, 0.1, 0.03, 0.0, 0.045),
+    "output": (2, 0.065, 800.0, 0.16, 0.03, 0.2, 0.045),
+    "drum": (1, 0.08, 200.0, 0.17, 0.05, 0.0, 0.0),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class _LossesParams:
+    """Bearings, dipping gears, seals and oil pump of a planetary gearbox, and its oil.
+
+    The defaults are estimates of a car's automatic transmission of about 300 N m: pump of 15 cm3
+    at 10 bar, ATF of about 37 mm2/s at 40 degC, the output gear dips by a fifth of its diameter.
+    Factors f0 and f1 are of the size that handbooks of rolling bearings give (Harris 2001; SKF).
+    """
+
+    planets: int = count(4, 1, 20, "number of planets: each has planet_torque")
+    planet_bearing_count: int = count(
+        1, 1, 4, "needle bearings of one planet, which share its load"
+    )
+    planet_bearing_diameter: float = quantity(
+        0.018, "m", 1e-3, 1.0, "mean diameter of a planet's needle bearing"
+    )
+    planet_viscous_factor: float = quantity(
+        6.0, "1", 0.0, 50.0, "f0 of needle bearings: 6 oil mist, 12 oil bath"
+    )
+    planet_load_factor: float = quantity(
+        0.001, "1", 0.0, 0.02, "f1 of needle bearings: half a coefficient of friction of 0.002"
+    )
+    bearing_viscous_factor: float = quantity(
+        2.0,
+        "1",
+        0.0,
+        50.0,
+        "f0 of the main bearings: 1 to 3 of ball and cylindrical roller bearings",
+    )
+    bearing_load_factor: float = quantity(
+        4e-4, "1", 0.0, 0.02, "f1 of the main bearings: 2e-4 to 1e-3"
+    )
+    pump_displacement: float = quantity(
+        1.5e-5, "m3", 0.0, 1e-2, "oil that the pump moves per turn of the input shaft"
+    )
+    line_pressure: float = quantity(1e6, "Pa", 0.0, 1e8, "pressure rise of the pump")
+    pump_efficiency: float = quantity(
+        0.85, "1", 0.1, 1.0, "hydro-mechanical efficiency of the pump"
+    )
+    oil_volume: float = quantity(6e-3, "m3", 1e-6, 100.0, "oil that the gears dip into")
+    oil_density: float = quantity(850.0, "kg/m3", 500.0, 1500.0, "density of the oil")
+    viscosity_constant: float = quantity(
+        3.545, "1", 0.0, 6.0, "G_o of the Roelands law (0: viscosity is viscosity_scale, constant)"
+    )
+    viscosity_exponent: float = quantity(1.053, "1", 0.2, 3.0, "S_o of the Roelands law")
+    viscosity_scale: float = quantity(6.31e-5, "Pa.s", 1e-6, 10.0, "scale of the Roelands law")
+    speed_smoothing: float = quantity(
+        0.1, "rad/s", 1e-6, 100.0, "speed over which the torques pass through zero"
+    )
+
+    def __post_init__(self) -> None:
+        check_ranges(self)
+
+
+def _of_shaft(name: str) -> dict[str, Any]:
+    """Return the parameters of one shaft, in the kernel's order."""
+    bearings, diameter, load, gear, width, immersion, seal = SHAFTS[name]
+    shaft = "drum" if name == "drum" else f"{name} shaft"
+    fields = {
+        "bearing_count": count(bearings, 0, 20, f"main bearings of the {shaft}"),
+        "bearing_diameter": quantity(
+            diameter, "m", 1e-3, 2.0, f"mean diameter of each main bearing of the {shaft}"
+        ),
+        "bearing_load": quantity(
+            load, "N", 0.0, 1e6, f"radial load of each main bearing of the {shaft}"
+        ),
+        "gear_diameter": quantity(
+            gear, "m", 5e-3, 5.0, f"pitch diameter of the gear of the {shaft} that may dip"
+        ),
+        "gear_width": quantity(width, "m", 1e-3, 1.0, f"width of the gear of the {shaft}"),
+        "immersion": quantity(
+            immersion, "1", 0.0, 0.5, f"depth in the oil over diameter, gear of the {shaft}"
+        ),
+        "seal_diameter": quantity(
+            seal, "m", 0.0, 1.0, f"shaft under the lip seal of the {shaft} (0: no seal)"
+        ),
+    }
+    return {f"{name}_{key}": field for key, field in fields.items()}
+
+
+LossesParams = extended(
+    _LossesParams, "LossesParams", {k: v for name in SHAFTS for k, v in _of_shaft(name).items()}
+)
+SPEC = spec_beside(__file__, LossesParams)

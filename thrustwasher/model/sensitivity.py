@@ -1,12 +1,16 @@
-"""Which parameters results are differentiated over, and the steps that differences take."""
+"""Derivatives of results over parameters: over which ones, and differences where these are cheap."""
 
-from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import fields
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import fields, replace
 from typing import Any, NamedTuple
 
 from ..errors import ParameterError
+from .advice import Plain
+from .registry import find_model
 
 STEP = 1e-6  # of a value, or of its range where it is 0
+Table = dict[str, dict[str, float]]  # output -> parameter -> derivative
+Points = tuple[tuple[float, float], ...]  # offsets and weights
 
 
 class Varied(NamedTuple):
@@ -15,7 +19,50 @@ class Varied(NamedTuple):
     name: str
     place: int  # in the parameter array
     value: float
-    points: tuple[tuple[float, float], ...]  # offsets and weights
+    points: Points
+
+
+class Asked(NamedTuple):
+    """What a result was asked for with."""
+
+    model: str
+    params: Any
+    point: Mapping[str, Any]  # rung included
+
+
+class Differentiable(Plain):
+    """Base of results that follow from their parameters quickly and to rounding."""
+
+    __slots__ = ()
+    _asked: Asked
+
+    def sensitivities(
+        self,
+        outputs: Collection[str] | None = None,
+        parameters: Collection[str] | None = None,
+        *,
+        per_percent: bool = False,
+    ) -> Table:
+        """Return {output: {parameter: derivative}}, SI, by central differences of 1e-6.
+
+        Parameters
+        ----------
+        outputs : names of real results; by default all there are
+        parameters : names; by default all real ones but those whose 0 stands for a value from
+            elsewhere, and those that a rule holds where they are
+        per_percent : return the change of the output for one percent of the parameter instead
+
+        Raises
+        ------
+        ParameterError : a name is none of them
+        SolveError : beside this point there is no solution
+
+        Notes
+        -----
+        At a corner (a law that changes, another place of the path that is hottest) it is the mean
+        of both sides. Error: docs/theory/sensitivity.md.
+        """
+        return chosen_unit(self._asked.params, per_percent, _differences(self, outputs, parameters))
 
 
 def varied_parameters(params: Any, wanted: Collection[str] | None) -> list[Varied]:
@@ -28,7 +75,7 @@ def varied_parameters(params: Any, wanted: Collection[str] | None) -> list[Varie
     ParameterError : a name that is wanted is none of them
     """
     found = [
-        Varied(f.name, place, value, _difference(value, f.metadata))
+        Varied(f.name, place, value, next(_difference(value, f.metadata)))
         for place, f in enumerate(fields(params))
         if f.metadata["kind"] == "real"
         for value in (float(getattr(params, f.name)),)
@@ -43,40 +90,61 @@ def wanted_outputs(wanted: Collection[str] | None, outputs: Sequence[str]) -> li
     return _chosen("outputs", wanted, outputs)
 
 
-def by_differences(
-    params: Any,
-    parameters: Collection[str] | None,
-    outputs: Collection[str] | None,
-    values_at: Callable[[int, float], Mapping[str, float | None]],
-) -> dict[str, dict[str, float]]:
-    """Return {output: {parameter: derivative}} of results that take no solve to the end.
+def chosen_unit(params: Any, per_percent: bool, found: Table) -> Table:
+    """Return derivatives as they are, or as changes for one percent of each parameter."""
+    if not per_percent:
+        return found
+    return {
+        output: {name: 0.01 * getattr(params, name) * slope for name, slope in row.items()}
+        for output, row in found.items()
+    }
 
-    ``values_at(place, value)`` returns all results with one number of the parameter array changed.
-    """
-    varied = varied_parameters(params, parameters)
-    whole = values_at(0, float("nan")) if not varied else values_at(varied[0].place, varied[0].value)
-    names = wanted_outputs(outputs, [name for name, x in whole.items() if x is not None])
-    found: dict[str, dict[str, float]] = {name: {} for name in names}
-    for v in varied:
-        rows = [(weight, values_at(v.place, v.value + offset)) for offset, weight in v.points]
-        for name in names:
-            found[name][v.name] = sum(weight * float(row[name] or 0.0) for weight, row in rows)
+
+def _differences(
+    result: Any, outputs: Collection[str] | None, parameters: Collection[str] | None
+) -> Table:
+    """Return the derivatives of a result that takes no solve to the end."""
+    solve, (_, params, point) = find_model(result._asked.model).solve, result._asked
+    real = [f.name for f in fields(result) if isinstance(getattr(result, f.name), float)]
+    names = wanted_outputs(outputs, real)
+    found: Table = {name: {} for name in names}
+    metas = {f.name: f.metadata for f in fields(params)}
+    for v in varied_parameters(params, parameters):
+        refused = None
+        for points in _difference(v.value, metas[v.name]):
+            try:
+                rows = [
+                    (weight, solve(replace(params, **{v.name: v.value + offset}), **point))
+                    for offset, weight in points
+                ]
+            except ParameterError as error:  # a rule between parameters
+                refused = error
+                continue
+            for name in names:
+                found[name][v.name] = sum(weight * getattr(r, name) for weight, r in rows)
+            break
+        else:
+            if parameters and refused:
+                raise refused
     return found
 
 
-def _difference(value: float, meta: Mapping[str, Any]) -> tuple[tuple[float, float], ...]:
-    """Return offsets and weights of second order; at an end of the range they look inwards."""
+def _difference(value: float, meta: Mapping[str, Any]) -> Iterator[Points]:
+    """Yield offsets and weights of second order within the range: central, else to one side."""
     low, high = float(meta["min"]), float(meta["max"])
     h = STEP * (abs(value) or high - low)
-    if value - h < low or value + h > high:
-        h = h if value - h < low else -h
-        return ((0.0, -1.5 / h), (h, 2.0 / h), (2.0 * h, -0.5 / h))
-    return ((-h, -0.5 / h), (h, 0.5 / h))
+    if low <= value - h and value + h <= high:
+        yield ((-h, -0.5 / h), (h, 0.5 / h))
+    for s in (h, -h):
+        if low <= value + 2.0 * s <= high:
+            yield ((0.0, -1.5 / s), (s, 2.0 / s), (2.0 * s, -0.5 / s))
 
 
 def _chosen(what: str, wanted: Collection[str] | None, known: Sequence[str]) -> list[str]:
     if wanted is None:
         return list(known)
+    if isinstance(wanted, str):
+        wanted = (wanted,)
     for name in wanted:
         if name not in known:
             raise ParameterError(f"{what}: {name!r}, allowed: {', '.join(known)}")

@@ -1,7 +1,7 @@
 """What a washer solve returns, and the error to expect of it."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,6 +10,7 @@ from ..errors import ParameterError, Status
 from ..ladder.error_table import error_estimate
 from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
+from ..model.sensitivity import chosen_unit
 from ..numerics.jit import Array
 from .kernel_arguments import NO_MESH, constants, work_array
 from .kernels import layout as L
@@ -140,6 +141,46 @@ class WasherResult:
     def point(self) -> Inputs:
         """Return the inputs: load, speed, tilt, oil temperature, that of the gear's far face."""
         return (self.load, self.speed, self.tilt, self.oil_temperature, self.far_face_temperature)
+
+    def sensitivities(
+        self,
+        outputs: Collection[str] | None = None,
+        parameters: Collection[str] | None = None,
+        *,
+        per_percent: bool = False,
+    ) -> dict[str, dict[str, float]]:
+        """Return {output: {parameter: derivative}}, SI, on this branch and mesh.
+
+        Exact, from one factorisation of the solved equations and no solve per parameter.
+
+        Parameters
+        ----------
+        outputs : names of real results; by default all
+        parameters : names; by default all real ones but those whose 0 stands for a value from
+            elsewhere
+        per_percent : return the change of the output for one percent of the parameter instead
+
+        Raises
+        ------
+        ParameterError : a name is none of them, or the rung has no mesh
+        SolveError : at a fold, where results have no derivatives
+
+        Notes
+        -----
+        Source and error: docs/theory/sensitivity.md.
+
+        Examples
+        --------
+        >>> from thrustwasher import solve_washer
+        >>> result = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002)
+        >>> found = result.sensitivities(["friction_torque"], ["roughness"], per_percent=True)
+        >>> f"{found['friction_torque']['roughness']:.3g} N m"
+        ''
+        """
+        from .sensitivities import parameter_derivatives
+
+        found = parameter_derivatives(self, outputs, parameters)
+        return chosen_unit(self.params, per_percent, found)
 
     def fields(self) -> WasherFields:
         """Return gap, pressures, temperatures and oil flow; it takes a rung with a mesh."""

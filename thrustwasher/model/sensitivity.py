@@ -1,10 +1,10 @@
-"""Derivatives of results over parameters: over which ones, and differences where these are cheap."""
+"""Derivatives of results over parameters, and differences where a solve is quick."""
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from typing import Any, NamedTuple
 
-from ..errors import ParameterError
+from ..errors import ParameterError, suggestion
 from .advice import Plain
 from .registry import find_model
 
@@ -121,7 +121,8 @@ def _differences(
                 refused = error
                 continue
             for name in names:
-                found[name][v.name] = sum(weight * getattr(r, name) for weight, r in rows)
+                base = getattr(rows[0][1], name)  # what stays has no rounding
+                found[name][v.name] = sum(w * (getattr(r, name) - base) for w, r in rows)
             break
         else:
             if parameters and refused:
@@ -147,5 +148,6 @@ def _chosen(what: str, wanted: Collection[str] | None, known: Sequence[str]) -> 
         wanted = (wanted,)
     for name in wanted:
         if name not in known:
-            raise ParameterError(f"{what}: {name!r}, allowed: {', '.join(known)}")
+            hint = suggestion(str(name), known, "did you mean {}? ")
+            raise ParameterError(f"{what}: {name!r}, {hint}allowed: {', '.join(known)}")
     return [name for name in known if name in wanted]

@@ -79,7 +79,10 @@ class Linearised:
     def take(self, state: Array) -> None:
         """Go to a kept solution."""
         pressure = L.S_FIELDS + self.f.temp.size
-        self.f.temp[:], self.f.p[:] = state[L.S_FIELDS : pressure], state[pressure:][: self.f.p.size]
+        self.f.temp[:], self.f.p[:] = (
+            state[L.S_FIELDS : pressure],
+            state[pressure:][: self.f.p.size],
+        )
         self.w.q[:] = state[L.S_POSITIONS :][:4]
         self.f.tag[L.TAG_VALID] = 0.0
 
@@ -125,10 +128,8 @@ class Linearised:
         """
         change, still = np.zeros(N_CHANGES), np.zeros(4 + self.f.temp.size)
         sigma = self.par[L.D_SIGMA1]
-        self._check(
-            k.follow_parameter(self.w, self.pt, FILM, sigma, still[:4], still[4:], change)
-        )
-        return change / sigma
+        self._check(k.follow_parameter(self.w, self.pt, FILM, sigma, still[:4], still[4:], change))
+        return np.asarray(change / sigma)
 
     def _constants(self, v: Varied, offset: float) -> Array:
         par = self.par.copy()
@@ -178,7 +179,7 @@ def fold_derivatives(
     start = points[max(0, below - 1)]
     varied = varied_parameters(start.params, parameters)
     here = Linearised(start.params, start.grid, start.point(), start._state)
-    w, sigma = here.w, float(here.par[L.D_SIGMA1])
+    w = here.w
     w.curve[L.ACCURACY] = TOLERANCE
     ends = []
     for p in (start, points[below]):

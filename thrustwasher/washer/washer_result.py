@@ -173,9 +173,9 @@ class WasherResult:
         --------
         >>> from thrustwasher import solve_washer
         >>> result = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002)
-        >>> found = result.sensitivities(["friction_torque"], ["roughness"], per_percent=True)
-        >>> f"{found['friction_torque']['roughness']:.3g} N m"
-        ''
+        >>> found = result.sensitivities(["friction_torque"], per_percent=True)["friction_torque"]
+        >>> f"{found['viscosity_constant']:.2g} N m for one percent more viscosity"
+        '0.0077 N m for one percent more viscosity'
         """
         from .sensitivities import parameter_derivatives
 

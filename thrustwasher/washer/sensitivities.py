@@ -159,6 +159,7 @@ def parameter_derivatives(
     here = Linearised(result.params, result.grid, result.point(), result._state)
     here.settle()
     found = here.changes(LOAD, varied)
+    found[:, L.O_FLUID_LOAD] = -found[:, L.O_CONTACT_LOAD]  # both carry the load; without rounding
     return {
         name: dict(zip((v.name for v in varied), found[:, OUTPUTS[name]].tolist(), strict=True))
         for name in names

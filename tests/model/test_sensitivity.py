@@ -2,6 +2,7 @@
 
 import pickle
 from dataclasses import fields, replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ from thrustwasher import (
 )
 from thrustwasher.model.sensitivity import varied_parameters
 
-STEP = 3e-4  # relative, of differences of fourth order
+STEPS = (3e-4, 3e-5)  # relative, of differences of fourth order
 RANGES = {
     "clutch": {"load": (500.0, 10000.0), "speed": (1.0, 30.0), "oil_temperature": (300.0, 370.0)},
     "gearmesh": {"power": (1e3, 2e4), "speed": (50.0, 500.0), "oil_temperature": (300.0, 370.0)},
@@ -31,25 +32,25 @@ SOLVED = {
 }
 
 
-def of_fourth_order(values, x):
-    near = values(x * (1.0 + STEP)) - values(x * (1.0 - STEP))
-    far = values(x * (1.0 + 2.0 * STEP)) - values(x * (1.0 - 2.0 * STEP))
-    return (8.0 * near - far) / (12.0 * STEP)
+def of_fourth_order(values, x, step):
+    near = values(x * (1.0 + step)) - values(x * (1.0 - step))
+    far = values(x * (1.0 + 2.0 * step)) - values(x * (1.0 - 2.0 * step))
+    return (8.0 * near - far) / (12.0 * step)
 
 
 @pytest.mark.parametrize("model", SOLVED)
 @sizes(2, 100)
 def test_derivatives_are_those_of_wider_differences_of_fourth_order(model, n):
     (solve, params), rng, worst = SOLVED[model], np.random.default_rng(5), 0.0
-    metas = {f.name: f.metadata for f in fields(params)}
+    metas, all_of_them, left_out = {f.name: f.metadata for f in fields(params)}, 0, 0
     for _ in range(n):
         point = {name: rng.uniform(*ends) for name, ends in RANGES[model].items()}
         found = solve(params, **point).sensitivities()
         names = [
             name
             for name in next(iter(found.values()))
-            if metas[name]["min"] <= getattr(params, name) * (1.0 - 2.0 * STEP)
-            and getattr(params, name) * (1.0 + 2.0 * STEP) <= metas[name]["max"]
+            if metas[name]["min"] <= getattr(params, name) * (1.0 - 2.0 * STEPS[0])
+            and getattr(params, name) * (1.0 + 2.0 * STEPS[0]) <= metas[name]["max"]
         ]
         assert len(names) > 10
 
@@ -57,23 +58,30 @@ def test_derivatives_are_those_of_wider_differences_of_fourth_order(model, n):
             result = solve(replace(params, **{name: value}), **point)
             return np.array([getattr(result, output) for output in outputs])
 
-        wide = np.array(
-            [of_fourth_order(lambda x, n=name: at(n, x), getattr(params, name)) for name in names]
+        wide, narrow = (
+            np.transpose(
+                [of_fourth_order(partial(at, name), getattr(params, name), h) for name in names]
+            )
+            for h in STEPS
         )
         exact = np.array([[getattr(params, n) * row[n] for n in names] for row in found.values()])
         sizes = np.abs(exact).max(axis=1, keepdims=True)
-        error = np.abs(exact - wide.T) / np.where(sizes > 0.0, sizes, 1.0)
+        sizes[sizes == 0.0] = 1.0
+        smooth = np.abs(wide - narrow) <= 1e-6 * sizes  # no corner of a law is within the steps
+        all_of_them, left_out = all_of_them + smooth.size, left_out + int((~smooth).sum())
+        error = np.where(smooth, np.abs(exact - wide) / sizes, 0.0)
         worst = max(worst, error.max())
         assert error.max() <= 1e-6, (point, names[int(error.max(axis=0).argmax())])
-    print(f"{model}: {worst:.1e}")
+    assert left_out <= 0.01 * all_of_them
+    print(f"{model}: {worst:.1e}, {left_out} of {all_of_them} left out")
 
 
 def test_a_value_at_the_end_of_its_range_is_looked_at_from_inside():
     place = {"power": 7500.0, "speed": 180.0}
     result = solve_gearmesh(GearMeshParams(), **place)
     inside = solve_gearmesh(GearMeshParams(face_load_factor=1.0001), **place)
-    slope = result.sensitivities(["pitting_stress"], ["face_load_factor"])["pitting_stress"]
-    rise = 1e4 * (inside.pitting_stress - result.pitting_stress)
+    slope = result.sensitivities(["root_stress"], ["face_load_factor"])["root_stress"]
+    rise = 1e4 * (inside.root_stress - result.root_stress)
     assert slope["face_load_factor"] == pytest.approx(rise, rel=1e-3) and rise > 0.0
 
 

@@ -20,7 +20,7 @@ from thrustwasher import (
     run_sweep,
 )
 from thrustwasher.calibration.measured import Measured
-from thrustwasher.washer.load_curve import fold_loads
+from thrustwasher.washer.fits import fold_loads
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 from calibration import RIGS, held

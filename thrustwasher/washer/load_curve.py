@@ -2,16 +2,14 @@
 
 import dataclasses
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from ..errors import ParameterError, SolveError, Status
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
-from ..model.record import Fits
 from ..model.rungs import gone_rung, rung_named
 from ..numerics.jit import Array
 from ..numerics.status import OK
@@ -175,29 +173,6 @@ def load_curve(
         elif gain > 0.0 if rising else gain < 0.0:
             top = len(points) - 1
     return LoadCurve(_labelled(points, folds), folds, gone_rung(SPEC, fidelity))
-
-
-def fold_loads(params: WasherParams, point: Mapping[str, float], fidelity: str) -> dict[str, float]:
-    """Return the loads [N] at which the film is lost and regained; no such fold: not in it."""
-    place: Any = {name: value for name, value in point.items() if name != "load"}
-    for load_max in (3e3, 1e4):
-        try:
-            folds = load_curve(params, **place, fidelity=fidelity, load_max=load_max).folds
-        except SolveError:
-            return {}
-        if folds:
-            break
-    found = {fold.kind: fold.load for fold in reversed(folds)}
-    names = {"film_lost": "film_loss_load", "film_regained": "film_regain_load"}
-    return {names[kind]: load for kind, load in found.items()}
-
-
-FITS = Fits(
-    units={"film_loss_load": "N", "film_regain_load": "N"},
-    computed=fold_loads,
-    without="load",
-    none="no such fold on the load curve",
-)
 
 
 def _labelled(points: list[WasherResult], folds: list[Fold]) -> list[WasherResult]:

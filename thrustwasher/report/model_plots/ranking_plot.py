@@ -20,8 +20,8 @@ def ranking_figure(name: str, ranking: Mapping[str, tuple[str, Mapping[str, floa
     count = len(ranking)
     rows, columns = -(-count // COLUMNS) or 1, min(count, COLUMNS) or 1
     width = columns * (BARS + NAMES) + 0.2
-    size = (width, 2.6 * rows + 0.4, rows, columns)
-    figure, axes = new_figure(*size, head=1, left=NAMES, across=NAMES)
+    shape = (width, 2.6 * rows + 0.4, rows, columns)
+    figure, axes = new_figure(*shape, head=1, left=NAMES, across=NAMES)
     for axis in axes[count:]:
         axis.remove()
     for axis, (output, (unit, changes)) in zip(axes, ranking.items(), strict=False):

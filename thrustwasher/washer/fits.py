@@ -1,6 +1,7 @@
 """What of a washer can be fitted beside its outputs, and how all of that follows its parameters."""
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -68,11 +69,17 @@ def slopes(
     return np.array(found)
 
 
+@lru_cache(maxsize=16)
+def _constants(params: WasherParams, fidelity: str) -> Any:
+    """Return the kernel's ``par``; many lines share their parameters."""
+    return filled(SPEC, params, fidelity, k.NPAR, k.derive)
+
+
 def _of_rows(
     params: WasherParams, inputs: Array, fidelity: str, names: Sequence[str]
 ) -> dict[int, Array]:
     """Return the derivatives (outputs, names) of each row that has a solution."""
-    par = filled(SPEC, params, fidelity, k.NPAR, k.derive)
+    par = _constants(params, fidelity)
     state, work, out = np.zeros(k.NSTATE), np.zeros(k.NWORK), np.zeros(k.NOUT)
     by_name = {v.name: v for v in varied_parameters(params, names)}
     varied, found = [by_name[name] for name in names], {}
@@ -82,7 +89,6 @@ def _of_rows(
             continue
         load, speed, tilt, oil, far = point.tolist()
         here = Linearised(params, GRIDS[fidelity], (load, speed, tilt, oil, far), state)
-        here.settle()
         found[row] = here.changes(LOAD, varied).T
     return found
 

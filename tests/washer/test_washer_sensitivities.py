@@ -14,7 +14,7 @@ from thrustwasher.washer import sensitivities as s
 META = {f.name: f.metadata for f in fields(WasherParams)}
 POINT = {"load": 300.0, "speed": 953.0, "tilt": 0.002}
 FOLDED = {"speed": 545.0, "tilt": 0.002}
-STEP, FOLD_STEP = 1e-4, 2e-4  # relative
+STEP, FOLD_STEP = 3e-5, 2e-4  # relative
 ROUNDING = 1e-3  # of an output: one that changes less, as the load at a full film, changes not
 
 
@@ -28,14 +28,14 @@ def converged(params, point, branch, start):
 
 
 def extrapolated(values, params, name, step):
-    """Return p dF/dp from differences of ``values(parameters)`` of two relative steps."""
+    """Return p dF/dp from differences of ``values(parameters)``, and how far two steps differ."""
     p = getattr(params, name)
 
     def at(change):
         return values(replace(params, **{name: p * (1.0 + change)}))
 
     wide, narrow = ((at(h) - at(-h)) / (2.0 * h) for h in (step, 0.5 * step))
-    return (4.0 * narrow - wide) / 3.0
+    return (4.0 * narrow - wide) / 3.0, np.abs(narrow - wide)
 
 
 def movable(name, value, step):
@@ -69,7 +69,7 @@ def some_point(rng, branch):
 @pytest.mark.parametrize("branch", ["film", "contact"])
 @sizes(1, 100)
 def test_derivatives_are_those_of_converged_solutions(branch, n):
-    rng, worst = np.random.default_rng(7), 0.0
+    rng, worst, compared, corners = np.random.default_rng(7), 0.0, 0, 0
     for _ in range(n):
         params, point, result = some_point(rng, branch)
         found = result.sensitivities()
@@ -80,11 +80,15 @@ def test_derivatives_are_those_of_converged_solutions(branch, n):
             rows.append(extrapolated(values, params, name, STEP))
         for output, place in s.OUTPUTS.items():
             exact = np.array([getattr(params, name) * found[output][name] for name in names])
-            error = np.abs(exact - np.array(rows)[:, place])
+            there, doubt = np.array(rows)[:, :, place].T
             size = max(np.abs(exact).max(), ROUNDING * abs(getattr(result, output)))
-            worst = max(worst, (error / size).max())
-            assert (error <= 1e-6 * size).all(), (point, output, names[int(error.argmax())])
-    print(f"{branch}: {worst:.1e}")
+            smooth = doubt <= 1e-6 * size  # a node's contact or film begins within the steps
+            compared, corners = compared + smooth.size, corners + int((~smooth).sum())
+            error = np.where(smooth, np.abs(exact - there), 0.0)
+            worst = max(worst, error.max() / size)
+            assert error.max() <= 1e-6 * size, (point, output, names[int(error.argmax())])
+    assert corners <= 0.01 * compared
+    print(f"{branch}: {worst:.1e}, {corners} of {compared} at corners")
 
 
 def test_one_factorisation_serves_all_parameters(monkeypatch):
@@ -160,7 +164,7 @@ def test_the_loads_at_which_the_film_is_lost_and_regained_follow_the_parameters(
             found = curve.fold_sensitivities(names)[number]
             for name in names[: 1 if n == 1 else None]:
                 loads = partial(fold_load, point=point, number=number)
-                slope = extrapolated(loads, params, name, FOLD_STEP)
+                slope, _ = extrapolated(loads, params, name, FOLD_STEP)
                 error = abs(getattr(params, name) * found[name] - slope)
                 worst = max(worst, error / fold.load)
                 assert error <= 1e-5 * fold.load, (point, fold, name)

@@ -85,7 +85,7 @@ def test_derivatives_are_those_of_converged_solutions(branch, n):
             smooth = doubt <= 1e-6 * size  # a node's contact or film begins within the steps
             compared, corners = compared + smooth.size, corners + int((~smooth).sum())
             error = np.where(smooth, np.abs(exact - there), 0.0)
-            worst = max(worst, error.max() / size)
+            worst = max(worst, error.max() / (size or 1.0))
             assert error.max() <= 1e-6 * size, (point, output, names[int(error.argmax())])
     assert corners <= 0.01 * compared
     print(f"{branch}: {worst:.1e}, {corners} of {compared} at corners")
@@ -142,11 +142,16 @@ def fold_load(params, point, number):
         here.take(p._state)
         ends.append(s.smooth_film(here.w))
 
-    def load(film):
-        here.to_film(film)
-        return sign * here.pt.load
+    centre, reach = 0.5 * sum(ends), 0.5 * (ends[1] - ends[0])
+    for width in (reach, 1e-5 * reach):  # from the middle, where places have the most digits
 
-    found = minimize_scalar(load, bounds=ends, method="bounded", options={"xatol": 1e-12})
+        def load(beside, centre=centre):
+            here.to_film(centre + beside)
+            return sign * here.pt.load
+
+        options = {"xatol": 1e-7 * width}
+        found = minimize_scalar(load, bounds=(-width, width), method="bounded", options=options)
+        centre += float(found.x)
     return sign * float(found.fun)
 
 

@@ -111,10 +111,16 @@ def test_one_factorisation_serves_all_parameters(monkeypatch):
     assert count > 25 and counts["residuals"] <= 2.2 * count
 
 
-def test_the_far_fetched_names_are_errors_and_counts_are_no_parameters():
+def test_unknown_names_choices_and_what_a_rule_holds_are_no_parameters():
     result = solve_washer(WasherParams(), **POINT)
     with pytest.raises(ParameterError, match="outputs: 'friction_torqe', did you mean friction_to"):
         result.sensitivities(["friction_torqe"])
+    assert result.params.oil_cooling and result.params.film_heat_fraction == 1.0
+    assert "film_heat_fraction" not in result.sensitivities()["temperature"]
+    with pytest.raises(
+        ParameterError, match=r"film_heat_fraction = 0\.99.*, allowed: 1 with oil_c"
+    ):
+        result.sensitivities(None, ["film_heat_fraction"])
     for name in ("friction_law", "friction_scale_of_none"):
         with pytest.raises(ParameterError, match=f"parameters: '{name}', "):
             result.sensitivities(None, [name])

@@ -9,13 +9,12 @@ import numpy as np
 from ..errors import FIRST_FAILURE, ParameterError, SolveError
 from ..model.prepare import filled
 from ..model.record import Fits
-from ..model.sensitivity import varied_parameters
 from ..numerics.jit import Array
 from .kernels import step as k
 from .kernels.newton import LOAD
 from .load_curve import LoadCurve, load_curve
 from .parameters import SPEC, WasherParams
-from .sensitivities import OUTPUTS, Linearised, fold_derivatives
+from .sensitivities import OUTPUTS, Linearised, fold_derivatives, free_parameters
 from .solve import GRIDS
 from .washer_result import INPUTS
 
@@ -81,7 +80,7 @@ def _of_rows(
     """Return the derivatives (outputs, names) of each row that has a solution."""
     par = _constants(params, fidelity)
     state, work, out = np.zeros(k.NSTATE), np.zeros(k.NWORK), np.zeros(k.NOUT)
-    by_name = {v.name: v for v in varied_parameters(params, names)}
+    by_name = {v.name: v for v in free_parameters(params, names)}
     varied, found = [by_name[name] for name in names], {}
     for row, point in enumerate(inputs):
         status = k.step(par, point, state, work, out, np.zeros(k.NIOUT, np.int32), 0.0, 1.0)

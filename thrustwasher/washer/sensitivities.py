@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from ..errors import ParameterError, SolveError, Status
 from ..model.parameters import as_numbers
 from ..model.sensitivity import Varied, varied_parameters, wanted_outputs
 from ..numerics.jit import Array
-from .kernel_arguments import NO_MESH, constants, work_array
+from .kernel_arguments import constants, work_array
 from .kernels import continuation
 from .kernels import layout as L
 from .kernels import parameter_derivative as k
@@ -25,10 +25,6 @@ from .kernels.outputs import outputs_at
 from .kernels.regime_and_status import broken_rule, point_of
 from .kernels.workspace import fields_of, size_of_work, workspace_of
 from .parameters import WasherParams
-from .washer_result import Fold, Inputs, WasherResult
-
-if TYPE_CHECKING:
-    from .load_curve import LoadCurve
 
 TOLERANCE = 1e-10  # of the solution that is differentiated
 N_CHANGES = L.N_ALL + 3
@@ -63,11 +59,20 @@ FLAT = 1e-7  # of the load per sigma of film thickness: an extremum
 IN_CONSTANTS = range(L.P_CARRIER_THICKNESS, L.P_GEAR_THICKNESS + 1)  # neither mesh nor contacts
 
 
+class Solved(NamedTuple):
+    """A solution on a mesh."""
+
+    params: WasherParams
+    grid: tuple[int, int]
+    point: tuple[float, ...]  # the inputs
+    state: Array
+
+
 class Linearised:
     """A solution on a mesh, and how it follows its parameters."""
 
     def __init__(
-        self, params: WasherParams, grid: tuple[int, int], point: Inputs, state: Array
+        self, params: WasherParams, grid: tuple[int, int], point: tuple[float, ...], state: Array
     ) -> None:
         """Take a kept solution at a point."""
         self.grid, self.par = grid, constants(params, grid)
@@ -156,22 +161,18 @@ def free_parameters(params: WasherParams, wanted: Collection[str] | None) -> lis
         if not broken_rule(changed):
             found.append(v)
         elif wanted is not None:
-            replace(params, **{v.name: float(changed[v.place])})
+            value: Any = float(changed[v.place])
+            replace(params, **{v.name: value})
     return found
 
 
 def parameter_derivatives(
-    result: WasherResult, outputs: Collection[str] | None, parameters: Collection[str] | None
+    solved: Solved, outputs: Collection[str] | None, parameters: Collection[str] | None
 ) -> dict[str, dict[str, float]]:
-    """Return {output: {parameter: derivative}}, SI, at a result on a mesh."""
-    if result.grid == NO_MESH:
-        raise ParameterError(
-            f"fidelity = {result.fidelity!r} is a table, without derivatives over parameters; "
-            "allowed: 'field' or 'fine'"
-        )
+    """Return {output: {parameter: derivative}}, SI, at a solution."""
     names = wanted_outputs(outputs, list(OUTPUTS))
-    varied = free_parameters(result.params, parameters)
-    here = Linearised(result.params, result.grid, result.point(), result._state)
+    varied = free_parameters(solved.params, parameters)
+    here = Linearised(*solved)
     here.settle()
     found = here.changes(LOAD, varied)
     found[:, L.O_FLUID_LOAD] = -found[:, L.O_CONTACT_LOAD]  # both carry the load; without rounding
@@ -182,26 +183,25 @@ def parameter_derivatives(
 
 
 def fold_derivatives(
-    curve: LoadCurve, fold: Fold, parameters: Collection[str] | None
+    start: Solved, below: Solved, parameters: Collection[str] | None
 ) -> dict[str, float] | None:
     """Return {parameter: derivative} of a fold's load [N]; None if its slope does not show it.
+
+    The fold lies between two solutions.
 
     The load has an extremum over the film thickness there: with that held it moves as the fold.
     Where dry friction is held beyond the pressures of its data the load over film thickness has a
     corner, which may be the extremum: it stays where the mean contact pressure is that limit.
     """
-    points = curve.points
-    below = next(n for n, p in enumerate(points) if p.film_ratio < fold.film_ratio)
-    start = points[max(0, below - 1)]
     varied = free_parameters(start.params, parameters)
-    here = Linearised(start.params, start.grid, start.point(), start._state)
+    here = Linearised(*start)
     w = here.w
     w.curve[L.ACCURACY] = TOLERANCE
     ends = []
-    for p in (start, points[below]):
-        here.take(p._state)
+    for p in (start, below):
+        here.take(p.state)
         ends.append(smooth_film(w))
-    here.take(start._state)
+    here.take(start.state)
     w.curve[L.AT_FILM] = ends[0]
     if continuation.find_fold(w, here.pt, *ends):
         return None

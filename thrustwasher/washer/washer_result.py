@@ -20,6 +20,7 @@ from .kernels.outputs import outputs_at
 from .kernels.regime_and_status import point_of
 from .kernels.workspace import Fields, fields_of, size_of_work, workspace_of
 from .parameters import SPEC, WasherParams, face_of
+from .sensitivities import Solved, parameter_derivatives
 
 BRANCHES = {"film": L.FILM_BRANCH, "contact": L.CONTACT_BRANCH}  # that one can ask for
 SLIPS = (
@@ -177,10 +178,17 @@ class WasherResult:
         >>> f"{found['viscosity_constant']:.2g} N m for one percent more viscosity"
         '0.0077 N m for one percent more viscosity'
         """
-        from .sensitivities import parameter_derivatives
-
-        found = parameter_derivatives(self, outputs, parameters)
+        if self.grid == NO_MESH:
+            raise ParameterError(
+                f"fidelity = {self.fidelity!r} is a table, without derivatives over parameters; "
+                "allowed: 'field' or 'fine'"
+            )
+        found = parameter_derivatives(self.solved(), outputs, parameters)
         return chosen_unit(self.params, per_percent, found)
+
+    def solved(self) -> Solved:
+        """Return what derivatives are taken of."""
+        return Solved(self.params, self.grid, self.point(), self._state)
 
     def fields(self) -> WasherFields:
         """Return gap, pressures, temperatures and oil flow; it takes a rung with a mesh."""

@@ -20,7 +20,7 @@ from thrustwasher import (
     run_sweep,
 )
 from thrustwasher.calibration.measured import Measured
-from thrustwasher.washer.load_curve import fold_loads
+from thrustwasher.washer.fits import fold_loads
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 from calibration import RIGS, held
@@ -250,3 +250,27 @@ def test_what_is_to_be_fitted_to_what_must_be_said():
         calibrate(WasherParams(), fit="heat_split")
     with pytest.raises(ParameterError, match="part: float"):
         calibrate(1.0, GOOD, fit="f0")
+
+
+def test_a_washers_derivatives_are_exact_and_save_its_solves(monkeypatch):
+    rig, solved = BY_MODEL["washer"], []
+    monkeypatch.setattr(Measured, "computed", counting(Measured.computed, solved))
+    exact = rig_fit(rig)
+    place = exact._best
+    slopes = exact._problem.slopes_of_curve(place)
+    few = len(solved)
+    monkeypatch.setattr(Measured, "slopes", lambda *_: None)
+    found = rig_fit(rig)
+    assert slopes == pytest.approx(found._problem.slopes_of_curve(place), rel=1e-4)
+    assert values(exact, rig.truth) == pytest.approx(values(found, rig.truth), rel=1e-9)
+    assert few <= 0.4 * (len(solved) - few)
+
+
+def counting(function, calls):
+    """Return a method that notes each call."""
+
+    def noted(*arguments):
+        calls.append(arguments)
+        return function(*arguments)
+
+    return noted

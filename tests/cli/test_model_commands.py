@@ -176,3 +176,24 @@ def test_an_engagement_is_written_whole(tmp_path):
     assert np.isfinite([float(v) for v in rows[-1][:-1]]).all()
     assert picture.stat().st_size > 10_000
     assert sorted(p.name for p in tmp_path.iterdir()) == ["e.csv", "e.png"]
+
+
+@pytest.mark.parametrize("command", SOLVED)
+def test_sensitivities_rank_parameters_by_what_one_percent_changes(command, tmp_path, capsys):
+    point, settings, solve, params = SOLVED[command]
+    words = words_of(command, point, settings)
+    out = shown([*words, "--sensitivities", "friction_torque"], capsys)
+    line = [x for x in out.splitlines() if x.startswith("  friction_torque  ")][-1]
+    result = solve(params(**settings), **point)
+    changes = result.sensitivities(["friction_torque"], per_percent=True)["friction_torque"]
+    order = sorted(changes, key=lambda name: -abs(changes[name]))
+    assert [part.split()[0] for part in line.removeprefix("  friction_torque").split(",")] == (
+        order[:4]
+    )
+    picture = tmp_path / "ranking.svg"
+    assert main([*words, "--sensitivities", "friction_torque", "--plot", str(picture)]) == 0
+    assert order[0] in picture.read_text("utf-8")
+    capsys.readouterr()
+    record = told([*words, "--sensitivities"], capsys)
+    assert record["change_per_percent"]["friction_torque"] == pytest.approx(changes, rel=1e-9)
+    assert record["sensitivities"].keys() == result.sensitivities().keys()

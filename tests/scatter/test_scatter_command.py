@@ -43,13 +43,15 @@ def test_json_is_the_object_that_the_contract_has(part, tmp_path, capsys):
     record = json.loads(out)
     assert status == 0 and "Traceback" not in err
     assert (record["runs"], record["solves"], record["failed"]) == (64, 64 * 4, 0)
-    assert record["reached"] == "below" and record["warnings"] == []
+    (warning,) = record["warnings"]
+    assert record["reached"] == "below" and "gradient is more than 20 % off" in warning
     torque = record["figures"]["friction_torque"]
     assert list(torque["quantiles"]) == ["0.05", "0.5", "0.95"]
     for level, value in torque["quantiles"].items():
         low, high = torque["confidence"][level]
         assert low <= value <= high
     assert {"nominal", "mean", "standard_deviation"} <= torque.keys()
+    assert torque["linear_deviation"] == pytest.approx(torque["standard_deviation"], rel=0.2)
     assert torque["indices"].keys() == {"load", "oil_temperature"}
     assert {"first", "total", "confidence"} <= torque["indices"]["load"].keys()
     assert all(isinstance(p, float) for p in record["probabilities"].values())

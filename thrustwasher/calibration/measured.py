@@ -68,6 +68,25 @@ class Measured:
                 found[k] = curves[row].get(name, np.nan)
         return found, failed
 
+    def slopes(self, changes: Mapping[str, float], names: Sequence[str]) -> Array | None:
+        """Return exact derivatives over parameters, (n, names), if the model has them here."""
+        plan, exact = self.plan, find_model(self.plan.spec.key).fits.slopes
+        found = np.empty((len(self.value), len(names)))
+        if exact is None:
+            return None
+        for line, i in enumerate(plan.params_of):
+            first, end = plan.starts[line : line + 2].tolist()
+            params = _changed(plan.params[i], changes)
+            here = [k for k, row in enumerate(self.row.tolist()) if first <= row < end]
+            if params is None:
+                return None
+            wanted = [(int(self.row[k]) - first, self.output[k]) for k in here]
+            rows = exact(params, plan.inputs[first:end], plan.fidelity, wanted, names)
+            if rows is None:
+                return None
+            found[here] = rows
+        return found
+
 
 def _changed(params: Any, changes: Mapping[str, float]) -> Any:
     """Return changed parameters, or None if they break a rule."""

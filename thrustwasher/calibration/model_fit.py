@@ -108,10 +108,13 @@ class ModelProblem(Problem):
         return self.kept[key]
 
     def slopes_of_curve(self, guess: Array) -> Array:
-        """Return the derivatives of the outputs from differences of converged solutions.
+        """Return the derivatives of the outputs: the model's, or differences of solutions.
 
         Central ones; at a bound, or where one side has no solution, those of the other side.
         """
+        exact = self.points.slopes(self.values(guess), self.names)
+        if exact is not None:
+            return exact * self.derivative(guess)
         here, columns = self.curve(guess), []
         for i, step in enumerate(STEP * self.scale):
             places, values = [], []

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 HELP = "how sure figures are: the scatter of inputs through a part or a gear shift"
 LEAST = 0.02  # a total index below decides nothing
 FOLDER, PAGE = "scatter-report", "scatter.html"
+DECIDED = "decided by (total index)"
 NEAREST = "# thrustwasher scatter: "  # first line of the file of a run, with the file's name
 OPTIONS = {
     "--runs N": "base points, rounded up to a power of two; default 1024, of a scene 256",
@@ -256,7 +257,8 @@ def say(result: "ScatterResult", folder: Path | None) -> None:
     )
     for note in result.notes:
         print(f"  {note}")
-    heads = ("figure", "nominal", "5 %", "50 %", "95 %", "outside", "decided by (total index)")
+    spread = ("deviation", "by gradient")
+    heads = ("figure", "nominal", "5 %", "50 %", "95 %", *spread, "outside", DECIDED)
     rows = [heads, *(_row(name, band) for name, band in result.figures.items())]
     widths = [max(len(row[i]) for row in rows) for i in range(len(heads) - 1)]
     for name, *numbers, decided in rows:
@@ -270,9 +272,11 @@ def say(result: "ScatterResult", folder: Path | None) -> None:
 
 def _row(name: str, band: "Band") -> tuple[str, ...]:
     values = (band.nominal, *band.quantiles.values())
+    linear = float("nan") if band.linear_deviation is None else band.linear_deviation
+    shown = [*((x, band.relative) for x in values), (band.standard_deviation, True), (linear, True)]
     cells = (
-        format_quantity(x, band.unit, difference=band.relative, digits=3) if x == x else "-"
-        for x in values
+        format_quantity(x, band.unit, difference=difference, digits=3) if x == x else "-"
+        for x, difference in shown
     )
     known = [(i.total, n) for n, i in band.indices.items() if _is_sure(i)]
     decided = ", ".join(f"{n} {total:.2f}" for total, n in sorted(known, reverse=True)[:3])

@@ -1,18 +1,19 @@
 """Wet clutch: coefficient of boundary friction, and a pack that slips at a constant speed."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SolveError, Status
-from ..model.advice import Plain, warnings_of
+from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.prepare import filled
 from ..model.record import Sweep
 from ..model.rungs import rung_named
+from ..model.sensitivity import Asked, Differentiable
 from ..model.spec import REGIMES, ModelSpec
 from ..numerics.jit import Array
 from ..units import format_quantity
@@ -30,7 +31,7 @@ __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
 
 
 @dataclass(frozen=True, slots=True)
-class ClutchResult(Plain):
+class ClutchResult(Differentiable):
     """A pack slipping at constant load and speed: torque and steady temperatures, SI units."""
 
     friction_torque: float  # [N m] with the sign of the slip; 0 at slip 0
@@ -49,6 +50,7 @@ class ClutchResult(Plain):
     status: Status
     iterations: int
     fidelity: str
+    _asked: Asked = field(repr=False, compare=False)
     warnings: tuple[str, ...] = ()
     """What a reader must not miss, a line each."""
 
@@ -224,6 +226,7 @@ def solve_clutch(
     speed = check_number("speed", speed, "rad/s", *SPEED.range)
     oil = check_number("oil_temperature", oil_temperature, "K", *OIL.range)
     drum = check_number("drum_speed", drum_speed, "rad/s", *DRUM.range)
+    point = {"load": load, "speed": speed, "oil_temperature": oil, "drum_speed": drum}
     par = prepare(params, fidelity)
     guess = start.film_ratio if start else 1.0
     ratio, _, film, turns = pack_friction.settled_slope(par, load, guess)
@@ -252,6 +255,7 @@ def solve_clutch(
         status=status,
         iterations=int(turns + s.iterations),
         fidelity=rung_named(SPEC, fidelity),
+        _asked=Asked(SPEC.key, params, {**point, "fidelity": fidelity}),
         warnings=(
             *doubts_of_pack(params, fidelity),
             *_light(params, load, fidelity),

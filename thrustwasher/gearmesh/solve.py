@@ -2,18 +2,19 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from ..errors import ParameterError, SolveError, Status
-from ..model.advice import Plain, warnings_of
+from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.prepare import filled
 from ..model.record import Sweep
 from ..model.rungs import rung_named
+from ..model.sensitivity import Asked, Differentiable
 from .kernels import layout as k
 from .kernels.constants import derive
 from .kernels.load_sharing import shared
@@ -39,7 +40,7 @@ __all__ = ["GearMeshParams", "GearMeshResult", "solve_gearmesh"]
 
 
 @dataclass(frozen=True, slots=True)
-class GearMeshResult(Plain):
+class GearMeshResult(Differentiable):
     """A pair of gears at one operating point, seen where its flanks are hottest; SI units.
 
     With ``film_heat`` "atan" that is where contact starts, but for the fidelity "fine". None stands
@@ -119,6 +120,7 @@ class GearMeshResult(Plain):
     status: Status
     iterations: int
     fidelity: str
+    _asked: Asked = field(repr=False, compare=False)
     warnings: tuple[str, ...] = ()
     """What a reader must not miss, a line each."""
 
@@ -201,12 +203,12 @@ def solve_gearmesh(
     power = check_number("power", power, "W", -1e9, 1e9)
     speed = check_number("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0)
     oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
-    par, field = prepare(params, fidelity), np.zeros(k.NWORK)
+    par, work = prepare(params, fidelity), np.zeros(k.NWORK)
     torque = pinion_torque(power, speed)
     drive, state = torque * abs(speed), np.zeros(k.NSTATE)
-    par = shared(par, torque, field)
-    status = Status(solve_point(par, torque, speed, oil, drive, state, 0.0, field))
-    if not np.isfinite(field[: k.N_FIELD]).all():
+    par = shared(par, torque, work)
+    status = Status(solve_point(par, torque, speed, oil, drive, state, 0.0, work))
+    if not np.isfinite(work[: k.N_FIELD]).all():
         status = Status.NOT_FINITE
     if status.is_failure and throw:
         raise SolveError(
@@ -216,17 +218,19 @@ def solve_gearmesh(
     doubts = [
         *idle_warnings(SPEC.key, params, fidelity),
         *doubts_of_parameters(params),
-        *doubts_of_point(params, par, field, torque, speed, oil),
+        *doubts_of_point(params, par, work, torque, speed, oil),
     ]
     absent = dict.fromkeys(absent_outputs(params))
-    messages = warnings_of(SPEC, status, {"oil_temperature": oil}, _shown(field.tolist()))
-    point = {
+    messages = warnings_of(SPEC, status, {"oil_temperature": oil}, _shown(work.tolist()))
+    point = {"power": power, "speed": speed, "oil_temperature": oil, "fidelity": fidelity}
+    known = {
         "status": status,
         "fidelity": rung_named(SPEC, fidelity),
         "limits": limits_assumed(params),
+        "_asked": Asked(SPEC.key, params, point),
         **_size(params, par),
     }
-    result = _result(par, field.tolist(), torque, speed, absent | point)
+    result = _result(par, work.tolist(), torque, speed, absent | known)
     return replace(result, warnings=(*messages, *_failures(result), *doubts))
 
 

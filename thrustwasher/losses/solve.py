@@ -1,16 +1,17 @@
 """Losses of bearings, dipping gears, oil pump and shaft seals at one operating point."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from ..errors import SolveError, Status
-from ..model.advice import Plain, warnings_of
+from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.prepare import filled
 from ..model.rungs import rung_named
+from ..model.sensitivity import Asked, Differentiable
 from .kernels import step as k
 from .parameters import SPEC, LossesParams
 
@@ -18,7 +19,7 @@ __all__ = ["LossesParams", "LossesResult", "solve_losses"]
 
 
 @dataclass(frozen=True, slots=True)
-class LossesResult(Plain):
+class LossesResult(Differentiable):
     """Torques, each positive against a positive speed, and heat of all parts; SI units."""
 
     input_torque: float
@@ -32,6 +33,7 @@ class LossesResult(Plain):
     oil_heat: float  # [W] the sum
     status: Status
     fidelity: str
+    _asked: Asked = field(repr=False, compare=False)
     warnings: tuple[str, ...] = ()
     """What a reader must not miss, a line each."""
 
@@ -99,6 +101,7 @@ def solve_losses(
         **shown,
         status=status,
         fidelity=rung_named(SPEC, fidelity),
+        _asked=Asked(SPEC.key, params, {**point, "fidelity": fidelity}),
         warnings=(
             *idle_warnings(SPEC.key, params, fidelity),
             *warnings_of(SPEC, status, point, shown),

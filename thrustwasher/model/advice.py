@@ -16,7 +16,8 @@ class Plain:
 
     def as_dict(self) -> dict[str, Any]:
         """Return the fields as a dictionary that JSON can hold; status by name."""
-        return {f.name: _plain(getattr(self, f.name)) for f in fields(self)}  # type: ignore[arg-type]
+        names = [f.name for f in fields(self) if not f.name.startswith("_")]  # type: ignore[arg-type]
+        return {name: _plain(getattr(self, name)) for name in names}
 
 
 def _plain(value: Any) -> Any:

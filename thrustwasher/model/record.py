@@ -94,6 +94,10 @@ class Fits:
     """Of parameters, point and rung, those that there are; None: a law of its own has them."""
     without: str = ""  # the input that these do not depend on
     none: str = ""  # what a point means that has none of them
+    slopes: Callable[..., Any] | None = None
+    """Exact derivatives of outputs, of these too: called with (parameters, inputs of a line's
+    rows, rung, wanted: (row, output), names of parameters), returns (wanted, parameters) or None
+    where there are none."""
 
 
 @dataclass(frozen=True, kw_only=True)

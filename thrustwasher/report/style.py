@@ -34,6 +34,7 @@ def new_figure(
     left: float = LEFT,
     right: float = RIGHT,
     top: float = TOP,
+    across: float = ACROSS,
     **options: Any,
 ) -> tuple[Figure, list[Axes]]:
     """Return a figure [inch] and its axes row by row; margins and gaps are fixed lengths.
@@ -42,16 +43,17 @@ def new_figure(
     ----------
     head, foot : lines of text that ``heading`` and rows that ``legend_below`` will take
     left, right, top : margins beside and above the panels [inch]
+    across : between panels [inch]
     """
     figure = Figure(figsize=(width, height))
     bottom = BOTTOM + LINE * foot
     top += LINE * head
-    wide = (width - left - right - (columns - 1) * ACROSS) / columns
+    wide = (width - left - right - (columns - 1) * across) / columns
     tall = (height - bottom - top - (rows - 1) * DOWN) / rows
     grid = {
         "left": left / width,
         "right": 1.0 - right / width,
-        "wspace": ACROSS / wide,
+        "wspace": across / wide,
         "bottom": bottom / height,
         "top": 1.0 - top / height,
         "hspace": DOWN / tall,

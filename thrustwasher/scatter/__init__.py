@@ -4,6 +4,7 @@
 ``design``           which runs are made: scrambled Sobol' points, groups exchanged between them
 ``estimates``        quantiles, probabilities, Sobol' indices, each with its confidence
 ``evaluation``       from the numbers of all runs to the result
+``linear``           the deviation by gradient, held against the sample
 ``function_target``  a Python function that is studied
 ``part_target``      a part that is studied
 ``propagate``        a whole study, from a part, a scene or a function to its result

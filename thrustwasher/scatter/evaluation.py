@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from .estimates import (
     quantiles,
     sobol_indices,
 )
+from .linear import doubts_of_linear, linear_deviations
 from .result import Band, Index, Probability, ScatterResult, Series, SourceLine
 from .study import Study
 from .target import Array, Figure, Flags
@@ -43,6 +45,7 @@ class Runs:
         """Return what the runs say."""
         target, scatter = self.target, self.target.scatter
         error = target.error()
+        linear = linear_deviations(target) if target.kind == "part" else {}
         try:
             nominal = target.nominal()
         except SolveError as problem:
@@ -53,7 +56,10 @@ class Runs:
         at = quantiles(self.base)
         indices = self._indices(n_figures)
         figures = {
-            figure.name: self._band(figure, i, float(nominal[i]), at[:, i], indices[i], error)
+            figure.name: replace(
+                self._band(figure, i, float(nominal[i]), at[:, i], indices[i], error),
+                linear_deviation=_finite(linear.get(figure.name)),
+            )
             for i, figure in enumerate(target.figures)
         }
         probabilities = {
@@ -79,7 +85,10 @@ class Runs:
             sample=sample,
             units=self.units,
             groups=tuple(self._joined(group) for group in scatter.groups),
-            warnings=(*scatter.warnings, *warnings, *self._warnings(figures)),
+            warnings=(
+                *(*scatter.warnings, *warnings, *self._warnings(figures)),
+                *doubts_of_linear(figures, probabilities),
+            ),
             correlations=tuple(
                 (scatter.names[i], scatter.names[k], float(scatter.correlation[i, k]))
                 for i, k in np.argwhere(np.triu(scatter.correlation, 1))
@@ -261,6 +270,10 @@ def _index(first: float, total: float, first_half: float, total_half: float) -> 
         first_confidence=first_half,
         total_confidence=total_half,
     )
+
+
+def _finite(value: float | None) -> float | None:
+    return value if value is not None and np.isfinite(value) else None
 
 
 def _probability(values: Array) -> Probability:

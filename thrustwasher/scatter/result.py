@@ -79,6 +79,8 @@ class Band:
     """Of a value outside the usual range; None without such a range."""
     error: float | None = None
     """Numerical error, relative; None: not known."""
+    linear_deviation: float | None = None
+    """Standard deviation by the gradient at the nominal values; None: not asked for or unknown."""
 
 
 @dataclass(frozen=True, kw_only=True)

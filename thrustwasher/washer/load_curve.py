@@ -2,16 +2,14 @@
 
 import dataclasses
 import re
-from collections.abc import Mapping
+from collections.abc import Collection
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from ..errors import ParameterError, SolveError, Status
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
-from ..model.record import Fits
 from ..model.rungs import gone_rung, rung_named
 from ..numerics.jit import Array
 from ..numerics.status import OK
@@ -26,6 +24,7 @@ from .kernels.regime_and_status import point_of
 from .kernels.solve import remember_state
 from .kernels.workspace import fields_of, size_of_state, size_of_work, workspace_of
 from .parameters import SPEC, WasherParams
+from .sensitivities import Solved, fold_derivatives
 from .solve import GRIDS, check_point, resolve_grid, result_from
 from .washer_result import BRANCH_NAMES, BY_CARD, Fold, Inputs, WasherResult, advised, lost_text
 
@@ -65,6 +64,34 @@ class LoadCurve:
         n = len(points)
         lines = (f"{len(texts)} of {n} points, {texts[0]}" for texts in found.values())
         return (*self.told, *idle, *lines)
+
+    def fold_sensitivities(
+        self, parameters: Collection[str] | None = None
+    ) -> list[dict[str, float] | None]:
+        """Return beside each of ``folds`` {parameter: derivative of its load}, N per SI unit.
+
+        Exact, without a solve per parameter. None: the fold is too flat to be found by its slope.
+
+        Parameters
+        ----------
+        parameters : names; by default all real ones but those whose 0 stands for a value from
+            elsewhere
+
+        Raises
+        ------
+        ParameterError : a name is none of them
+
+        Notes
+        -----
+        At a fold psi F_x = 0 for the residuals F over the unknowns x, so that the load W moves by
+        dW/dp = -(psi F_p)/(psi F_W); see docs/theory/sensitivity.md.
+        """
+        return [fold_derivatives(*self.around(fold), parameters) for fold in self.folds]
+
+    def around(self, fold: Fold) -> tuple[Solved, Solved]:
+        """Return the solutions that a fold lies between: of more film, of less."""
+        below = next(n for n, p in enumerate(self.points) if p.film_ratio < fold.film_ratio)
+        return self.points[max(0, below - 1)].solved(), self.points[below].solved()
 
 
 def load_curve(
@@ -150,29 +177,6 @@ def load_curve(
         elif gain > 0.0 if rising else gain < 0.0:
             top = len(points) - 1
     return LoadCurve(_labelled(points, folds), folds, gone_rung(SPEC, fidelity))
-
-
-def fold_loads(params: WasherParams, point: Mapping[str, float], fidelity: str) -> dict[str, float]:
-    """Return the loads [N] at which the film is lost and regained; no such fold: not in it."""
-    place: Any = {name: value for name, value in point.items() if name != "load"}
-    for load_max in (3e3, 1e4):
-        try:
-            folds = load_curve(params, **place, fidelity=fidelity, load_max=load_max).folds
-        except SolveError:
-            return {}
-        if folds:
-            break
-    found = {fold.kind: fold.load for fold in reversed(folds)}
-    names = {"film_lost": "film_loss_load", "film_regained": "film_regain_load"}
-    return {names[kind]: load for kind, load in found.items()}
-
-
-FITS = Fits(
-    units={"film_loss_load": "N", "film_regain_load": "N"},
-    computed=fold_loads,
-    without="load",
-    none="no such fold on the load curve",
-)
 
 
 def _labelled(points: list[WasherResult], folds: list[Fold]) -> list[WasherResult]:

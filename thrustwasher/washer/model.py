@@ -121,8 +121,8 @@ class Washer(Model):
 
     @property
     def fits(self) -> Fits:
-        """The loads of the folds."""
-        from .load_curve import FITS
+        """The loads of the folds, and exact derivatives."""
+        from .fits import FITS
 
         return FITS
 

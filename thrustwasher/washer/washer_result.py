@@ -1,7 +1,7 @@
 """What a washer solve returns, and the error to expect of it."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,6 +10,7 @@ from ..errors import ParameterError, Status
 from ..ladder.error_table import error_estimate
 from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
+from ..model.sensitivity import chosen_unit
 from ..numerics.jit import Array
 from .kernel_arguments import NO_MESH, constants, work_array
 from .kernels import layout as L
@@ -19,6 +20,7 @@ from .kernels.outputs import outputs_at
 from .kernels.regime_and_status import point_of
 from .kernels.workspace import Fields, fields_of, size_of_work, workspace_of
 from .parameters import SPEC, WasherParams, face_of
+from .sensitivities import Solved, parameter_derivatives
 
 BRANCHES = {"film": L.FILM_BRANCH, "contact": L.CONTACT_BRANCH}  # that one can ask for
 SLIPS = (
@@ -140,6 +142,53 @@ class WasherResult:
     def point(self) -> Inputs:
         """Return the inputs: load, speed, tilt, oil temperature, that of the gear's far face."""
         return (self.load, self.speed, self.tilt, self.oil_temperature, self.far_face_temperature)
+
+    def sensitivities(
+        self,
+        outputs: Collection[str] | None = None,
+        parameters: Collection[str] | None = None,
+        *,
+        per_percent: bool = False,
+    ) -> dict[str, dict[str, float]]:
+        """Return {output: {parameter: derivative}}, SI, on this branch and mesh.
+
+        Exact, from one factorisation of the solved equations and no solve per parameter.
+
+        Parameters
+        ----------
+        outputs : names of real results; by default all
+        parameters : names; by default all real ones but those whose 0 stands for a value from
+            elsewhere, and those that a rule holds where they are
+        per_percent : return the change of the output for one percent of the parameter instead
+
+        Raises
+        ------
+        ParameterError : a name is none of them, or the rung has no mesh
+        SolveError : at a fold, where results have no derivatives
+
+        Notes
+        -----
+        Source and error: docs/theory/sensitivity.md.
+
+        Examples
+        --------
+        >>> from thrustwasher import solve_washer
+        >>> result = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002)
+        >>> found = result.sensitivities(["friction_torque"], per_percent=True)["friction_torque"]
+        >>> f"{found['viscosity_constant']:.2g} N m for one percent more viscosity"
+        '0.0077 N m for one percent more viscosity'
+        """
+        if self.grid == NO_MESH:
+            raise ParameterError(
+                f"fidelity = {self.fidelity!r} is a table, without derivatives over parameters; "
+                "allowed: 'field' or 'fine'"
+            )
+        found = parameter_derivatives(self.solved(), outputs, parameters)
+        return chosen_unit(self.params, per_percent, found)
+
+    def solved(self) -> Solved:
+        """Return what derivatives are taken of."""
+        return Solved(self.params, self.grid, self.point(), self._state)
 
     def fields(self) -> WasherFields:
         """Return gap, pressures, temperatures and oil flow; it takes a rung with a mesh."""

@@ -83,12 +83,12 @@ def print_table(units: Mapping[str, str], series: Mapping[str, Sequence[Any]], w
         print("".join(f"{cell:>{width}}" for cell in cells))
 
 
-def shown(value: Any, unit: str, difference: bool = False) -> str:
+def shown(value: Any, unit: str, difference: bool = False, digits: int = 5) -> str:
     """Return a value as a person reads it."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, int | float):
-        return format_quantity(float(value), unit, difference=difference, digits=5)
+        return format_quantity(float(value), unit, difference=difference, digits=digits)
     return value.name if isinstance(value, Enum) else str(value)
 
 

@@ -10,6 +10,11 @@ from ...model.record import Command, Model, Variants
 from ...model.spec import ModelSpec
 from . import _options, _output
 
+SHOWN = 4  # parameters of an output on the screen
+ROUNDING = 1e-9  # of a result: smaller changes are none
+Changes = dict[str, dict[str, float]]  # output -> parameter -> change
+Ranking = dict[str, tuple[str, dict[str, float]]]  # output -> unit, changes by parameter
+
 
 class PointCommand:
     """The command of one model, with the face of a command's module."""
@@ -28,6 +33,14 @@ class PointCommand:
         _options.add_parameters(parser, spec)
         _options.add_fidelity(parser, spec, auto=self._model.ladder is not None)
         _options.add_options(parser, model.options)
+        parser.add_argument(
+            "--sensitivities",
+            nargs="?",
+            const="",
+            metavar="OUTPUTS",
+            help="rank the parameters by what one percent more of each changes; of these outputs, "
+            "separated by commas, default all; --plot draws the ranking",
+        )
         _output.add_targets(parser, plot=model.plot)
 
     def run(self, arguments: argparse.Namespace) -> int:
@@ -46,13 +59,21 @@ class PointCommand:
         result = self._model.solve(params, **point, fidelity=fidelity, **options)
         wall_time = time.perf_counter() - began
         own = "" if any(options.values()) else self._model.doubt(result)
+        changes = _changes(arguments.sensitivities, result)
         warnings = at.warn(filter(None, [*result.warnings, own]))
         if targets.plot:
-            from ...report.model_plots import FIGURES
+            from ...report.model_plots import FIGURES, ranking_figure
 
-            targets.draw(FIGURES[spec.key](result, point, params))
+            targets.draw(
+                FIGURES[spec.key](result, point, params)
+                if changes is None
+                else ranking_figure(spec.name, _ranking(model, spec, result, changes))
+            )
         found, parameters = _output.scalars(result), _output.parameters_of(params)
         if arguments.json:
+            if changes is not None:
+                given["sensitivities"] = result.sensitivities(changes)
+                given["change_per_percent"] = changes
             _output.print_json({**found, **point, **given, **at.record(warnings, wall_time)})
             return 0
         where = ", ".join(
@@ -66,9 +87,44 @@ class PointCommand:
         _output.print_rows(list(_rows(model, spec, result, point)))
         if model.variants:
             _print_variants(model.variants, result, parameters)
+        if changes is not None:
+            _print_ranking(_ranking(model, spec, result, changes))
         words = f"{_output.status_words(result.status)}; {model.closing.format(**found)}"
         print(f"  {words}, {wall_time:.3g} s")
         return 0
+
+
+def _changes(asked: str | None, result: Any) -> Changes | None:
+    """Return the changes by one percent more of each parameter, None if nobody asks."""
+    if asked is None:
+        return None
+    outputs = [name.strip() for name in asked.split(",") if name.strip()] or None
+    found: Changes = result.sensitivities(outputs, per_percent=True)
+    return found
+
+
+def _ranking(model: Command, spec: ModelSpec, result: Any, changes: Changes) -> Ranking:
+    """Return unit and changes, the greatest first, of outputs in the table that change."""
+    units = {s.name: s.unit for s in spec.outputs}
+    units |= {name: unit for name, (unit, _) in model.extra.items()}
+    return {
+        name: (units[name], dict(sorted(row.items(), key=lambda item: -abs(item[1]))))
+        for name, row in changes.items()
+        if name in units and max(map(abs, row.values())) > ROUNDING * abs(getattr(result, name))
+    }
+
+
+def _print_ranking(ranking: Ranking) -> None:
+    """Print for each output the parameters that change it most."""
+    print("  change by one percent more of a parameter, the greatest first:")
+    wide = max(map(len, ranking), default=0)
+    for output, (unit, row) in ranking.items():
+        words = (
+            f"{name} {_output.shown(change, unit, True, digits=3)}"
+            for name, change in list(row.items())[:SHOWN]
+            if change
+        )
+        print(f"  {output:<{wide}}  {', '.join(words)}")
 
 
 def _turns(value: float, unit: str) -> str:

@@ -5,6 +5,7 @@
 ``fit_plot``       a calibration: measured values, the fit with its confidence band, residuals
 ``gearmesh_plot``  temperatures of a gear mesh and what they leave of its endurance
 ``losses_plot``    driveline losses: heat by source over speed and oil temperature
+``ranking_plot``   what one percent more of each parameter changes
 ``washer_plots``   the washer: maps over its annulus, its load curve with the folds
 =================  =====================================================================
 """
@@ -16,6 +17,7 @@ from matplotlib.figure import Figure
 from .clutch_plot import slip_figure
 from .gearmesh_plot import gearmesh_figure
 from .losses_plot import losses_figure
+from .ranking_plot import ranking_figure as ranking_figure
 from .washer_plots import field_figure
 
 # What --plot of a model's command draws, by the models' keys: of (result, point, parameters).

@@ -17,6 +17,7 @@
 ``transient``               heat in time: what does not leave a body warms it
 ``outputs``                 the numbers a user sees, and how they change
 ``directional_derivative``  derivatives of the outputs, from the factored heat balance
+``parameter_derivative``    the same over parameters
 ``regime_and_status``       rules between parameters, inputs that are bad, regime and status
 ``map``                     look-up in a map
 ``step``                    the washer behind the step ABI
@@ -39,8 +40,10 @@ CALLED = {
         "thrustwasher.washer.kernels.map.map_rows: map_tilts single_look_up",
         "thrustwasher.washer.kernels.map.map_search: map_covers",
         "thrustwasher.washer.kernels.map.map_step: look_up map_sens",
-        "thrustwasher.washer.kernels.newton: evaluate_here newton",
+        "thrustwasher.washer.kernels.newton: evaluate_here newton smooth_film",
         "thrustwasher.washer.kernels.outputs: outputs_at",
+        "thrustwasher.washer.kernels.parameter_derivative: factor_for_parameters follow_parameter",
+        "thrustwasher.washer.kernels.parameter_derivative: residuals_here",
         "thrustwasher.washer.kernels.regime_and_status: broken_rule",
         "thrustwasher.washer.kernels.solve: remember_state",
         "thrustwasher.washer.kernels.step: derive sens step",

@@ -18,7 +18,7 @@ from .film import film_solve, hold_pressure, let_flows_follow
 from .heat import heat_change, let_film_follow
 from .heat_factor import solve_heat
 from .layout import MOMENT_X, MOMENT_Y, ON_GEAR, ON_WASHER, TILT_X, TILT_Y, Z_GEAR, Z_WASHER
-from .newton import EXACT, add_pressure, linearise, make_factor
+from .newton import EXACT, FILM, LOAD, add_pressure, linearise, make_factor, set_film_row
 from .outputs import change_of_outputs
 from .workspace import Fields, Point, Workspace, fields_of, model_of, square, vector
 
@@ -28,8 +28,12 @@ NEAR_FOLD = 1e-8  # dload/dfilm in load per sigma below which there is no deriva
 
 
 @kernel
-def _follow(m: WasherModel, f: Fields, dq: Array) -> bool:
-    """Fill ``dq`` so that the forces change by ``dq`` (on entry) [N, N, N m, N m]."""
+def follow_forces(m: WasherModel, q: Array, f: Fields, mode: float, dq: Array) -> bool:
+    """Fill ``dq`` so that the forces change by ``dq`` (on entry) [N, N, N m, N m].
+
+    ``mode`` FILM: the second is a change of the film thickness [m], and what the gear carries is
+    whatever it is.
+    """
     ro = m.outer_radius
     slopes = square(f.small, L.SLOPES)
     system, right = square(f.small, L.SYSTEM), vector(f.small, L.RIGHT)
@@ -39,6 +43,9 @@ def _follow(m: WasherModel, f: Fields, dq: Array) -> bool:
             unit = m.sigma1 if c <= Z_GEAR else m.sigma1 / ro
             system[a, c] = slopes[a, c] * unit * row
         right[a] = dq[a] * row
+    if mode == FILM:
+        set_film_row(m, q, system, ON_GEAR)
+        right[ON_GEAR] = dq[ON_GEAR] / m.sigma1
     if not dense_solve(f.small[L.SYSTEM : L.SYSTEM + 16], right, 4):
         return False
     for c in range(4):
@@ -47,7 +54,7 @@ def _follow(m: WasherModel, f: Fields, dq: Array) -> bool:
 
 
 @kernel
-def _forces_change(m: WasherModel, change: Point, dq: Array, f: Fields, out: Array) -> None:
+def forces_change(m: WasherModel, change: Point, dq: Array, f: Fields, out: Array) -> None:
     """Fill ``out`` (4,), the changes of the forces; `let_film_follow` has filled ``f.dp``."""
     stiffness = square(f.small, L.STIFFNESS)
     for a in range(4):
@@ -68,7 +75,7 @@ def _forces_change(m: WasherModel, change: Point, dq: Array, f: Fields, out: Arr
 
 
 @kernel
-def _add_slopes(f: Fields, dq: Array, dtemp: Array) -> None:
+def add_slopes(f: Fields, dq: Array, dtemp: Array) -> None:
     """Add what the temperatures gain when the positions change by ``dq``."""
     dt0, dt1, dt2, dt3 = f.following[0], f.following[1], f.following[2], f.following[3]
     for node in range(dtemp.size):
@@ -112,13 +119,13 @@ def _start(
         negate(heat)
         solve_heat(m, heat, dtemp, f)
     let_film_follow(m, pt, change, q, dq, dtemp, f)
-    _forces_change(m, change, dq, f, step)
+    forces_change(m, change, dq, f, step)
     negate(step)
     step[ON_GEAR] += change.load
-    if not _follow(m, f, step):
+    if not follow_forces(m, q, f, LOAD, step):
         return SINGULAR
     copy(step, dq)
-    _add_slopes(f, dq, dtemp)
+    add_slopes(f, dq, dtemp)
     let_film_follow(m, pt, change, q, dq, dtemp, f)
     heat_change(m, pt, change, q, dq, dtemp, f, heat)
     negate(heat)
@@ -126,8 +133,15 @@ def _start(
 
 
 @kernel
-def _refine(
-    m: WasherModel, pt: Point, q: Array, f: Fields, dtemp: Array, heat: Array, enough: float
+def refine_change(
+    m: WasherModel,
+    pt: Point,
+    q: Array,
+    f: Fields,
+    mode: float,
+    dtemp: Array,
+    heat: Array,
+    enough: float,
 ) -> int:
     """Improve CHANGE and ``dtemp`` until the residual ``heat`` is below ``enough`` [W]."""
     n = dtemp.size
@@ -143,11 +157,13 @@ def _refine(
         solve_heat(m, heat, f.dtemp, f)
         clear(still)
         let_film_follow(m, pt, none, q, still, f.dtemp, f)
-        _forces_change(m, none, still, f, step)
+        forces_change(m, none, still, f, step)
         negate(step)
-        if not _follow(m, f, step):
+        if mode == FILM:
+            step[ON_GEAR] = 0.0
+        if not follow_forces(m, q, f, mode, step):
             return SINGULAR
-        _add_slopes(f, step, f.dtemp)
+        add_slopes(f, step, f.dtemp)
         let_film_follow(m, pt, none, q, step, f.dtemp, f)
         heat_change(m, pt, none, q, step, f.dtemp, f, gain)
         if old_square > 0.0:
@@ -169,12 +185,12 @@ def _refine(
 
 
 @kernel
-def _at_fold(m: WasherModel, pt: Point, f: Fields) -> bool:
+def is_at_fold(m: WasherModel, pt: Point, q: Array, f: Fields) -> bool:
     """Tell if the load has an extremum over the film thickness here."""
     rise = vector(f.small, L.LOOSE)
     clear(rise)
     rise[ON_GEAR] = pt.load
-    if not _follow(m, f, rise):
+    if not follow_forces(m, q, f, LOAD, rise):
         return True
     move = max(abs(rise[Z_WASHER]), m.outer_radius * max(abs(rise[TILT_X]), abs(rise[TILT_Y])))
     return not move * NEAR_FOLD < m.sigma1
@@ -193,7 +209,7 @@ def _change_of_state(m: WasherModel, pt: Point, change: Point, q: Array, f: Fiel
         clear(f.dtemp)
         film_solve(m, f)
         linearise(m, f)
-        if _at_fold(m, pt, f):
+        if is_at_fold(m, pt, q, f):
             return SINGULAR
         status = _start(m, pt, change, q, f, dtemp, heat)
         if status != OK:
@@ -201,7 +217,7 @@ def _change_of_state(m: WasherModel, pt: Point, change: Point, q: Array, f: Fiel
         # what the change moves: a heat balance is as good as its largest terms
         moved = size_of(dtemp)
         spread = m.carrier_conductivity * m.outer_radius * m.outer_radius / m.carrier_thickness
-        status = _refine(m, pt, q, f, dtemp, heat, CLOSE * moved / n * spread)
+        status = refine_change(m, pt, q, f, LOAD, dtemp, heat, CLOSE * moved / n * spread)
         if status == OK:
             break
     if status == OK:

@@ -149,6 +149,16 @@ def linearise(m: WasherModel, f: Fields) -> None:
 
 
 @kernel
+def set_film_row(m: WasherModel, q: Array, system: Array, row: int) -> None:
+    """Fill a row of a scaled system of four: the change of the smoothed film thickness."""
+    ro = m.outer_radius
+    reach = _reach(ro, m.sigma1, q)
+    system[row, L.Z_WASHER], system[row, L.Z_GEAR] = 1.0, 0.0
+    system[row, L.TILT_X] = -ro * q[L.TILT_X] / reach
+    system[row, L.TILT_Y] = -ro * q[L.TILT_Y] / reach
+
+
+@kernel
 def _steps(m: WasherModel, mode: float, target: float, q: Array, f: Fields) -> bool:
     """Solve the system of four for the step (RIGHT) and the tangent dq/ds (TANGENT)."""
     ro = m.outer_radius
@@ -163,9 +173,7 @@ def _steps(m: WasherModel, mode: float, target: float, q: Array, f: Fields) -> b
             system[2, c] = slopes[L.MOMENT_Y, c] * unit / ro
             system[3, c] = slopes[L.ON_GEAR, c] * unit
         if kind == 0 or mode == FILM:
-            system[3, L.Z_WASHER], system[3, L.Z_GEAR] = 1.0, 0.0
-            system[3, L.TILT_X] = -ro * q[L.TILT_X] / reach
-            system[3, L.TILT_Y] = -ro * q[L.TILT_Y] / reach
+            set_film_row(m, q, system, 3)
         if kind == 0:
             right[0], right[1], right[2] = 0.0, 0.0, 0.0
             right[3] = 1.0 / m.sigma1

@@ -1,0 +1,128 @@
+"""Derivatives of the washer's outputs over its parameters, from the factored heat balance.
+
+At a solution the residuals F(x, p) of forces and heat vanish, the film being settled; so
+dx/dp = -F_x^-1 F_p. F_x is that of the directional derivatives. F_p is the difference of the
+residuals for two values of a parameter at the same positions and temperatures: no solve.
+
+With the film thickness held (FILM) the load is a result. At a fold it does not change with the
+film, so that dload/dp is the slope of the fold's load: what the left null vector of F_x gives.
+"""
+
+import numpy as np
+
+from ...numerics.arrays import clear, copy, negate, size_of
+from ...numerics.jit import Array, kernel
+from ...numerics.status import OK, SINGULAR
+from . import layout as L
+from .directional_derivative import (
+    CLOSE,
+    add_slopes,
+    follow_forces,
+    forces_change,
+    is_at_fold,
+    refine_change,
+)
+from .film import film_solve, hold_pressure, let_flows_follow
+from .gap import dry_friction
+from .heat import contact_change, heat_change, let_film_follow, set_steady
+from .heat_factor import solve_heat
+from .layout import ON_GEAR, ON_WASHER
+from .newton import EXACT, FILM, LOAD, add_pressure, evaluate, linearise, make_factor
+from .outputs import MOST_MARGIN, change_of_outputs, outputs_at
+from .workspace import Point, Workspace, fields_of, model_of, vector
+
+
+@kernel
+def residuals_here(w: Workspace, pt: Point, forces: Array, heat: Array) -> bool:
+    """Fill ``forces`` (4,) and ``heat`` (n_temp,), the residuals at positions and temperatures.
+
+    The film is settled; ``w.outputs`` are those of this state. Returns True if they are finite.
+    """
+    m, f = model_of(w), fields_of(w)
+    set_steady(m, pt, f)
+    evaluate(m, pt, w.q, f, False)
+    copy(vector(f.small, L.FORCES), forces)
+    add_pressure(m, f.p, forces)
+    copy(f.heat, heat)
+    return outputs_at(w, pt)
+
+
+@kernel
+def factor_for_parameters(w: Workspace, pt: Point, mode: float) -> int:
+    """Factor the equations at the solution in ``w``, for any number of right sides.
+
+    Returns SINGULAR at a fold if the load is held (``mode`` LOAD).
+    """
+    m, f = model_of(w), fields_of(w)
+    set_steady(m, pt, f)
+    evaluate(m, pt, w.q, f, False)
+    if not outputs_at(w, pt) or not make_factor(m, pt, w.q, f.temp, f, EXACT):
+        return SINGULAR
+    clear(f.dtemp)
+    film_solve(m, f)
+    linearise(m, f)
+    return SINGULAR if mode == LOAD and is_at_fold(m, pt, w.q, f) else OK
+
+
+@kernel
+def follow_parameter(
+    w: Workspace, pt: Point, mode: float, film: float, forces: Array, heat: Array, dout: Array
+) -> int:
+    """Fill ``dout`` (N_ALL + 3,) as the state follows a change of the residuals; return a status.
+
+    Parameters
+    ----------
+    mode : LOAD, or FILM: the film thickness is given
+    film : its change [m] in mode FILM
+    forces, heat : (4,) [N, N m] and (n_temp,) [W], change of the residuals at the state as it is
+    dout : change of all outputs through the state; behind them the change of the load [N] (mode
+        FILM) and of the washer's two tilts [rad]
+    """
+    m, f, q, out = model_of(w), fields_of(w), w.q, w.outputs
+    none = Point(0.0, 0.0, 0.0, 0.0, 0.0)
+    dtemp = f.keep[: f.temp.size]
+    dq, step = vector(f.small, L.CHANGE), vector(f.small, L.STEP)
+    clear(dq)
+    copy(heat, f.heat)
+    negate(f.heat)
+    solve_heat(m, f.heat, dtemp, f)
+    let_film_follow(m, pt, none, q, dq, dtemp, f)
+    forces_change(m, none, dq, f, step)
+    for a in range(4):
+        step[a] = -step[a] - forces[a]
+    if mode == FILM:
+        step[ON_GEAR] = film
+    if not follow_forces(m, q, f, mode, step):
+        return SINGULAR
+    copy(step, dq)
+    add_slopes(f, dq, dtemp)
+    let_film_follow(m, pt, none, q, dq, dtemp, f)
+    heat_change(m, pt, none, q, dq, dtemp, f, f.heat)
+    for node in range(heat.size):
+        k = np.uintp(node)
+        f.heat[k] = -f.heat[k] - heat[k]
+    spread = m.carrier_conductivity * m.outer_radius * m.outer_radius / m.carrier_thickness
+    enough = CLOSE * size_of(dtemp) / heat.size * spread
+    status = refine_change(m, pt, q, f, mode, dtemp, f.heat, enough)
+    if status != OK:
+        return status
+    let_film_follow(m, pt, none, q, dq, dtemp, f)
+    forces_change(m, none, dq, f, step)
+    on_gear = step[ON_GEAR]
+    clear(step)
+    add_pressure(m, f.dp, step)
+    dfluid, dcontact = step[ON_WASHER], contact_change(f.small, dq)
+    f.small[L.RIM_CHANGE] = heat_change(m, pt, none, q, dq, dtemp, f, f.heat)
+    hold_pressure(m, pt, none, dq, dtemp, f)
+    let_flows_follow(m, f)
+    status = change_of_outputs(m, pt, none, w, f, dout[: L.N_ALL])
+    carried = out[L.O_FLUID_LOAD] + out[L.O_CONTACT_LOAD]
+    share = out[L.O_FLUID_SHARE]
+    dout[L.O_FLUID_LOAD], dout[L.O_CONTACT_LOAD] = dfluid, dcontact
+    dout[L.O_FLUID_SHARE] = ((1.0 - share) * dfluid - share * dcontact) / carried
+    if out[L.O_STICK_MARGIN] < MOST_MARGIN and f.small[L.FRICTION2] > 0.0:
+        _, slope = dry_friction(m.par, f.small[L.FORCES + L.ON_GEAR])
+        dout[L.O_STICK_MARGIN] += out[L.O_STICK_MARGIN] * slope * on_gear / f.small[L.FRICTION2]
+    dout[L.N_ALL] = forces[ON_GEAR] + on_gear
+    dout[L.N_ALL + 1], dout[L.N_ALL + 2] = dq[L.TILT_X], dq[L.TILT_Y]
+    return status

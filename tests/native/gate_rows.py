@@ -129,6 +129,12 @@ def calls_an_address(a):
     return LABS(int(a[0]))
 
 
+@kernel
+def whole_power(a):
+    a[0] = 10.0 ** int(a[1])
+    return 0
+
+
 PASSED = (plain_loop, tuples, read_slice, constant_table, arithmetic, functions, raises_a_constant)
 REFUSED = {
     zeros: "NRT_",
@@ -139,6 +145,7 @@ REFUSED = {
     prints: "numba_gil",
     random: "np.random",
     calls_an_address: "inttoptr",
+    whole_power: "/numba/",
 }
 
 

@@ -18,7 +18,7 @@ PACKAGE = __name__.partition(".")[0]
 HERE = Path(__file__).parent
 # How code is made: another number where an edit of emit, lean, lower or of the decorator's options
 # changes what comes out. `python ship.py --check` finds a forgotten one.
-RECIPE = 3
+RECIPE = 2
 MAKERS = ("entries.py", "targets.py")  # what is compiled, and how hard the compiler works
 # Modules that kernels import and that are no part of what is compiled.
 _NOT_COMPILED = ("errors", "model", "native", "numerics.jit")

@@ -36,6 +36,7 @@ CAUSES = (
     ("Py _Py", "a Python object: numbers in, numbers out"),
     ("__svml_", "Intel's vector library: NUMBA_DISABLE_INTEL_SVML=1"),
     ("__chkstk", "a frame above 4 kB: keep arrays in work, no large tuples"),
+    ("/numba/", "an error that names a file here, as of x**n with a whole n: write x**float(n)"),
     ("inttoptr", "an address of the building process, of a Python object or ctypes function"),
     ("llvm.", "an instruction of one kind of machine"),
 )
@@ -44,8 +45,11 @@ CAUSES = (
 def check_module(module: Any, kernel: str) -> None:
     """Stop if an optimised module of llvmlite needs more than is allowed; name cause and cure."""
     found = [v.name for v in module.global_variables if v.is_declaration]
-    if re.search(r"inttoptr \(i64 \d", str(module)):  # of an object of the compiling process
+    text = str(module)
+    if re.search(r"inttoptr \(i64 \d", text):  # of an object of the compiling process
         found.append("inttoptr")
+    if "/numba/" in text:  # the same code elsewhere would have other bytes
+        found.append("/numba/")
     for function in module.functions:
         name = function.name  # intrinsics of any machine pass: those left over become calls
         allowed = not MACHINES.match(name) if name.startswith("llvm.") else name in ALLOWED

@@ -20,7 +20,6 @@ _EXPECTED = {
     ("JITCodeLibrary", "add_llvm_module"): ["self", "ll_module"],
     ("JITCodeLibrary", "get_pointer_to_function"): ["self", "name"],
     ("JITCPUCodegen", "set_env"): ["self", "env_name", "env"],
-    ("BaseContext", "add_dynamic_addr"): ["self", "builder", "intaddr", "info"],
 }
 _NO_COUNTING = """
 define void @NRT_incref(ptr %p) alwaysinline {
@@ -34,11 +33,10 @@ define void @NRT_decref(ptr %p) alwaysinline {
 
 def check_numba() -> None:
     """Stop if numba's code generator lacks the parts that are replaced here."""
-    from numba.core import base, codegen
+    from numba.core import codegen
 
     for (owner, name), arguments in _EXPECTED.items():
-        found = getattr(codegen, owner, None) or getattr(base, owner, None)
-        method = getattr(found, name, None)
+        method = getattr(getattr(codegen, owner, None), name, None)
         if method is None or list(inspect.signature(method).parameters) != arguments:
             raise unknown_numba(f"{owner}.{name} is not as expected")
 
@@ -58,10 +56,9 @@ def module(callbacks: Sequence[Callback]) -> Any:
 @cache
 def _gathered() -> list[Any]:
     """Replace the parts; return the list that each finished library of functions is added to."""
-    from numba.core import base, codegen, types
+    from numba.core import codegen
 
     parts: Any = codegen
-    context: Any = base.BaseContext
     libraries: list[Any] = []
 
     def finalize(self: Any) -> None:
@@ -77,15 +74,10 @@ def _gathered() -> list[Any]:
         self._ensure_finalized()
         return 1
 
-    def add_dynamic_addr(self: Any, builder: Any, intaddr: int, info: str) -> Any:
-        """Return no address of an object of this process, which another never has."""
-        return self.get_constant_null(types.voidptr)
-
     parts.JITCodeLibrary.finalize = finalize
     parts.JITCodeLibrary.add_llvm_module = add_llvm_module
     parts.JITCodeLibrary.get_pointer_to_function = get_pointer_to_function
     parts.JITCPUCodegen.set_env = lambda self, env_name, env: None
-    context.add_dynamic_addr = add_dynamic_addr
     return libraries
 
 

@@ -29,7 +29,8 @@ from . import layout as L
 PALMGREN = 3.84e-5  # mm, N
 POWER = 1.0 / 0.9
 LIGHT = 1e-3  # N: below, the planet lies anywhere in its clearance, untilted here
-STAGES, SEARCHES, HALVINGS = 4, 300, 40
+SOFT = np.array([1e-3, 1e-2, 0.1, 1.0])  # of the washers' stiffness, stage by stage
+SEARCHES, HALVINGS = 300, 40
 ROUNDING, LOOSE = 4e-16, 1e-7  # the latter: what a search that has not ended may leave
 SETTLED = 1e-12  # of the load
 STIFF = 1e4  # of the needles' stiffness over tilt: that of the washers
@@ -120,8 +121,8 @@ def settle(par: Array, loads: Array, work: Array) -> bool:
         turn = math.hypot(loads[2], loads[3])
         if turn > 0.0:
             z[np.uintp(2 + i)] = reach * loads[np.uintp(2 + i)] / turn
-    for stage in range(STAGES):  # washers that are soft first show the way to where they bear
-        bear = washer_stiffness(par) * 10.0 ** (stage + 1 - STAGES)
+    for soft in SOFT:  # washers that are soft first show the way to where they bear
+        bear = washer_stiffness(par) * soft
         if not search(par, loads, size, reach + par[L.P_NEEDLE_CLEARANCE], bear, work):
             return False
         if math.hypot(z[2], z[3]) <= par[L.D_LARGEST_TILT]:

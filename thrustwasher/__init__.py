@@ -8,7 +8,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-__version__ = "0.16.0"
+__version__ = "0.17.0"
 
 if TYPE_CHECKING:
     from .calibration.estimates import Calibration
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from .losses.solve import LossesParams, LossesResult, solve_losses
     from .model.oil import Oil, oil
     from .model.part_file import PartFile, load_part
+    from .optimisation.optimise import optimise
+    from .optimisation.optimum import Optimum
     from .scatter.propagate import propagate
     from .scatter.result import ScatterResult
     from .sweep.run_sweep import run_sweep
@@ -33,6 +35,8 @@ _HOMES = {
     "ladder.choose": ("Choice", "choose"),
     "model.oil": ("Oil", "oil"),
     "model.part_file": ("PartFile", "load_part"),
+    "optimisation.optimise": ("optimise",),
+    "optimisation.optimum": ("Optimum",),
     "errors": ("BranchError", "ParameterError", "SolveError", "Status"),
     "clutch.solve": ("ClutchParams", "boundary_friction", "solve_clutch"),
     "calibration.estimates": ("Calibration",),
@@ -62,6 +66,7 @@ __all__ = [
     "LossesResult",
     "ModelCalibration",
     "Oil",
+    "Optimum",
     "ParameterError",
     "PartFile",
     "ScatterResult",
@@ -79,6 +84,7 @@ __all__ = [
     "load_curve",
     "load_part",
     "oil",
+    "optimise",
     "propagate",
     "run_sweep",
     "solve_clutch",

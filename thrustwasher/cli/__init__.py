@@ -35,6 +35,7 @@ COMMANDS = (
         "efficiency",
         "compare",
         "sweep",
+        "optimise",
         "scatter",
         "chart",
         "worst",

@@ -9,12 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError
-from ..model.registry import find_model, models_with_points
-from ..model.rungs import rung_named
+from ..model.registry import models_with_points
 from ..storage.whole_files import new_folder
 from ..units import format_quantity
 from .common import _options, _output
-from .common._options import option_name
+from .common._study_target import add_part_options, read_target
 
 if TYPE_CHECKING:
     from ..model.part_file import PartFile
@@ -30,8 +29,6 @@ OPTIONS = {
     "--seed N": "of the sample; default 1",
     "--outputs LIST": "figures and signals to keep, names with commas; default: all",
     "--no-indices": "leave out what decides each figure (Sobol' indices): runs / (2 + sources)",
-    "--preset NAME": "of a model: named set of parameters, e.g. paper",
-    "--fidelity RUNG": "of a part: rung of its model, if not the part file's",
     "--out DIR": f"folder for scatter.html and tables, default {FOLDER}; stopped, the same command "
     "goes on",
     "--scheduler ADDRESS": "Dask scheduler, e.g. tcp://10.0.0.1:8786, instead of processes",
@@ -48,19 +45,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser, OPTIONS)
     parser.set_defaults(out=FOLDER)
     parser.add_argument("--indices", choices=["all"], help="all: of a scene's costly figures too")
-    parser.add_argument(
-        "--reached",
-        choices=["below", "above"],
-        default="below",
-        help="of a washer: where several solutions exist, the branch: as loaded up from light load "
-        "(below, default), or coming down (above)",
-    )
-    _options.add_settings(parser, "of a part: change a parameter, e.g. --set roughness=4e-7")
-    _options.add_oil(parser)
+    add_part_options(parser)
     _options.add_workers(parser, "processes; default: one per core, 1: none")
-    inputs = parser.add_argument_group("inputs of a part, if not those of its [box]")
-    for name, units in _options.inputs_of_all_models().items():
-        inputs.add_argument(option_name(name), dest=name, metavar="QUANTITY", help=units)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -71,7 +57,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     runs = _whole(arguments, "runs", LEAST_RUNS, MOST_RUNS)
     seed = _whole(arguments, "seed", 0, MOST_SEED)
-    target, at = _target(arguments)
+    target, at = read_target(arguments)
     folder = _output.check_folder(arguments.out, "--out")
     file = Path(arguments.target)
     if file.resolve().parent == folder.resolve() and _is_nearest(file):
@@ -118,38 +104,6 @@ def _whole(arguments: argparse.Namespace, name: str, low: int, high: int) -> int
 
 def _names(text: str | None) -> list[str] | None:
     return None if text is None else [name.strip() for name in text.split(",") if name.strip()]
-
-
-def _target(arguments: argparse.Namespace) -> tuple[Any, dict[str, str] | None]:
-    """Return the part or scene and the inputs that are given."""
-    from ..model.part_file import PartFile
-    from ..scatter.propagate import part_or_scene
-
-    given = {
-        n: getattr(arguments, n)
-        for n in _options.inputs_of_all_models()
-        if getattr(arguments, n) is not None
-    }
-    found = part_or_scene(arguments.target)
-    if isinstance(found, PartFile):
-        _options.refuse_unused(arguments, "a part, of which no figure is costly", ("indices",))
-        if find_model(found.spec.key).sweep.draws is None:
-            what = f"a {found.spec.key}, which has one solution"
-            _options.refuse_unused(arguments, what, (), reached="below")
-        if arguments.preset is not None:
-            found = _options.solvable(arguments.target, arguments.preset)
-        if arguments.fidelity is not None:
-            found = replace(found, fidelity=rung_named(found.spec, arguments.fidelity))
-        settings = _options.read_settings(arguments.settings, found.spec)
-        found = _options.with_oil(arguments, found, settings)
-        return replace(found, parameters=found.parameters | settings), given
-    unused = (*_options.inputs_of_all_models(), "preset", "fidelity", "settings")
-    _options.refuse_unused(arguments, "a scene", unused, reached="below")
-    if arguments.oil is not None:
-        from ..shift import load_scene
-
-        found = load_scene(arguments.target, arguments.oil)
-    return found, None
 
 
 @contextmanager

@@ -62,6 +62,9 @@ TABLES = (
     *PARTS,
 )
 
+MOST_MADE = 64  # parts that are kept
+_MADE: dict[str, tuple[Part, list[str]]] = {}
+
 
 def builtin_scenes() -> list[str]:
     """Return the names of the scenes that come with the package."""
@@ -354,7 +357,25 @@ def _part(
     """Return a part, and what its file says of the oil in vain; ``common``: the scene's.
 
     ``usual`` are the scene's parameters where neither its table nor the part's file has its own.
+    What no file decides is made once: most of a scene's parts stay from run to run of a study.
     """
+    if "part" in table:
+        return _made_part(where, spec, table, common, usual)
+    key = repr((where, spec.key, table, common, usual))
+    if key not in _MADE:
+        if len(_MADE) >= MOST_MADE:
+            _MADE.clear()
+        _MADE[key] = _made_part(where, spec, table, common, usual)
+    return _MADE[key]
+
+
+def _made_part(
+    where: str,
+    spec: ModelSpec,
+    table: dict[str, Any],
+    common: dict[str, Any],
+    usual: dict[str, Any],
+) -> tuple[Part, list[str]]:
     known = {f.name: f.metadata for f in fields(spec.params)}
     earlier = earlier_of(spec.params)
     given = dict(table)

@@ -14,6 +14,7 @@ from .scene_file import merged_tables, scene_of
 
 Tables = dict[str, Any]
 OPTIONS = ("step", "master", "stop_time")  # what may be changed in a scene after it is read,
+DRAW = "One draw of the scatter of scene {!r}"
 RUNG = ("fidelity", "tolerance", "asked")  # and in its parts
 
 
@@ -41,10 +42,11 @@ def varied_scene(scene: Scene, values: Mapping[str, Any]) -> Scene:
     return replace(found, parts={**found.parts, **rungs}, **options).checked()
 
 
-def scene_text(scene: Scene, values: Mapping[str, Any]) -> str:
+def scene_text(scene: Scene, values: Mapping[str, Any], head: str = DRAW) -> str:
     """Return the text of a file with the scene as its base and other values, by path.
 
-    Read back it is ``varied_scene(scene, values)``, to the bit.
+    ``head`` is its first line, with the scene's name in it. Read back it is
+    ``varied_scene(scene, values)``, to the bit.
     """
     named = scene.source.endswith(".toml")
     base = Path(scene.source).resolve().as_posix() if named else scene.source
@@ -55,8 +57,8 @@ def scene_text(scene: Scene, values: Mapping[str, Any]) -> str:
         if _differs(part, found.parts[name], "fidelity", "tolerance"):
             rung = f"auto:{part.tolerance}" if part.tolerance else part.fidelity
             now[name] = now[name] | {"fidelity": rung}
-    head = [f"# One draw of the scatter of scene {scene.name!r}", f"base = {json.dumps(base)}"]
-    return "\n".join([*head, *_written(_difference(before, now))]) + "\n"
+    lines = [f"# {head.format(scene.name)}", f"base = {json.dumps(base)}"]
+    return "\n".join([*lines, *_written(_difference(before, now))]) + "\n"
 
 
 def _differs(one: Any, other: Any, *keys: str) -> bool:

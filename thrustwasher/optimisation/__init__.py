@@ -1,0 +1,14 @@
+"""Designs that are found: the best part, load curve or gear shift under limits, or a front.
+
+====================  ==========================================================================
+``design_problem``    What is varied, what is wanted, under which limits: from words to numbers
+``designs``           What a search needs to know of what it varies
+``part_designs``      A part at a point, and the folds of a washer's load curve
+``scene_designs``     A gear shift
+``local_search``      One search from one start: SLSQP with exact slopes, COBYQA without
+``crew``              Work in pieces: from a journal, here, or on all cores
+``front``             Which designs no other one beats, and where the next searches aim
+``margins``           What scatter takes from a limit, and the share of draws that meet all
+``find_designs``      The whole search: sample, local searches, the ends solved again
+====================  ==========================================================================
+"""

@@ -8,7 +8,9 @@
 ``local_search``      One search from one start: SLSQP with exact slopes, COBYQA without
 ``crew``              Work in pieces: from a journal, here, or on all cores
 ``front``             Which designs no other one beats, and where the next searches aim
-``margins``           What scatter takes from a limit, and the share of draws that meet all
-``find_designs``      The whole search: sample, local searches, the ends solved again
+``under_scatter``     Designs by the worst of a few draws of their scatter
+``robustness``        The draws that decide, and the share of fresh ones that meet all limits
+``optimum``           What was found, and its files
+``optimise``          The whole search: sample, local searches, the ends solved again
 ====================  ==========================================================================
 """

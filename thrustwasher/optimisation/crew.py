@@ -16,6 +16,7 @@ from ..storage.journal import Journal
 from ..sweep.run_sweep import WORTH
 from .design_problem import Problem
 from .designs import Array, Designs, Row
+from .under_scatter import Uniforms, judged_by
 
 Progress = Callable[[int, int], None]
 ROWS = 32  # of a piece: a second of a slow model
@@ -42,6 +43,7 @@ class Given:
     rows: tuple[Row, ...]
     figures: tuple[str, ...]
     whole: bool = False
+    uniforms: Uniforms = ()
 
     @property
     def tries(self) -> int:
@@ -52,9 +54,10 @@ class Given:
         """Return the number of figures."""
         return len(self.figures)
 
-    def run(self, designs: Designs, _problem: Problem) -> Array:
+    def run(self, designs: Designs, problem: Problem) -> Array:
         """Return their figures (n, m)."""
-        return designs.solve(self.rows, self.figures, self.whole)
+        by = judged_by(designs, problem, self.uniforms)
+        return by.solve(self.rows, self.figures, self.whole)
 
 
 class Crew:
@@ -93,11 +96,11 @@ class Crew:
         self._stack.__exit__(kind, error, trace)
 
     def figures(
-        self, rows: Sequence[Row], names: Sequence[str], *, whole: bool = False, each: int = ROWS
+        self, rows: Sequence[Row], names: Sequence[str], *, each: int = ROWS, **more: Any
     ) -> Array:
-        """Return figures of designs (n, m), ``each`` so many rows a piece."""
+        """Return figures of designs (n, m), ``each`` so many rows a piece; ``more``: of `Given`."""
         pieces = [
-            Given(rows=tuple(rows[i : i + each]), figures=tuple(names), whole=whole)
+            Given(rows=tuple(rows[i : i + each]), figures=tuple(names), **more)
             for i in range(0, len(rows), each)
         ]
         return np.concatenate(self.do(pieces)) if pieces else np.empty((0, len(names)))

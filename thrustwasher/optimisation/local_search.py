@@ -11,6 +11,7 @@ import numpy as np
 
 from .design_problem import Problem
 from .designs import Array, Designs
+from .under_scatter import UnderScatter, Uniforms, judged_by
 
 BAD = 10.0  # cost, in scales of its figure, of a design without figures; its limits are 1 beyond
 SAFE = 1e-4  # of a limit's value, to the inside: a design shown is solved again
@@ -28,10 +29,10 @@ class LocalSearch:
     """Place of the goal, or ``VIOLATION``."""
     levels: tuple[tuple[int, float], ...] = ()
     """Goals whose cost must not exceed a value."""
-    goal_margins: tuple[float, ...]
-    """What the scatter adds to the costs (goals,)."""
-    limit_margins: tuple[float, ...]
-    """What it takes from the limits (limits,)."""
+    margins: tuple[float, ...]
+    """What the limits are tightened by (limits,)."""
+    uniforms: Uniforms = ()
+    """Draws of the scatter whose worst counts."""
     scales: tuple[float, ...]
     """Sizes of the figures (m,)."""
     radius: float
@@ -47,7 +48,8 @@ class LocalSearch:
         """Return all designs that were tried (n, k + m): places in the cube, figures."""
         from scipy.optimize import Bounds, NonlinearConstraint, minimize
 
-        search, k = _Tried(designs, problem, self), len(self.start)
+        search = _Tried(judged_by(designs, problem, self.uniforms), problem, self)
+        k = len(self.start)
         start = np.array(self.start)
         box = Bounds(np.zeros(k), np.ones(k))
         limited = self.aim != VIOLATION and search.n_constraints > 0
@@ -88,7 +90,9 @@ class _Judged:
 class _Tried:
     """The designs of one search, each judged once."""
 
-    def __init__(self, designs: Designs, problem: Problem, search: LocalSearch) -> None:
+    def __init__(
+        self, designs: Designs | UnderScatter, problem: Problem, search: LocalSearch
+    ) -> None:
         self.designs, self.problem, self.search = designs, problem, search
         self.rows: list[Array] = []
         self._known: dict[bytes, _Judged] = {}
@@ -97,7 +101,7 @@ class _Tried:
         columns = [problem.figures.index(x.figure.name) for x in problem.limits]
         self._limit_scales = scales[columns]
         bounds = np.array([x.bound for x in problem.limits])
-        self._margins = np.array(search.limit_margins) + SAFE * np.abs(bounds)
+        self._margins = np.array(search.margins) + SAFE * np.abs(bounds)
         self.n_constraints = len(problem.limits) + len(search.levels)
 
     def cost(self, u: Array) -> float:
@@ -138,7 +142,7 @@ class _Tried:
 
     def _scaled(self, values: Array, slopes: Array | None) -> _Judged:
         problem, search = self.problem, self.search
-        costs = (problem.costs(values[np.newaxis])[0] + search.goal_margins) / self._goal_scales
+        costs = problem.costs(values[np.newaxis])[0] / self._goal_scales
         excess = (problem.excess(values[np.newaxis])[0] + self._margins) / self._limit_scales
         levels = [costs[g] - top / self._goal_scales[g] for g, top in search.levels]
         beyond = np.concatenate((excess, levels))

@@ -22,8 +22,9 @@ from .design_problem import Limit, Problem, read_problem, shown
 from .designs import Array, Designs, Effort, Places
 from .front import apart, knee, levels, spread
 from .local_search import VIOLATION, LocalSearch
-from .margins import DRAWS, JUDGED, Margins, Share, drawn, judged, margins_of, none
 from .optimum import Design, Optimum
+from .robustness import DRAWS, JUDGED, Share, critical, drawn, judged
+from .under_scatter import Uniforms
 
 if TYPE_CHECKING:
     from ..shift.scene.scene import Scene
@@ -34,6 +35,7 @@ MOST_POINTS = 200
 FAR, NEAR = 0.2, 0.05  # of the box: first steps of the first searches, and of later ones
 BINDS = 0.01  # of a limit's figure, or of a variable's range: as near as that it binds
 MORE = 1.3  # designs solved again for one of the front
+KEPT = 12  # designs that are judged anew by other draws
 AGAIN = 3  # designs that are solved again, of those for one figure
 
 
@@ -187,7 +189,8 @@ class _Search:
     def __init__(self, crew: Crew, effort: Effort, points: int, seed: int) -> None:
         self.crew, self.effort, self.n_points, self.seed = crew, effort, points, seed
         self.problem, self.designs = crew.problem, crew.designs
-        self.margins = none(self.problem)
+        self.margins = np.zeros(len(self.problem.limits))
+        self.uniforms: Uniforms = ()
         self.warnings: list[str] = []
 
     def run(self) -> Optimum:
@@ -195,7 +198,7 @@ class _Search:
         start = self._sample()
         two = len(self.problem.goals) == 2
         for number in range(self.effort.rounds + two):
-            self._refresh_margins()
+            self._take_the_draws_that_decide()
             if two and number > 0:
                 self._aim_along_the_front()
             else:
@@ -249,11 +252,11 @@ class _Search:
     # what is tried next
 
     def _costs(self) -> Array:
-        return self.problem.costs(self.tried.values) + self.margins.goals
+        return self.problem.costs(self.tried.values)
 
     def _excess(self) -> Array:
         """Return by how much each design tried exceeds its limits; inf without figures."""
-        found = self.problem.excess(self.tried.values) + self.margins.limits
+        found = self.problem.excess(self.tried.values) + self.margins
         found[~np.isfinite(self.tried.values).all(1)] = np.inf
         return found
 
@@ -273,8 +276,8 @@ class _Search:
         return LocalSearch(
             start=tuple(self.tried.points[place].tolist()),
             aim=aim,
-            goal_margins=tuple(self.margins.goals.tolist()),
-            limit_margins=tuple(self.margins.limits.tolist()),
+            margins=tuple(self.margins.tolist()),
+            uniforms=self.uniforms,
             scales=tuple(self.scales.tolist()),
             radius=radius,
             **given,
@@ -334,11 +337,7 @@ class _Search:
         if others:
             text += f" with {' and '.join(others)}"
         if self.problem.robust is not None:
-            reserve = abs(float(self.margins.limits[worst]))
-            text += (
-                f", {shown(replace(limit.figure, relative=True), reserve)} of reserve for the "
-                "scatter not counted"
-            )
+            text += f" at {100.0 * self.problem.robust:.3g} % of the scatter's draws"
         return SolveError(f"{text}, at {_words(self.problem, self._row(nearest))}")
 
     def _row(self, place: int) -> dict[str, float]:
@@ -346,32 +345,34 @@ class _Search:
 
     # scatter
 
-    def _refresh_margins(self) -> None:
-        """Take the margins from draws about the best design that is known."""
+    def _take_the_draws_that_decide(self) -> None:
+        """Choose the draws by the best design so far, and judge the next best by them."""
         if self.problem.robust is None:
             return
         place = int(self._order(0)[0])
-        straight = self.designs.kind == "scene" or self.effort.polish > 0
-        draws = drawn(self.crew, self._row(place), DRAWS, self.seed, straight=straight)
-        at = self.tried.values[place]
-        if not np.isfinite(at).all():
-            return
-        self.margins = margins_of(self.problem, draws, at, self.scales, self.problem.robust)
+        straight = self.effort.polish > 0
+        found = drawn(self.crew, self._row(place), DRAWS, self.seed, straight=straight)
+        self._judge_by(critical(self.problem, *found, self.problem.robust))
+
+    def _judge_by(self, more: set[tuple[float, ...]]) -> None:
+        self.uniforms = tuple(sorted({*self.uniforms, *more}))
+        places = apart(self.tried.points, self._order(0), KEPT)
+        rows = [self._row(place) for place in places]
+        values = self.crew.figures(rows, self.problem.figures, uniforms=self.uniforms, each=2)
+        self.tried = _Tried(self.tried.points[places], values)
 
     def _judge(self, best: Design) -> tuple[Design, Share]:
-        """Return the best design and the share of fresh draws; limits are tightened once."""
+        """Return the best design and the share of fresh draws; if it fails more draws count."""
         assert self.problem.robust is not None
         for again in (False, True):
-            draws = drawn(self.crew, best.values, JUDGED, self.seed + 1 + again, straight=False)
+            fresh = self.seed + 1 + again
+            uniforms, draws = drawn(self.crew, best.values, JUDGED, fresh, straight=False)
             share = judged(self.problem, draws)
             if again or share.value >= self.problem.robust or not self.problem.limits:
                 break
-            at = np.array([best.figures[name] for name in self.problem.figures])
             level = 1.0 - (1.0 - self.problem.robust) / (len(self.problem.limits) + 1)
-            found = margins_of(self.problem, draws, at, self.scales, level)
-            limits = np.maximum(found.limits, self.margins.limits)
-            self.margins = Margins(goals=self.margins.goals, limits=limits)
-            self._do([self._piece(int(self._order(0)[0]), 0, NEAR)])
+            self._judge_by(critical(self.problem, uniforms, draws, level))
+            self._aim_at_goals(NEAR)
             self._meet_limits()
             best = self._best()
         if share.value < self.problem.robust:
@@ -407,7 +408,7 @@ class _Search:
     def _inside(self, designs: Sequence[Design]) -> list[Design]:
         """Return those that meet the limits when solved again."""
         values = self._values_of(designs).reshape(len(designs), -1)
-        excess = self.problem.excess(values) + self.margins.limits
+        excess = self.problem.excess(values) + self.margins
         sound = np.isfinite(values).all(1) & (excess <= 0.0).all(1)
         return [designs[i] for i in np.flatnonzero(sound).tolist()]
 
@@ -430,8 +431,7 @@ class _Search:
             )
             if again or not np.isfinite(off).all():
                 break
-            limits = self.margins.limits + np.maximum(off, 0.0)
-            self.margins = Margins(goals=self.margins.goals, limits=limits)
+            self.margins = self.margins + np.maximum(off, 0.0)
             self._do([self._piece(places[0], 0, NEAR)])
             self._meet_limits()
         limit = self._missed(values[0])
@@ -454,12 +454,14 @@ class _Search:
                 "no design of the front meets the limits when it is solved again; set them a "
                 "little wider"
             )
+        if self.problem.robust is not None:  # their own costs are those of the draws
+            return tuple(solved[: self.n_points])
         return tuple(solved[i] for i in spread(self._costs_of(solved), self.n_points))
 
     def _binding(self, best: Design) -> tuple[str, ...]:
         """Return the limits and ends that the best design touches."""
         values = self._values_of([best])
-        excess = (self.problem.excess(values) + self.margins.limits)[0]
+        excess = (self.problem.excess(values) + self.margins)[0]
         columns = [self.problem.figures.index(x.figure.name) for x in self.problem.limits]
         near = np.abs(excess) <= BINDS * self.scales[columns]
         found = [x.words for x, touches in zip(self.problem.limits, near, strict=True) if touches]

@@ -10,7 +10,7 @@ import numpy as np
 from ..scatter.result import write_columns
 from .design_problem import Problem
 from .designs import Array
-from .margins import Share
+from .robustness import Share
 
 FRONT, BEST = "front.csv", "best.toml"
 

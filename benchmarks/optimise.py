@@ -13,7 +13,7 @@ import numpy as np
 from thrustwasher import optimise
 from thrustwasher.optimisation.crew import Crew
 from thrustwasher.optimisation.front import unbeaten
-from thrustwasher.optimisation.optimise import designs_of
+from thrustwasher.optimisation.whole_search import designs_of
 
 CURVE = {
     "target": "washer",

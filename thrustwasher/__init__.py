@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from .losses.solve import LossesParams, LossesResult, solve_losses
     from .model.oil import Oil, oil
     from .model.part_file import PartFile, load_part
-    from .optimisation.optimise import optimise
+    from .optimisation.whole_search import optimise
     from .optimisation.optimum import Optimum
     from .scatter.propagate import propagate
     from .scatter.result import ScatterResult
@@ -35,7 +35,7 @@ _HOMES = {
     "ladder.choose": ("Choice", "choose"),
     "model.oil": ("Oil", "oil"),
     "model.part_file": ("PartFile", "load_part"),
-    "optimisation.optimise": ("optimise",),
+    "optimisation.whole_search": ("optimise",),
     "optimisation.optimum": ("Optimum",),
     "errors": ("BranchError", "ParameterError", "SolveError", "Status"),
     "clutch.solve": ("ClutchParams", "boundary_friction", "solve_clutch"),

@@ -55,7 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
     seed = _whole(arguments, "seed", 1)
     folder = _output.check_folder(arguments.out, "--out")
 
-    from ..optimisation.optimise import JOURNAL, optimise
+    from ..optimisation.whole_search import JOURNAL, optimise
 
     try:
         with new_folder(folder):
@@ -111,7 +111,7 @@ def _share(text: str | None) -> float | None:
 
 
 def _list_figures(target: Any, at: Any, reached: str) -> int:
-    from ..optimisation.optimise import designs_of
+    from ..optimisation.whole_search import designs_of
 
     for name, figure in designs_of(target, at or {}, reached).figures.items():
         unit = "" if figure.unit == "1" else f" [{figure.unit}]"

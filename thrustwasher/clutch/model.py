@@ -33,6 +33,7 @@ class Clutch(Model):
     command = Command(
         help="friction torque of a wet clutch or brake pack at one load and slip speed",
         title="friction pack",
+        ranks=True,
         plot="draw shear ratio, coefficient and torque over slip",
         more=("engage",),
         instead={  # a slip that a pack bears for ever

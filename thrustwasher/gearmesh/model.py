@@ -31,6 +31,7 @@ class GearMesh(Model):
         help="temperatures, stresses and loss of a gear mesh at one power and speed",
         title="gear mesh, {pinion_teeth} teeth, ratio {gear_ratio:g},",
         closing="{limits}; {iterations} iterations, {fidelity}",
+        ranks=True,
         plot="draw temperatures and safety or stress factors over the pinion's teeth",
         instead={
             "load": Signal(

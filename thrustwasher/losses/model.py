@@ -22,6 +22,7 @@ class DrivelineLosses(Model):
     command = Command(
         help="losses of bearings, dipping gears, oil pump and seals at one operating point",
         title="driveline losses",
+        ranks=True,
         plot="draw heat by source over speed and oil temperature",
     )
     sweep = Sweep(not_shown=("oil_energy",))  # of a step, not of a point

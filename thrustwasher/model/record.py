@@ -68,6 +68,7 @@ class Command:
     options: tuple[Option, ...] = ()  # more arguments of ``solve``
     variants: Variants | None = None
     more: tuple[str, ...] = ()  # other commands of this model, which are files
+    ranks: bool = False  # results have ``sensitivities``
 
 
 @dataclass(frozen=True, kw_only=True)

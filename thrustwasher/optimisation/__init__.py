@@ -11,6 +11,6 @@
 ``under_scatter``     Designs by the worst of a few draws of their scatter
 ``robustness``        The draws that decide, and the share of fresh ones that meet all limits
 ``optimum``           What was found, and its files
-``optimise``          The whole search: sample, local searches, the ends solved again
+``whole_search``        The whole search: sample, local searches, the ends solved again
 ====================  ==========================================================================
 """

@@ -86,7 +86,7 @@ class Problem:
     def row(self, u: Array) -> dict[str, float]:
         """Return the values [SI] of a design."""
         return {
-            v.name: min(max(v.low + float(x) * (v.high - v.low), v.low), v.high)
+            v.name: min(max(v.low * (1.0 - float(x)) + v.high * float(x), v.low), v.high)
             for v, x in zip(self.variables, u, strict=True)
         }
 

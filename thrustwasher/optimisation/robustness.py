@@ -67,7 +67,7 @@ def critical(
 
 def judged(problem: Problem, draws: Array) -> Share:
     """Return the share of draws (n, m) that meet all limits."""
-    sound = np.isfinite(draws).all(axis=1, keepdims=True)[:, 0]
+    sound = np.isfinite(draws.sum(1))
     with np.errstate(invalid="ignore"):
         met = sound & (problem.excess(draws) <= 0.0).all(1)
     low, high = probability_bounds(met.astype(float))

@@ -48,6 +48,7 @@ class Washer(Model):
         help="solve the thrust washer at one load, speed and tilt",
         title="thrust washer",
         closing="{iterations} iterations, {fidelity}, grid {grid[0]}x{grid[1]}",
+        ranks=True,
         plot="draw film, pressures, temperatures and the flow of the oil",
         options=(GRID, BRANCH),
         more=("curve", "map"),

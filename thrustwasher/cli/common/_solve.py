@@ -33,14 +33,15 @@ class PointCommand:
         _options.add_parameters(parser, spec)
         _options.add_fidelity(parser, spec, auto=self._model.ladder is not None)
         _options.add_options(parser, model.options)
-        parser.add_argument(
-            "--sensitivities",
-            nargs="?",
-            const="",
-            metavar="OUTPUTS",
-            help="rank the parameters by what one percent more of each changes; of these outputs, "
-            "separated by commas, default all; --plot draws the ranking",
-        )
+        if model.ranks:
+            parser.add_argument(
+                "--sensitivities",
+                nargs="?",
+                const="",
+                metavar="OUTPUTS",
+                help="rank the parameters by what one percent more of each changes; of these "
+                "outputs, separated by commas, default all; --plot draws the ranking",
+            )
         _output.add_targets(parser, plot=model.plot)
 
     def run(self, arguments: argparse.Namespace) -> int:
@@ -59,7 +60,7 @@ class PointCommand:
         result = self._model.solve(params, **point, fidelity=fidelity, **options)
         wall_time = time.perf_counter() - began
         own = "" if any(options.values()) else self._model.doubt(result)
-        changes = _changes(arguments.sensitivities, result)
+        changes = _changes(getattr(arguments, "sensitivities", None), result)
         warnings = at.warn(filter(None, [*result.warnings, own]))
         if targets.plot:
             from ...report.model_plots import FIGURES, ranking_figure

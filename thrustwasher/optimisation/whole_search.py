@@ -191,6 +191,7 @@ class _Search:
         self.problem, self.designs = crew.problem, crew.designs
         self.margins = np.zeros(len(self.problem.limits))
         self.uniforms: Uniforms = ()
+        self.levels: list[float] = []
         self.warnings: list[str] = []
 
     def run(self) -> Optimum:
@@ -305,13 +306,20 @@ class _Search:
         if not len(inside):
             return
         pieces = []
-        for top in levels(costs[inside], self.n_points):
-            fits = inside[costs[inside, 1] <= top]
-            if len(fits):
-                place = int(fits[costs[fits, 0].argmin()])
-                level: Any = {"levels": ((1, float(top)),), "tries": self.effort.tries // 2}
-                pieces.append(self._piece(place, 0, NEAR, **level))
+        self.levels = levels(costs[inside], self.n_points).tolist()
+        for top, place in zip(self.levels, self._at_levels(), strict=True):
+            level: Any = {"levels": ((1, top),), "tries": self.effort.tries // 2}
+            pieces.append(self._piece(place, 0, NEAR, **level))
         self._do(pieces)
+
+    def _at_levels(self) -> list[int]:
+        """Return the designs with the least first cost at each value of the second one."""
+        costs, inside = self._costs(), np.flatnonzero(self._outside() <= 0.0)
+        found = []
+        for top in self.levels:
+            fits = inside[costs[inside, 1] <= top]
+            found.append(int(fits[costs[fits, 0].argmin()]))
+        return found
 
     def _meet_limits(self) -> None:
         """Search for a design inside all limits if there is none yet; SolveError: there is none."""
@@ -447,8 +455,12 @@ class _Search:
     def _front(self) -> tuple[Design, ...]:
         """Return the designs of the front, solved again, those that are still unbeaten."""
         inside = np.flatnonzero(self._outside() <= 0.0)
-        chosen = inside[spread(self._costs()[inside], int(MORE * self.n_points))]
-        solved = self._inside(self._again(chosen.tolist()))
+        more = inside[spread(self._costs()[inside], int(MORE * self.n_points))].tolist()
+        chosen = list(dict.fromkeys([*self._at_levels(), *more]))
+        chosen = chosen[: int(MORE * self.n_points)]
+        if self.designs.kind == "part":  # solved again it is the same
+            chosen = chosen[: self.n_points]
+        solved = self._inside(self._again(sorted(chosen)))
         if not solved:
             raise SolveError(
                 "no design of the front meets the limits when it is solved again; set them a "

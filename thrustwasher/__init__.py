@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from .losses.solve import LossesParams, LossesResult, solve_losses
     from .model.oil import Oil, oil
     from .model.part_file import PartFile, load_part
-    from .optimisation.whole_search import optimise
     from .optimisation.optimum import Optimum
+    from .optimisation.whole_search import optimise
     from .scatter.propagate import propagate
     from .scatter.result import ScatterResult
     from .sweep.run_sweep import run_sweep

@@ -20,7 +20,7 @@ enum { FAULT = -1000 };
 /* What comes back beside the return value, and room for arrays that lie outside of the block. */
 typedef struct {
     int32_t result, exception;
-    double inp[sizeof ((Instance *)0)->now.inp / sizeof(double)], seed[AT_LEAST_ONE(NINP)];
+    double inp[sizeof ((Instance *)0)->now.inp / sizeof(double)], seed[AT_LEAST_ONE(NSEED)];
     double out[AT_LEAST_ONE(NOUT)];
 } Handed;
 

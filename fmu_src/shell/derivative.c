@@ -1,21 +1,23 @@
-/* Derivatives of outputs with respect to inputs, from the model's own equations; until the
-   initialization ends also with respect to parameters, as a difference of two solutions. */
+/* Derivatives of outputs with respect to inputs, from the model's own equations; also with respect to
+   tunable parameters and, until the initialization ends, all others: from these equations where the
+   model has them, else as a difference of two solutions. */
 #include <math.h>
 #include <string.h>
 
 #include "kernel.h"
 #include "shell.h"
 
-/* Real outputs; real inputs and, while the parameters still count as values, real parameters.
+/* Real outputs; real inputs, tunable parameters and, while they still count as values, all real ones.
    Hosts name all that an output depends on and give what they do not ask for the seed 0. */
 static int are_known(Instance *m, const uint32_t *references, size_t n, uint32_t causes,
                      const double *seed) {
     for (size_t i = 0; i < n; i++) {
         const Variable *v = find(m, references[i]);
         if (!v) return 0;
-        if (v->bits & causes && (v->type == TYPE_REAL || (seed && seed[i] == 0.0))) continue;
-        fail(m, "%s: derivatives are of real outputs, with respect to inputs and, in "
-             "initialization mode, real parameters", v->name);
+        const int counts = v->bits & causes || (causes & CAUSE_BIT(CAUSE_INPUT) && v->tunable);
+        if (counts && (v->type == TYPE_REAL || (seed && seed[i] == 0.0))) continue;
+        fail(m, "%s: derivatives are of real outputs, with respect to inputs, tunable parameters and, "
+             "in initialization mode, real parameters", v->name);
         return 0;
     }
     return 1;
@@ -110,10 +112,49 @@ static int add_difference(Instance *m, const Variable *v, double seed, double *d
     return GOOD;
 }
 
+/* The place of a parameter in a direction, or -1 if the model does not differentiate over it. */
+static int place_in_seed(const Variable *v) {
+    int place = NINP;
+    if (NSEED == NINP || !v->tunable) return -1;
+    for (const Variable *before = VARIABLES; before < v; before++) place += before->tunable;
+    return place;
+}
+
+/* Tell if a rule lets a parameter move at all. */
+static int may_move(Instance *m, const Variable *v) {
+    double *value = &m->now.par[v->slot];
+    const double at = *value;
+    int may = 0;
+    for (int side = -1; side < 2; side += 2) {
+        *value = at + side * 1e-6 * (at != 0.0 ? fabs(at) : 1.0);
+#if HAS_RULES
+        may |= is_inside(v, *value) && !tw_rule(m->now.par);
+#else
+        may |= is_inside(v, *value);
+#endif
+    }
+    *value = at;
+    return may;
+}
+
+/* dout += seed d out / d parameter. */
+static int add_parameter(Instance *m, const Variable *v, double seed, double *dout) {
+    double along[AT_LEAST_ONE(NSEED)] = {0}, found[AT_LEAST_ONE(NOUT)] = {0};
+    const int place = place_in_seed(v);
+    if (place < 0 || has_table_for(m, v)) return add_difference(m, v, seed, dout);
+    if (!may_move(m, v)) return fail(m, "%s = %g has no derivative here", v->name, m->now.par[v->slot]);
+    along[place] = seed;
+    if (refresh_work(m)) return BAD;
+    m->work_fits = 0; /* solved more sharply there */
+    if (differentiate(m, along, found)) return BAD;
+    for (int i = 0; i < NOUT; i++) dout[i] += found[i];
+    return GOOD;
+}
+
 /* The inputs' part of a direction in one solve, then the parameters one by one. Where no input of it
    acts at once the answer is 0 exactly. */
 int directional(Instance *m, const Direction *d, double *sensitivity) {
-    double seed[AT_LEAST_ONE(NINP)] = {0}, dout[AT_LEAST_ONE(NOUT)] = {0};
+    double seed[AT_LEAST_ONE(NSEED)] = {0}, dout[AT_LEAST_ONE(NOUT)] = {0};
     double by_parameters[AT_LEAST_ONE(NOUT)] = {0};
     uint32_t moved = 0;
     if (!is_possible(m, d, 1) || refresh_work(m)) return BAD;
@@ -127,7 +168,7 @@ int directional(Instance *m, const Direction *d, double *sensitivity) {
     for (size_t i = 0; i < d->n_knowns; i++) {
         const Variable *v = &VARIABLES[d->knowns[i]];
         if (v->cause == CAUSE_INPUT || d->seed[i] == 0.0) continue;
-        if (add_difference(m, v, d->seed[i], by_parameters)) return BAD;
+        if (add_parameter(m, v, d->seed[i], by_parameters)) return BAD;
     }
     for (size_t i = 0; i < d->n_unknowns; i++) {
         const Variable *v = &VARIABLES[d->unknowns[i]];
@@ -141,11 +182,11 @@ int adjoint(Instance *m, const Direction *d, double *sensitivity) {
     if (!is_possible(m, d, 0)) return BAD;
     for (size_t k = 0; k < d->n_knowns; k++) {
         const Variable *v = &VARIABLES[d->knowns[k]];
-        double seed[AT_LEAST_ONE(NINP)] = {0}, dout[AT_LEAST_ONE(NOUT)] = {0};
+        double seed[AT_LEAST_ONE(NSEED)] = {0}, dout[AT_LEAST_ONE(NOUT)] = {0};
         if (refresh_work(m)) return BAD;
         if (v->cause == CAUSE_INPUT) seed[v->slot] = 1.0;
         if (v->cause == CAUSE_INPUT ? differentiate(m, seed, dout)
-                                    : add_difference(m, v, 1.0, dout)) return BAD;
+                                    : add_parameter(m, v, 1.0, dout)) return BAD;
         sensitivity[k] = 0.0;
         for (size_t i = 0; i < d->n_unknowns; i++) {
             const Variable *u = &VARIABLES[d->unknowns[i]];

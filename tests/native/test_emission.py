@@ -60,7 +60,8 @@ for i, row in enumerate(rows):
     assert status == [0, 0], i
     assert same("par") and same("out") and (runs[0].iout == runs[1].iout).all(), i
     for k in range(len(row) if i == 3 and hasattr(runs[0].entries.module, "sens") else 0):
-        seed, found = np.eye(len(row))[k], [np.zeros(len(run.out)) for run in runs]
+        seed = np.zeros(getattr(runs[0].entries.module, "NSEED", len(row)))
+        seed[k], found = 1.0, [np.zeros(len(run.out)) for run in runs]
         for run, dout in zip(runs, found):
             given = run.par, row.copy(), run.state, run.work, seed, dout
             assert run.entries.call("sens", *given) == 0

@@ -5,6 +5,7 @@ import importlib.util
 import sys
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from ..model.prepare import tables_of
 from ..model.registry import kernel_of
@@ -16,6 +17,11 @@ from ..numerics.jit import kernel_digest, way
 def has_derivatives(spec: ModelSpec) -> bool:
     """Tell if the model's kernels give directional derivatives."""
     return hasattr(kernel_of(spec), "sens")
+
+
+def seed_length(kernel: Any) -> int:
+    """Return how many numbers a direction of a derivative has: inputs, then tunable parameters."""
+    return int(getattr(kernel, "NSEED", kernel.NINP))
 
 
 def is_compiled(spec: ModelSpec) -> bool:

@@ -15,13 +15,14 @@ from ..errors import EnvironmentProblem
 from .entries import ITEMS, Entry, Kind, entries
 
 # Entries of the step ABI: name in the kernel module -> name in the FMU's shell, lengths of the
-# arrays ("": a number). NGIVEN: inputs, and their rates behind them where the model takes them.
+# arrays ("": a number). NGIVEN: inputs, and their rates behind them where the model takes them;
+# NSEED: inputs, and tunable parameters behind them where the model differentiates over these.
 _ARRAYS = ("NPAR", "NGIVEN", "NSTATE", "NWORK")
 ABI: dict[str, tuple[str, tuple[str, ...]]] = {
     "derive": ("tw_derive", ("NPAR",)),
     "broken_rule": ("tw_rule", ("NPAR",)),
     "step": ("tw_step", (*_ARRAYS, "NOUT", "NIOUT", "", "")),
-    "sens": ("tw_sens", (*_ARRAYS, "NINP", "NOUT")),
+    "sens": ("tw_sens", (*_ARRAYS, "NSEED", "NOUT")),
 }
 
 
@@ -59,7 +60,8 @@ def abi_callback(kernel: ModuleType, name: str, symbol: str, sizes: tuple[str, .
 
 def _length(kernel: ModuleType, name: str) -> int:
     """Return a length of a kernel module's arrays by its name."""
-    length: int = getattr(kernel, "NINP" if name == "NGIVEN" else name)
+    plain = name == "NGIVEN" or (name == "NSEED" and not hasattr(kernel, name))
+    length: int = getattr(kernel, "NINP" if plain else name)
     return length + getattr(kernel, "NRATES", 0) if name == "NGIVEN" else length
 
 

@@ -10,6 +10,7 @@ from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status, suggest
 from ...model.registry import kernel_of
 from ...model.spec import ModelSpec
 from ..description.interface import Variable, interface
+from ..model_kernels import seed_length
 from .core import Core
 from .snapshot import from_bytes
 
@@ -109,13 +110,19 @@ class DirectInstance(Stepped):
     def directional_derivative(
         self, unknowns: Sequence[str], knowns: Sequence[str], seed: Sequence[float]
     ) -> list[float]:
-        """Return how real outputs change along a direction of the inputs, memory held."""
+        """Return how real outputs change along a direction, memory held.
+
+        ``knowns`` are inputs, and tunable parameters that the model differentiates over.
+        """
         if self._sens is None:
             raise SolveError(f"{self.spec.name} has no derivatives")
         core = self.core
-        along, slopes = np.zeros_like(core.inp), np.zeros_like(core.out)
+        along, slopes = np.zeros(seed_length(kernel_of(self.spec))), np.zeros_like(core.out)
+        tuned = [v.name for v in self.shown.parameters if v.variability == "tunable"]
+        seeded = {name: len(core.inp) + k for k, name in enumerate(tuned)}
         for name, value in zip(knowns, seed, strict=True):
-            along[self._find(name, "input").slot] += value
+            place = seeded.get(name, len(along))
+            along[place if place < len(along) else self._find(name, "input").slot] += value
         places = [self._find(name, "output").slot for name in unknowns]
         core.refresh()
         # What a derivative starts from lies in `work`, which any other solve may have overwritten.

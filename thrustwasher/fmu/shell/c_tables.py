@@ -16,7 +16,7 @@ from ...model.rungs import gone_rung
 from ...native.shipped import digest_now
 from ..description.interface import LOG_CATEGORIES, Interface, Variable
 from ..description.model_description import TYPES
-from ..model_kernels import has_derivatives
+from ..model_kernels import has_derivatives, seed_length
 from . import call_table
 
 SIZES = ("NPAR", "NINP", "NSTATE", "NWORK", "NOUT", "NIOUT")
@@ -135,6 +135,7 @@ def _header(shown: Interface, lists: dict[str, tuple[str, list[str]]]) -> str:
     numbers = {
         **{name: getattr(kernel, name) for name in SIZES},
         "NRATES": getattr(kernel, "NRATES", 0),
+        "NSEED": seed_length(kernel),
         "IO_STATUS": status,
         "FIRST_FAILURE": FIRST_FAILURE,
         "RUNG": next(v.slot for v in shown.parameters if v.name == "fidelity"),

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...numerics.arrays import clear, copy, negate, size_of
 from ...numerics.jit import Array, kernel
-from ...numerics.status import OK, SINGULAR
+from ...numerics.status import NOT_FINITE, OK, SINGULAR
 from . import layout as L
 from .directional_derivative import (
     CLOSE,
@@ -27,9 +27,23 @@ from .gap import dry_friction
 from .heat import contact_change, heat_change, let_film_follow, set_steady
 from .heat_factor import solve_heat
 from .layout import ON_GEAR, ON_WASHER
-from .newton import EXACT, FILM, LOAD, add_pressure, evaluate, linearise, make_factor
+from .newton import (
+    EXACT,
+    FILM,
+    LOAD,
+    NO_FLOOR,
+    add_pressure,
+    evaluate,
+    linearise,
+    make_factor,
+    newton,
+)
 from .outputs import MOST_MARGIN, change_of_outputs, outputs_at
 from .workspace import Point, Workspace, fields_of, model_of, vector
+
+SHARES = (L.P_HEAT_SPLIT, L.P_FILM_HEAT_FRACTION)  # tunable parameters, from 0 to 1
+STEP = 1e-6  # of a share
+SHARP = 1e-10  # tolerance of the solution that is differentiated
 
 
 @kernel
@@ -126,3 +140,63 @@ def follow_parameter(
     dout[L.N_ALL] = forces[ON_GEAR] + on_gear
     dout[L.N_ALL + 1], dout[L.N_ALL + 2] = dq[L.TILT_X], dq[L.TILT_Y]
     return status
+
+
+@kernel
+def add_share_slope(
+    w: Workspace, pt: Point, place: int, along: float, steady: bool, room: Array, dout: Array
+) -> int:
+    """Add to ``dout`` (NOUT,) ``along`` times the derivative over a share of heat; return a status.
+
+    Parameters
+    ----------
+    w : with parameters of its own, which change meanwhile
+    place : of the share in them
+    steady : the heat is balanced; else temperatures are held, and only what follows at once moves
+    room : 2 x (4 + n_temp + N_ALL + 3) numbers, of scratch
+    """
+    n = fields_of(w).temp.size
+    forces, heat = room[:4], room[4 : 4 + n]
+    now, warm = room[4 + n : 8 + n], room[8 + n : 8 + 2 * n]
+    direct = room[8 + 2 * n : 8 + 2 * n + L.N_ALL]
+    change = room[8 + 2 * n + L.N_ALL : 11 + 2 * n + 2 * L.N_ALL]
+    clear(room[: 11 + 2 * n + 2 * L.N_ALL])
+    if steady:
+        status = newton(w, pt, LOAD, pt.load, NO_FLOOR, SHARP, 20.0)
+        if status != OK:
+            return status
+    value, sound = w.par[place], True
+    inside = STEP <= value <= 1.0 - STEP
+    side = STEP if value < 0.5 else -STEP
+    for k in range(3):
+        if inside:  # central, else one-sided, both of second order
+            offset, weight = STEP * (k - 1.0), 0.5 * (k - 1.0) / STEP
+        else:
+            offset, weight = side * k, (-1.5, 2.0, -0.5)[k] / side
+        if weight == 0.0:
+            continue
+        w.par[place] = value + offset
+        if steady:
+            sound = residuals_here(w, pt, now, warm) and sound
+        else:
+            sound = outputs_at(w, pt) and sound
+        for i in range(4):
+            forces[i] += weight * now[i]
+        for i in range(n):
+            heat[np.uintp(i)] += weight * warm[np.uintp(i)]
+        for i in range(L.N_ALL):
+            direct[i] += weight * w.outputs[i]
+    w.par[place] = value
+    if not sound:
+        return NOT_FINITE
+    if steady:
+        status = factor_for_parameters(w, pt, LOAD)
+        if status == OK:
+            status = follow_parameter(w, pt, LOAD, 0.0, forces, heat, change)
+        if status != OK:
+            return status
+    elif not outputs_at(w, pt):
+        return NOT_FINITE
+    for i in range(dout.size):
+        dout[i] += along * (direct[i] + change[i])
+    return OK

@@ -3,7 +3,7 @@
 The map is a look-up; the other rungs are one kernel on meshes.
 """
 
-from ...numerics.arrays import copy
+from ...numerics.arrays import clear, copy
 from ...numerics.jit import Array, Ints, inlined, kernel
 from ...numerics.status import BAD_INPUT, NO_BRANCH, NOT_FINITE, OK, SINGULAR
 from . import layout as L
@@ -15,6 +15,7 @@ from .layout import N_PARAM, NINP, NIOUT, NOUT
 from .map.map_layout import DATA, MAGIC, PARAMS, ROOM, SIZE
 from .map.map_step import N_MAP_WORK, NOT_HERE, map_sens, map_step
 from .outputs import outputs_at
+from .parameter_derivative import SHARES, add_share_slope
 from .regime_and_status import BOUNDARY, broken_rule, change_of, is_bad, judge, point_of
 from .solve import is_distressed, keep_solution, solve
 from .transient import advance_heat, look_for_folds, name_branch, start_cold, take_up
@@ -47,12 +48,14 @@ TABLE = {
     "ON": L.MAP,
 }
 NWORK = TABLE_AT + ROOM
+NSEED = NINP + len(SHARES)  # inputs, then tunable parameters
 
 __all__ = [
     "NINP",
     "NIOUT",
     "NOUT",
     "NPAR",
+    "NSEED",
     "NSTATE",
     "NWORK",
     "N_PARAM",
@@ -190,11 +193,12 @@ def step(
 
 @kernel
 def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: Array) -> int:
-    """Fill ``dout`` (NOUT,), the derivative of the real outputs along ``seed`` (NINP,).
+    """Fill ``dout`` (NOUT,), the derivative of the real outputs along ``seed`` (NSEED,).
 
-    ``work`` is as ``step`` left it after solving at these inputs. Where an input is held at a
-    bound (an unloaded or a level washer) its derivative is zero. Returns SINGULAR at a fold, and at
-    rest with contact, where the torque jumps.
+    ``seed`` holds changes of the inputs, then, if it is so long, of the tunable shares of heat.
+    ``work`` is as ``step`` left it after solving at these inputs. Where an input is held at a bound
+    (an unloaded or a level washer) its derivative is zero. Returns SINGULAR at a fold, and at rest
+    with contact, where the torque jumps.
     """
     fidelity = par[L.P_FIDELITY]
     pt, change, w = point_of(par, inp), change_of(par, inp, seed), workspace_of(par, work)
@@ -202,4 +206,18 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
         return map_sens(inp, seed, w.outputs, work[MAP_WORK:BY_MAP], work[TABLE_AT:], dout)
     if pt.speed == 0.0 and seed[L.I_SPEED] != 0.0 and w.outputs[L.O_CONTACT_LOAD] > 0.0:
         return SINGULAR
-    return differentiate(w, pt, change, dout)
+    status, by_inputs = OK, False
+    for i in range(NINP):
+        by_inputs = by_inputs or seed[i] != 0.0
+    clear(dout)
+    if by_inputs:
+        status = differentiate(w, pt, change, dout)
+    steady = par[L.P_THERMAL_MODE] != L.TRANSIENT
+    for k in range(len(SHARES)):
+        if status == OK and seed.size == NSEED and seed[NINP + k] != 0.0:
+            # the room for a map serves: with one there is no such derivative
+            own, room = work[TABLE_AT : TABLE_AT + NPAR], work[TABLE_AT + NPAR :]
+            copy(par, own)
+            along, moved = seed[NINP + k], workspace_of(own, work)
+            status = add_share_slope(moved, pt, SHARES[k], along, steady, room, dout)
+    return status

@@ -78,10 +78,11 @@ def test_what_a_rule_holds_has_none_and_says_so(way):
 
 def test_a_clutchs_torque_grows_with_its_friction_scale():
     instance = Instance(fmu_of("clutch", "native-fmi3"), parameters={"friction_scale": 0.9})
-    instance.initialize(inputs={"load": 9000.0, "speed": 50.0})
-    instance.step(0.0, 1e-4)
+    instance.initialize(inputs={"load": 9000.0, "speed": 2.0})
+    for k in range(40):  # until the faces touch
+        instance.step(k * 0.01, 0.01)
     (torque,) = instance.get(["friction_torque"])
     (slope,) = instance.directional_derivative(["friction_torque"], ["friction_scale"], [1.0])
-    assert slope == pytest.approx(torque / 0.9, rel=0.1)
+    assert 0.5 * torque < 0.9 * slope < 1.001 * torque
     assert instance.get(["friction_torque"]) == [torque]
     instance.close()

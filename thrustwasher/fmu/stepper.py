@@ -146,14 +146,17 @@ class Instance(Stepped):
     def directional_derivative(
         self, unknowns: Sequence[str], knowns: Sequence[str], seed: Sequence[float]
     ) -> list[float]:
-        """Return how real outputs change along a direction of the inputs, memory held."""
+        """Return how real outputs change along a direction, memory held.
+
+        ``knowns`` are inputs and, as the FMU allows them, parameters.
+        """
         start = perf_counter()
         asked = tuple(unknowns), tuple(knowns)
         direction = self._directions.get(asked)
         if direction is None:
             found = (
-                [self._named(n, c) for n in names]
-                for names, c in zip(asked, ("output", "input"), strict=True)
+                [self._named(n, *c) for n in names]
+                for names, c in zip(asked, (("output",), ("input", "parameter")), strict=True)
             )
             direction = self._directions[asked] = Direction(self._protocol, *found)
         if len(seed) != len(knowns):
@@ -218,11 +221,11 @@ class Instance(Stepped):
         chosen = [*always, *(categories or known)] if on else always
         self._call(self._fmu.setDebugLogging, True, list(dict.fromkeys(chosen)))
 
-    def _named(self, name: str, causality: str) -> Any:
+    def _named(self, name: str, *causalities: str) -> Any:
         v = self._by_name.get(name)
-        if v is None or v.causality != causality:
+        if v is None or v.causality not in causalities:
             listed = self.description.modelVariables
-            unknown(name, [v.name for v in listed if v.causality == causality])
+            unknown(name, [v.name for v in listed if v.causality in causalities])
         return v
 
     def _filled(self, values: Mapping[str, Any], causality: str) -> Table:

@@ -130,6 +130,18 @@ def test_curve_json_names_branches_and_folds(capsys):
     assert len(record["points"]) == len(curve.points)
 
 
+def test_curve_ranks_what_moves_its_folds(tmp_path, capsys):
+    words = ["curve", "--speed", "545", "--tilt", "0.002", "--grid", "9x20", "--sensitivities"]
+    record = told(words, capsys)
+    slopes, changes = record["fold_sensitivities"], record["change_per_percent"]
+    assert list(changes) == ["film_lost_load", "film_regained_load"] and len(slopes) == 2
+    for row, change in zip(slopes, changes.values(), strict=True):
+        assert change["outer_radius"] == pytest.approx(0.01 * 0.0227 * row["outer_radius"])
+        assert abs(next(iter(change.values()))) == max(map(abs, change.values()))
+    assert main([*words, "--plot", str(tmp_path / "ranking.png")]) == 0
+    assert (tmp_path / "ranking.png").exists()
+
+
 def test_curve_table_and_picture(tmp_path, capsys):
     table, picture = tmp_path / "curve.csv", tmp_path / "curve.png"
     words = ["curve", "--speed", "545", "--out", str(table), "--plot", str(picture)]

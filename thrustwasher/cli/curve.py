@@ -2,6 +2,7 @@
 
 import argparse
 import time
+from collections.abc import Sequence
 from typing import Any
 
 from ..errors import ParameterError
@@ -10,6 +11,7 @@ from ..units import format_quantity, parse_quantity
 from ..washer.model import GRID
 from ..washer.parameters import SPEC
 from .common import _options, _output
+from .common._solve import Ranking, print_ranking
 
 HELP = "trace the washer's load curve with the folds where the film is lost and regained"
 INPUTS = [signal for signal in SPEC.inputs if signal.name != "load"]
@@ -37,6 +39,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser, {"--load LOW:HIGH": ends})
     _options.add_parameters(parser, SPEC)
     _options.add_options(parser, [GRID])
+    ranks = "rank the parameters by what one percent more of each changes the loads of the folds"
+    _options.add(parser, {"--sensitivities": f"{ranks}; --plot then draws the ranking"})
     _output.add_targets(parser, out="write the points as CSV", plot="draw the curve with its folds")
 
 
@@ -56,12 +60,23 @@ def run(arguments: argparse.Namespace) -> int:
     warnings = at.warn(curve.warnings)
     series = {name: [getattr(p, name) for p in curve.points] for name in COLUMNS}
     targets.write(COLUMNS, series)
+    slopes = curve.fold_sensitivities() if arguments.sensitivities else []
+    ranking = _ranking(curve.folds, slopes, at.part.params)
     if targets.plot:
+        from ..report.model_plots import ranking_figure
         from ..report.model_plots.washer_plots import curve_figure
 
-        targets.draw(curve_figure(curve, point))
+        ranked = arguments.sensitivities and ranking
+        targets.draw(
+            ranking_figure(at.part.name, ranking) if ranked else curve_figure(curve, point)
+        )
     if arguments.json:
-        found = {n: list(map(_output.scalars, getattr(curve, n))) for n in ("points", "folds")}
+        found: dict[str, Any] = {
+            n: list(map(_output.scalars, getattr(curve, n))) for n in ("points", "folds")
+        }
+        if arguments.sensitivities:
+            found["fold_sensitivities"] = slopes
+            found["change_per_percent"] = {name: row for name, (_, row) in ranking.items()}
         _output.print_json({**found, **point, **at.record(warnings, wall_time)})
         return 0
     if at.there.taken:
@@ -78,7 +93,20 @@ def run(arguments: argparse.Namespace) -> int:
             f"{format_quantity(fold.temperature, 'K')}, "
             f"{format_quantity(fold.friction_torque, 'N.m')}"
         )
+    if ranking:
+        print_ranking(ranking)
     return 0
+
+
+def _ranking(folds: Sequence[Any], slopes: Sequence[Any], params: Any) -> Ranking:
+    """Return the changes of the loads of folds by one percent of each parameter, greatest first."""
+    found: Ranking = {}
+    for number, (fold, row) in enumerate(zip(folds, slopes, strict=False)):
+        if row is not None:
+            changes = {name: 0.01 * getattr(params, name) * slope for name, slope in row.items()}
+            name = f"{fold.kind}_load" + (f"_{number // 2 + 1}" if number > 1 else "")
+            found[name] = "N", dict(sorted(changes.items(), key=lambda item: -abs(item[1])))
+    return found
 
 
 def _loads(text: str | None) -> dict[str, float]:

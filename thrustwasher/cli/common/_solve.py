@@ -89,7 +89,7 @@ class PointCommand:
         if model.variants:
             _print_variants(model.variants, result, parameters)
         if changes is not None:
-            _print_ranking(_ranking(model, spec, result, changes))
+            print_ranking(_ranking(model, spec, result, changes))
         words = f"{_output.status_words(result.status)}; {model.closing.format(**found)}"
         print(f"  {words}, {wall_time:.3g} s")
         return 0
@@ -115,7 +115,7 @@ def _ranking(model: Command, spec: ModelSpec, result: Any, changes: Changes) -> 
     }
 
 
-def _print_ranking(ranking: Ranking) -> None:
+def print_ranking(ranking: Ranking) -> None:
     """Print for each output the parameters that change it most."""
     print("  change by one percent more of a parameter, the greatest first:")
     wide = max(map(len, ranking), default=0)

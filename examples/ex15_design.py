@@ -12,9 +12,8 @@ def main() -> float:
         at={"load": "300 N", "speed": "953 rad/s", "tilt": 0.002},
     )
     torque = found.best.figures["friction_torque"]
-    print(
-        f"{found.start['friction_torque']:.4f} N m before, {torque:.4f} N m with {found.best.values}"
-    )
+    print(f"{found.start['friction_torque']:.4f} N m before, {torque:.4f} N m now")
+    print(", ".join(f"{name} = {value:.4g}" for name, value in found.best.values.items()))
     print(f"{found.tries} designs tried; what binds: {', '.join(found.binding)}")
     return torque
 

@@ -14,11 +14,12 @@ from ..units import parse_quantity
 from . import scatter as _scatter
 from .build import chosen_platforms
 from .common import _options, _output, _two_shifts
+from .common._solve import print_ranking
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
 OF_A_RUN = (
     *("scene", "compare", "no_report", "step", "master", "master_tolerance", "fidelity"),
-    *("no_guard", "ssp", "fmi", "platforms", "oil", "scatter"),
+    *("no_guard", "ssp", "fmi", "platforms", "oil", "scatter", "sensitivities"),
 )
 REPORT, TABLE, FOLDER = "report.html", "shift.csv", "shift-report"
 FMI = ("2", "3")  # versions of a package's FMUs
@@ -63,6 +64,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         f"(default {RUNS}) and as many per input, with bands in the report; stopped, the same "
         "command goes on with the study",
     )
+    parser.add_argument(
+        "--sensitivities",
+        nargs="?",
+        const="",
+        metavar="PATHS",
+        help="then rank what one percent more of numbers of the scene changes in lock-up, slip "
+        "energy and jerk: paths with commas, as in [scatter]; default pressures and friction",
+    )
     parser.add_argument("--master-tolerance", help=argparse.SUPPRESS)
     parser.add_argument(
         "--fmu", choices=["native", "python"], default="native", help="kind of FMU; default native"
@@ -92,6 +101,8 @@ def run(arguments: argparse.Namespace) -> int:
         if getattr(arguments, option):
             raise ParameterError(f"--{option}: for a package only (--ssp FILE.ssp)")
     runs = _scatter_runs(arguments, scene)
+    if arguments.sensitivities is not None and (scene.sequence or arguments.fmu == "python"):
+        raise ParameterError("--sensitivities: of one shift of native FMUs; leave it out")
     folder = None if arguments.no_report else _output.check_folder(arguments.out, "--out")
 
     began = time.perf_counter()
@@ -108,10 +119,12 @@ def run(arguments: argparse.Namespace) -> int:
         if study is None:
             write(None)
     _output.warn([*result.warnings, *(study.warnings if study else ())])
+    slopes = _slopes(result.scene, arguments.sensitivities)
     if arguments.json:
         total, out = time.perf_counter() - began, str(folder) if folder else None
         told = {**result.as_dict(), "total_time": total, "out": out}
-        _output.print_json(told | ({"scatter": study.as_dict()} if study else {}))
+        told |= {"scatter": study.as_dict()} if study else {}
+        _output.print_json(told | ({"sensitivities": slopes} if slopes else {}))
         return 0
     if scene.sequence:
         _say_sequence(result)
@@ -119,7 +132,37 @@ def run(arguments: argparse.Namespace) -> int:
         _say(result, folder)
     if study:
         _scatter.say(study, folder and folder / STUDY)
+    if slopes:
+        _say_slopes(result, slopes)
     return 0
+
+
+def _slopes(scene: Any, paths: str | None) -> dict[str, dict[str, float | None]]:
+    """Return the derivatives that are asked for, {} if none are."""
+    if paths is None:
+        return {}
+    from ..scatter.scene_sensitivities import scene_sensitivities
+
+    names = [path.strip() for path in paths.split(",") if path.strip()]
+    return scene_sensitivities(scene, paths=names or None)
+
+
+def _say_slopes(result: Any, slopes: dict[str, dict[str, float | None]]) -> None:
+    """Print what one percent more changes, the greatest first, and what has no derivative."""
+    from ..shift.scene.places import scene_places
+
+    places = scene_places(result.scene)
+    units = {f.name: f.unit for f in result.key_figures}
+    ranking = {}
+    for figure, row in slopes.items():
+        known = {path: x for path, x in row.items() if x is not None}
+        changes = {path: 0.01 * float(places[path].nominal) * x for path, x in known.items()}
+        ordered = sorted(changes.items(), key=lambda item: -abs(item[1]))
+        ranking[figure] = units[figure], dict(ordered)
+    print_ranking(ranking)
+    for figure, row in slopes.items():
+        if corners := [path for path, x in row.items() if x is None]:
+            print(f"  {figure} has a corner, and no derivative, over {', '.join(corners)}")
 
 
 def _scatter_runs(arguments: argparse.Namespace, scene: Any) -> int | None:

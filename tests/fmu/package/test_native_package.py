@@ -25,7 +25,7 @@ from thrustwasher.native.targets import PLATFORMS
 
 SMALL = "GearMesh"
 LARGEST = 450_000  # bytes of an FMU with the libraries of every platform
-LARGEST_WASHER = 1_050_000  # seven times 110 kB of kernels; with one platform it is below LARGEST
+LARGEST_WASHER = 1_200_000  # seven times 125 kB of kernels; with one platform it is below LARGEST
 NAMES = [*(spec.name for spec in all_specs()), "CommandSource"]
 
 

@@ -26,7 +26,7 @@ class Bowl:
     name = "Bowl"
     places = PLACES
     figures = FIGURES
-    notes = ()
+    notes = warnings = ()
 
     @property
     def identity(self):

@@ -9,6 +9,7 @@ from bowls import LEAST, Bowl
 
 from thrustwasher import ClutchParams, load_part, optimise
 from thrustwasher.errors import ParameterError, SolveError
+from thrustwasher.model.part_file import find_part
 from thrustwasher.optimisation import whole_search as module
 from thrustwasher.optimisation.whole_search import JOURNAL
 
@@ -131,6 +132,16 @@ def test_a_front_is_written_with_its_table(tmp_path):
     for row, design in zip(rows, found.front, strict=True):
         assert float(row["temperature [K]"]) == design.figures["temperature"]
         assert load_part(tmp_path / row["design"]).params == ClutchParams(**design.values)
+
+
+def test_a_map_is_for_one_part_so_that_designs_are_solved(tmp_path):
+    part = replace(find_part("washer"), fidelity="map")
+    at = {"load": 300.0, "speed": 953.0, "tilt": 0.002}
+    vary = {"roughness": "0.4 um:0.6 um"}
+    found = optimise(part, vary=vary, least="friction_torque", at=at, out=tmp_path, workers=1)
+    assert found.best.values["roughness"] == pytest.approx(6e-7)
+    assert any("solved with 'field', as parameters are varied" in w for w in found.warnings)
+    assert load_part(tmp_path / "best.toml").fidelity == "field"
 
 
 @pytest.mark.slow

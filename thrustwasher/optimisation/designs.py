@@ -52,6 +52,10 @@ class Designs(Protocol):
         """What makes a search another one, in words by kind; for the journal."""
 
     @property
+    def warnings(self) -> tuple[str, ...]:
+        """What must not be missed, a line each."""
+
+    @property
     def notes(self) -> tuple[str, ...]:
         """How designs are judged, a line each."""
 

@@ -11,6 +11,8 @@ import numpy as np
 
 from ..errors import ParameterError, SolveError
 from ..model.part_file import PartFile, part_text
+from ..model.prepare import tables_of
+from ..model.rungs import rung_named
 from ..model.scatter import Place, Scatter
 from ..scatter.part_target import PartTarget, part_target
 from ..scatter.target import Figure
@@ -22,6 +24,10 @@ FOLDS = {
     "film_regained_load": ("film_regained", "load at which the oil film comes back, from above"),
 }
 SEARCHED = (9, 20)  # nodes of a load curve while designs are searched
+OTHER_RUNG = (
+    "fidelity = {!r} answers for the part's own parameters alone: solved with {!r}, as "
+    "parameters are varied"
+)
 MOST_LOAD = 1e4  # N, end of a load curve
 AT = ("speed", "tilt", "oil_temperature", "far_face_temperature")  # inputs of a load curve
 
@@ -35,6 +41,7 @@ class PartDesigns:
     """All the model's own inputs [SI]."""
     reached: str
     target: PartTarget
+    warnings: tuple[str, ...]
     kind: Literal["part"] = "part"
 
     @property
@@ -63,7 +70,7 @@ class PartDesigns:
     @property
     def notes(self) -> tuple[str, ...]:
         """The rung and the point."""
-        return (*self.target.warnings, *self.target.notes)
+        return self.target.notes
 
     def effort(self, figures: Sequence[str], variables: int) -> Effort:
         """Return less work where each design takes a whole load curve."""
@@ -163,8 +170,14 @@ def part_designs(part: PartFile, inputs: Mapping[str, float], reached: str) -> P
 
     ``reached``: as in ``part_target``. ParameterError: the model is not solved at points.
     """
+    rung, warnings = rung_named(part.spec, part.fidelity), tuple[str, ...]()
+    if tables_of(part.spec, rung):  # made for the part as it is
+        solver = part.spec.default_fidelity
+        part, warnings = replace(part, fidelity=solver), (OTHER_RUNG.format(rung, solver),)
     target = part_target(part, Scatter(), inputs, reached)
-    return PartDesigns(part=part, inputs=target.inputs, reached=reached, target=target)
+    return PartDesigns(
+        part=part, inputs=target.inputs, reached=reached, target=target, warnings=warnings
+    )
 
 
 def _loads(curve: LoadCurve) -> dict[str, float]:

@@ -53,6 +53,11 @@ class SceneDesigns:
         return self.target.identity
 
     @property
+    def warnings(self) -> tuple[str, ...]:
+        """What must not be missed of the scene."""
+        return self.target.warnings
+
+    @property
     def notes(self) -> tuple[str, ...]:
         """How designs are judged."""
         return (NOTE,) if self.target.played else ()

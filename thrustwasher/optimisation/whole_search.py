@@ -222,7 +222,7 @@ class _Search:
             tries=self.crew.tries,
             share=share,
             tried=self.tried.values[:, columns],
-            warnings=tuple(self.warnings),
+            warnings=(*self.designs.warnings, *self.warnings),
             notes=self.designs.notes,
         )
 

@@ -85,25 +85,8 @@ def main() -> None:
             continue
         front = found.problem.costs(found.tried)
         front = front[unbeaten(front)]
-        better = [not (front <= c).all(1).any() for c in costs]
-        at_random = costs[unbeaten(costs)]
-        print(f"  {sum(better)} random designs are not beaten by the front")
-        print(
-            f"  fronts share of the box: {_share(front, costs):.4f}, {_share(at_random, costs):.4f}"
-        )
-
-
-def _share(front: np.ndarray, costs: np.ndarray) -> float:
-    """Return the share of the box of all designs that a front beats (hypervolume)."""
-    low = np.minimum(costs.min(0), front.min(0))
-    high = np.percentile(costs, 95.0, axis=0)
-    front = front[unbeaten(front)]
-    front = front[(front < high).all(1)]
-    area, top = 0.0, high[1]
-    for first, second in front:
-        area += (high[0] - first) * (top - second)
-        top = second
-    return float(area / np.prod(high - low))
+        better = sum(not (front <= c).all(1).any() for c in costs)
+        print(f"  {better} random designs are not beaten by the front")
 
 
 if __name__ == "__main__":

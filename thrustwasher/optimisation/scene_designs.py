@@ -64,7 +64,7 @@ class SceneDesigns:
 
     def effort(self, figures: Sequence[str], variables: int) -> Effort:
         """Return a search without slopes: a figure such as the jerk has corners."""
-        return Effort(sample=32 * variables, starts=4, rounds=2, tries=16 + 7 * variables)
+        return Effort(sample=64 * variables, starts=4, rounds=2, tries=12 + 5 * variables)
 
     def solve(self, rows: Sequence[Row], figures: Sequence[str], whole: bool = False) -> Array:
         """Return figures of designs (n, m); ``whole``: the washers solved in every step."""

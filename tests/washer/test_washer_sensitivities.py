@@ -70,7 +70,7 @@ def some_point(rng, branch):
 
 
 @pytest.mark.parametrize("branch", ["film", "contact"])
-@sizes(1, 100)
+@sizes(1, 30)
 def test_derivatives_are_those_of_converged_solutions(branch, n):
     rng, worst, compared, corners = np.random.default_rng(7), 0.0, 0, 0
     for _ in range(n):

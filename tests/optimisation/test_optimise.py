@@ -62,6 +62,47 @@ def test_a_limit_that_cannot_be_met_is_named_with_the_nearest(bowl, sloped):
         optimise("bowl", vary=BOX, least="bowl", limits=["sum>=3", "bowl<=9"], workers=1)
 
 
+def test_the_start_is_the_target_as_it_is_also_outside_the_ranges(bowl):
+    found = optimise("bowl", vary={"x": "-1:0", "y": "-1:0"}, least="bowl", workers=1)
+    assert found.start["bowl"] == pytest.approx(0.36 + 2.0 * 1.69)
+
+
+def test_a_best_design_that_is_none_when_solved_again_is_named(bowl, monkeypatch):
+    solve = Bowl.solve
+
+    def gone(self, rows, figures, whole=False):
+        return np.full((len(rows), len(figures)), np.nan) if whole else solve(self, rows, figures)
+
+    monkeypatch.setattr(Bowl, "solve", gone)
+    with pytest.raises(SolveError, match="the best design has no bowl when it is solved again, at"):
+        optimise("bowl", vary=BOX, least="bowl", workers=1)
+
+
+def test_what_is_off_when_solved_again_is_made_up_for(bowl, monkeypatch):
+    solve = Bowl.solve
+    shift = [[0.0, 0.1]]  # bowl, sum
+
+    def off(self, rows, figures, whole=False):
+        found = solve(self, rows, figures)
+        return found - np.array(shift)[:, : found.shape[1]] if whole and "sum" in figures else found
+
+    monkeypatch.setattr(Bowl, "figures", {n: f for n, f in Bowl.figures.items() if n != "other"})
+    monkeypatch.setattr(Bowl, "solve", off)
+    found = optimise("bowl", vary=BOX, least="bowl", limits=["sum>=0.5"], workers=1)
+    assert 0.5 <= found.best.figures["sum"] < 0.51
+
+
+def test_tightened_limits_that_cannot_be_met_leave_the_design_that_was_found(bowl, monkeypatch):
+    def far(problem, uniforms, draws, share):
+        return {(1e-9,)} if len(draws) == 512 else {(0.5,)}
+
+    monkeypatch.setattr(module, "critical", far)
+    limits = ["sum>=1.5"]
+    found = optimise("bowl", vary=BOX, least="bowl", limits=limits, robust=0.95, workers=1)
+    assert found.share.value < 0.95 and found.best.figures["sum"] >= 1.5
+    assert any("cannot be tightened (sum >= 1.5 cannot be met" in w for w in found.warnings)
+
+
 def test_figures_that_no_design_has_are_named(bowl):
     bowl(gone=-2.0)
     with pytest.raises(SolveError, match="none of 9 designs has bowl"):

@@ -8,7 +8,7 @@ from thrustwasher.optimisation.designs import Effort
 from thrustwasher.shift import load_scene
 from thrustwasher.shift.scene.variation import varied_scene
 
-VARY = {"shift.duration": "0.2 s:0.6 s", "clutch.friction_scale": "0.8:1.2"}
+VARY = {"shift.duration": "0.05 s:0.6 s", "clutch.friction_scale": "0.8:1.2"}
 
 
 @pytest.fixture
@@ -27,7 +27,7 @@ def test_the_file_of_the_best_shift_is_that_scene(quick, tmp_path):
 
 def test_the_least_slip_energy_takes_the_shortest_ramp(quick):
     found = optimise("msl", vary=VARY, least="slip_energy", workers=1)
-    assert found.best.values["shift.duration"] == pytest.approx(0.2, abs=0.01)
+    assert found.best.values["shift.duration"] == pytest.approx(0.05, abs=0.01)
     assert found.best.figures["slip_energy"] < found.start["slip_energy"]
     assert {"lock_time", "slip_energy"} <= found.best.figures.keys()
 

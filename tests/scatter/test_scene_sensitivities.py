@@ -33,3 +33,5 @@ def test_unknown_figures_and_paths_are_named():
         scene_sensitivities(scene, ["lock_tim"])
     with pytest.raises(ParameterError, match=r"clutch\.friction: is no real number of the scene"):
         scene_sensitivities(scene, paths=["clutch.friction"])
+    with pytest.raises(ParameterError, match=r"brake\.points\.4: is 0, of which there is no step"):
+        scene_sensitivities(load_scene("planetary"), paths=["pressure.brake.points.4"])

@@ -6,6 +6,7 @@ are chosen anew in each round.
 """
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,10 +28,13 @@ class UnderScatter:
     uniforms: Uniforms
 
     def solve(self, rows: Sequence[Row], figures: Sequence[str], whole: bool = False) -> Array:
-        """Return figures of designs (n, m)."""
-        every = [drawn for row in rows for drawn in self._draws(row)]
-        found = self.designs.solve(every, figures, whole)
-        worst: Array = (found.reshape(len(rows), -1, len(figures)) * self._signs).max(1)
+        """Return figures of designs (n, m); NaN where a design or one of its draws has none."""
+        worst = np.full((len(rows), len(figures)), np.nan)
+        for i, row in enumerate(rows):
+            with suppress(ParameterError):  # values that do not go together
+                worst[i] = (self.designs.solve(self._draws(row), figures, whole) * self._signs).max(
+                    0
+                )
         return worst * self._signs
 
     def slopes(
@@ -38,7 +42,11 @@ class UnderScatter:
     ) -> tuple[Array, Array] | None:
         """Return figures (m,) and their slopes (m, k) in the worst draw of each."""
         found = []
-        for drawn in self._draws(row):
+        try:
+            draws = self._draws(row)
+        except ParameterError:
+            return np.full(len(figures), np.nan), np.full((len(figures), len(names)), np.nan)
+        for drawn in draws:
             one = self.designs.slopes(drawn, figures, names, whole)
             if one is None:
                 return None

@@ -231,7 +231,8 @@ class _Search:
         from scipy.stats import qmc  # late: it takes a third of a second
 
         problem, places = self.problem, self.designs.places
-        now = problem.point({n: float(places[n].nominal) for n in problem.names})
+        nominal = {n: float(places[n].nominal) for n in problem.names}
+        now = problem.point(nominal)
         drawn = qmc.Sobol(len(now), seed=np.random.default_rng(self.seed))
         n = 1 << (self.effort.sample - 1).bit_length()
         points = np.vstack((now, drawn.random(n)))
@@ -248,7 +249,10 @@ class _Search:
         low, high = np.percentile(sound, [10.0, 90.0], axis=0)
         sizes = np.maximum(np.abs(sound).max(0), 1e-300)
         self.scales = np.maximum(high - low, 1e-3 * sizes)
-        return dict(zip(problem.figures, values[0].tolist(), strict=True))
+        as_it_was = values[0]
+        if not np.allclose(list(rows[0].values()), list(nominal.values()), rtol=1e-12, atol=0.0):
+            as_it_was = self.crew.figures([nominal], problem.figures)[0]  # outside the ranges
+        return dict(zip(problem.figures, as_it_was.tolist(), strict=True))
 
     # what is tried next
 
@@ -372,24 +376,31 @@ class _Search:
     def _judge(self, best: Design) -> tuple[Design, Share]:
         """Return the best design and the share of fresh draws; if it fails more draws count."""
         assert self.problem.robust is not None
-        for again in (False, True):
-            fresh = self.seed + 1 + again
-            uniforms, draws = drawn(self.crew, best.values, JUDGED, fresh, straight=False)
-            share = judged(self.problem, draws)
-            if again or share.value >= self.problem.robust or not self.problem.limits:
-                break
+        share, uniforms, draws = self._share(best, self.seed + 1)
+        how = "one design of the front is judged"
+        if share.value < self.problem.robust and len(self.problem.goals) == 1:
             level = 1.0 - (1.0 - self.problem.robust) / (len(self.problem.limits) + 1)
-            self._judge_by(critical(self.problem, uniforms, draws, level))
-            self._aim_at_goals(NEAR)
-            self._meet_limits()
-            best = self._best()
+            how = "which were tightened once"
+            try:
+                self._judge_by(critical(self.problem, uniforms, draws, level))
+                self._aim_at_goals(NEAR)
+                self._meet_limits()
+                other = self._best()
+            except SolveError as problem:
+                how = f"which cannot be tightened ({problem})"
+            else:
+                best, share = other, self._share(other, self.seed + 2)[0]
         if share.value < self.problem.robust:
             self.warnings.append(
                 f"robust: {100.0 * share.value:.3g} % of {share.draws} fresh draws meet the "
-                "limits, which were tightened once; "
-                f"{100.0 * self.problem.robust:.3g} % were asked for"
+                f"limits, {how}; {100.0 * self.problem.robust:.3g} % were asked for"
             )
         return best, share
+
+    def _share(self, design: Design, seed: int) -> tuple[Share, Array, Array]:
+        """Return the share of fresh draws that meet the limits; their uniforms and figures."""
+        found = drawn(self.crew, design.values, JUDGED, seed, straight=False)
+        return judged(self.problem, found[1]), *found
 
     # what is shown
 
@@ -416,8 +427,7 @@ class _Search:
     def _inside(self, designs: Sequence[Design]) -> list[Design]:
         """Return those that meet the limits when solved again."""
         values = self._values_of(designs).reshape(len(designs), -1)
-        excess = self.problem.excess(values) + self.margins
-        sound = np.isfinite(values).all(1) & (excess <= 0.0).all(1)
+        sound = np.isfinite(values).all(1) & (self.problem.excess(values) <= 0.0).all(1)
         return [designs[i] for i in np.flatnonzero(sound).tolist()]
 
     def _best(self) -> Design:
@@ -428,22 +438,29 @@ class _Search:
         for again in (False, True):
             order = self._order(0)
             inside = order[self._outside()[order] <= 0.0]
-            places = apart(self.tried.points, inside, 1) + inside[1:AGAIN].tolist()
+            places = inside[:AGAIN].tolist()
             solved = self._again(places)
             sound = self._inside(solved)
             if sound:
                 return min(sound, key=lambda d: float(self._costs_of([d])[0, 0]))
             values = self._values_of(solved)
-            off = np.nanmax(
-                self.problem.excess(values) - self.problem.excess(self.tried.values[places]), axis=0
-            )
-            if again or not np.isfinite(off).all():
+            there = np.isfinite(values).all(1)
+            if not there.any():
+                names = ", ".join(self.problem.figures)
+                raise SolveError(
+                    f"the best design has no {names} when it is solved again, at "
+                    f"{_words(self.problem, self._row(places[0]))}; narrow the ranges"
+                )
+            if again:
                 break
+            before = self.problem.excess(self.tried.values[places])
+            off = (self.problem.excess(values) - before)[there].max(0)
             self.margins = self.margins + np.maximum(off, 0.0)
             self._do([self._piece(places[0], 0, NEAR)])
             self._meet_limits()
-        limit = self._missed(values[0])
-        value = values[0][self.problem.figures.index(limit.figure.name)]
+        nearest = values[there][0]
+        limit = self._missed(nearest)
+        value = nearest[self.problem.figures.index(limit.figure.name)]
         raise SolveError(
             f"{limit.words} is met while searching but not when the design is solved again: "
             f"{shown(limit.figure, value)}; set the limit a little wider or narrow the ranges"
@@ -463,8 +480,8 @@ class _Search:
         solved = self._inside(self._again(sorted(chosen)))
         if not solved:
             raise SolveError(
-                "no design of the front meets the limits when it is solved again; set them a "
-                "little wider"
+                "no design of the front has its figures within the limits when it is solved again; "
+                "set these a little wider or narrow the ranges"
             )
         if self.problem.robust is not None:  # their own costs are those of the draws
             return tuple(solved[: self.n_points])
@@ -473,7 +490,7 @@ class _Search:
     def _binding(self, best: Design) -> tuple[str, ...]:
         """Return the limits and ends that the best design touches."""
         values = self._values_of([best])
-        excess = (self.problem.excess(values) + self.margins)[0]
+        excess = self.problem.excess(values)[0]
         columns = [self.problem.figures.index(x.figure.name) for x in self.problem.limits]
         near = np.abs(excess) <= BINDS * self.scales[columns]
         found = [x.words for x, touches in zip(self.problem.limits, near, strict=True) if touches]

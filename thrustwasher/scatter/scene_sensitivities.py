@@ -13,7 +13,7 @@ from .scene_target import SceneTarget, scene_target
 from .target import Array
 
 FIGURES = ("lock_time", "slip_energy", "peak_jerk")
-STEP = 1e-3  # of a value, of its range where it is 0
+STEP = 1e-3  # of a value
 AGREE = 0.02  # of the larger: as far as slopes of two steps may differ
 STILL = 1e-6  # of a figure for one percent of a value: it does not move
 USUAL = ("pressure.", "engine.torque_scale", "clutch.friction_scale", "brake.friction_scale")
@@ -38,7 +38,7 @@ def scene_sensitivities(
 
     Raises
     ------
-    ParameterError : there is no such figure or number, or the scene has a sequence
+    ParameterError : there is no such figure or number, one is 0, or the scene has a sequence
     SolveError : the scene cannot be run
     """
     target, places = scene_target(scene, Scatter()), scene_places(scene)
@@ -59,7 +59,9 @@ def scene_sensitivities(
         wide, narrow = ((own[k + 1] - own[k]) / (xs[k + 1] - xs[k]) for k in (0, 2))
         for i, name in enumerate(figures):
             slopes[name][path] = _checked(
-                float(wide[i]), float(narrow[i]), STILL * abs(at[i]) / (STEP * _size(chosen[path]))
+                float(wide[i]),
+                float(narrow[i]),
+                STILL * abs(at[i] / (STEP * float(chosen[path].nominal))),
             )
     return slopes
 
@@ -85,17 +87,14 @@ def _place(path: str, places: Mapping[str, Place]) -> Place:
     if path not in places or places[path].choices:
         hint = suggestion(path, places, "; did you mean {}?")
         raise ParameterError(f"{path}: is no real number of the scene{hint}")
+    if not _moves(places[path]):
+        raise ParameterError(f"{path}: is 0, of which there is no step; leave it out")
     return places[path]
-
-
-def _size(place: Place) -> float:
-    value = abs(float(place.nominal))
-    return value if value > 0.0 else min(place.high - place.low, 1.0)
 
 
 def _ends(place: Place) -> tuple[float, ...]:
     """Return values on both sides, far and near; inside the range."""
-    x, step = float(place.nominal), STEP * _size(place)
+    x, step = float(place.nominal), STEP * abs(float(place.nominal))
     every = (x - step, x + step, x - 0.5 * step, x + 0.5 * step)
     return tuple(min(max(value, place.low), place.high) for value in every)
 

@@ -19,7 +19,8 @@ from playwright.sync_api import Browser, Page, sync_playwright
 MODELS = ("washer", "gearmesh", "clutch")
 RUNS, FRAMES, UPDATES = 5, 120, 200
 SIZE = {"width": 1200, "height": 900}
-REPORT, EXPLORE = "#now:not(:empty)", "html[data-settled]"  # there is something to explore
+# There is something to explore.
+REPORT, EXPLORE, SCENE = "#now:not(:empty)", "html[data-settled]", "html[data-run]"
 # The time from one painted frame to the next while something moves in each.
 PACE = """async ([what, frames]) => {
   const { time } = Plots.state;
@@ -54,12 +55,37 @@ UPDATE = """async ([task, updates]) => {
   return taken;
 }"""
 
+# Other fill and kiss of the clutch than the scene's.
+TUNED = """() => change("clutch_pressure", [[0.1, 0], [0.11, 6e4], [0.2, 6e4], [0.4, 3.2e5],
+  [0.79, 3.41e5], [0.865, 3.46e5], [0.935, 7.2e5]])"""
+
 # The time from switching the scatter on to all of its draws.
 SCATTER = """async () => {
   const began = performance.now();
   document.getElementById("scatter").click();
   while (!document.documentElement.dataset.scattered) await new Promise((go) => setTimeout(go, 2));
   return performance.now() - began;
+}"""
+
+
+# The time of each run and of each redraw while the kiss point is dragged for some seconds.
+DRAG = """async ([seconds]) => {
+  const taken = [], drawn = [], { plot } = Object.values(editors)[0];
+  const start = now.clutch_pressure[2][1];
+  const page = document.documentElement, moved = new MutationObserver(() => {
+    taken.push(Number(page.dataset.took));
+    drawn.push(performance.now());
+  });
+  moved.observe(page, { attributes: true, attributeFilter: ["data-run"] });
+  const began = performance.now();
+  plot.held = 2;
+  for (let k = 0; performance.now() - began < 1e3 * seconds; k += 1) {
+    plot.drag(now.clutch_pressure[2][0], start + 2e4 + 1e3 * (k % 20), 2);
+    await new Promise(requestAnimationFrame);
+  }
+  plot.held = null;
+  moved.disconnect();
+  return [taken, drawn.length / seconds];
 }"""
 
 
@@ -131,6 +157,25 @@ def measure_explore(browser: Browser, folder: Path, model: str) -> None:
     print(f"  its scatter {scatter_time(browser, path):.2f} s")
 
 
+def measure_scene(browser: Browser, folder: Path, scene: str) -> None:
+    path = folder / f"{scene}.html"
+    seconds = called("explore", scene, "--out", str(path))
+    page, first = settled(browser, path, SCENE)
+    print(
+        f"{scene}: {path.stat().st_size / 1e6:.2f} MB, written in {seconds:.1f} s, first run "
+        f"{first:.2f} s after opening"
+    )
+    page.wait_for_selector("#washer_rung[value=field]", state="attached")
+    words = page.text_content("#state")
+    taken, redraws = page.evaluate(DRAG, [5.0])
+    print(
+        f"  dragged: a run takes {statistics.median(taken):.1f} ms, at most {max(taken):.1f} ms; "
+        f"{redraws:.0f} redraws a second"
+    )
+    print(f"  then: {words}")
+    page.close()
+
+
 def scatter_time(browser: Browser, path: Path) -> float:
     """Return the seconds that the draws of the scatter take on a page just opened, the median."""
     taken = []
@@ -157,6 +202,12 @@ def draw(browser: Browser, folder: Path, images: Path) -> None:
     page, _ = opened(browser, path, EXPLORE)
     page.wait_for_timeout(1500)
     page.screenshot(path=images / "explore.png")
+    path = folder / "scene.html"
+    called("explore", "planetary", "--out", str(path))
+    page, _ = opened(browser, path, SCENE)
+    page.evaluate(TUNED)
+    page.wait_for_timeout(4000)
+    page.screenshot(path=images / "explore-shift.png")
 
 
 def main() -> None:
@@ -175,6 +226,7 @@ def main() -> None:
         else:
             for model in MODELS:
                 measure_explore(browser, folder, model)
+            measure_scene(browser, folder, "planetary")
             measure_report(browser, Path(name) / "report", given.step)
         browser.close()
 

@@ -64,6 +64,9 @@ PLACES = {
         "scatter.scene_runs": {"washer"},
         "scatter.scene_target": {"washer"},
     },
+    "its page writes profiles into the transmission's parameters": {
+        "explore.scene_data": {"transmission"},
+    },
     "the folds of a washer's load curve are figures of a design": {
         "optimisation.part_designs": {"washer"},
     },

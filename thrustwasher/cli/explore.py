@@ -1,12 +1,15 @@
-"""``thrustwasher explore``: one file in which a model is tried in a browser."""
+"""``thrustwasher explore``: one file in which a part or a shift is tried in a browser."""
 
 import argparse
+from pathlib import Path
+from typing import Any
 
-from ..model.registry import models_with_points
+from ..errors import ParameterError, suggestion
+from ..model.registry import find_model, models_with_points
 from ..model.rungs import gone_rung
 from .common import _options, _output
 
-HELP = "write one page in which a part is tried in any browser, without Python"
+HELP = "write one page in which a part or a shift is tried in any browser, without Python"
 USUAL = "washer"
 OPTIONS = {
     "--preset PRESET": "preset of the model, `thrustwasher part list` names them",
@@ -21,8 +24,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "subject",
         nargs="?",
         default=USUAL,
-        metavar="PART.toml|MODEL",
-        help=f"part file, or model with its defaults: {models}; default {USUAL}",
+        metavar="TARGET",
+        help=f"part file, model with its defaults ({models}), scene file or built-in scene "
+        f"(`thrustwasher shift --list` names them); default {USUAL}",
     )
     _options.add(parser, OPTIONS)
     _options.add_oil(parser)
@@ -30,17 +34,65 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Write the page."""
+    if _is_scene(arguments.subject):
+        return _write_scene(arguments)
     part = _options.solvable(arguments.subject, arguments.preset)
     part = _options.with_oil(arguments, part, ())
-    out = f"explore-{part.name}.html" if arguments.out is None else arguments.out
-    target = _output.check_file(out, "--out", (".html", ".htm"))
+    target = _target(arguments, part.name)
     _output.warn(gone_rung(part.spec, part.fidelity))
 
     from ..explore.page import page
 
-    text = page(part)
-    _output.write_text(target, text)
+    _write(target, page(part))
     _options.tell_oil(part)
     _output.warn(part.oil_warnings)
-    print(f"{out}: {len(text.encode()) / 1e6:.2f} MB; open it in a browser")
     return 0
+
+
+def _write_scene(arguments: argparse.Namespace) -> int:
+    """Write the page of a scene, after its run."""
+    _options.refuse_unused(arguments, "a scene", ("preset",))
+
+    from ..explore.scene_page import scene_page
+    from ..shift import load_scene
+
+    scene = load_scene(arguments.subject, arguments.oil)
+    target = _target(arguments, scene.name)
+    _output.warn(scene.warnings)
+    _write(target, scene_page(scene))
+    return 0
+
+
+def _is_scene(subject: str) -> bool:
+    """Tell if a target is a scene: built in, or a file that names no model.
+
+    ParameterError: it is neither a model, nor a scene, nor a file.
+    """
+    from ..shift import builtin_scenes
+
+    if subject.endswith(".toml"):
+        from ..model.toml_tables import read_file
+
+        return "model" not in read_file("file", subject)
+    if subject in builtin_scenes():
+        return True
+    try:
+        find_model(subject)
+    except ParameterError:
+        known = [*models_with_points(), *builtin_scenes()]
+        hint = suggestion(subject, known, "; did you mean {!r}?")
+        raise ParameterError(
+            f"target = {subject!r}, allowed: a model ({', '.join(models_with_points())}), a scene "
+            f"({', '.join(builtin_scenes())}) or the path of a .toml file{hint}"
+        ) from None
+    return False
+
+
+def _target(arguments: argparse.Namespace, name: str) -> Any:
+    out = f"explore-{name}.html" if arguments.out is None else arguments.out
+    return _output.check_file(out, "--out", (".html", ".htm"))
+
+
+def _write(target: Path, text: str) -> None:
+    _output.write_text(target, text)
+    print(f"{target}: {len(text.encode()) / 1e6:.2f} MB; open it in a browser")

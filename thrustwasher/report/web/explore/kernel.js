@@ -74,6 +74,20 @@ class Kernel {
     const back = Array.from(this.block.view.subarray(word, word + returns));
     return tuple ? back : back[0];
   }
+
+  /** Return a kernel with its arrays bound: a function of the two numbers behind them, called often. */
+  bound(name, ...arrays) {
+    const { run, takes } = this.functions[name], block = this.array(2 * takes.length + 2), { raised } = this, { at } = block;
+    const wholes = new Numbers(this, at, 4 * arrays.length, Int32Array).view, first = 2 * arrays.length;
+    arrays.forEach((array, i) => [wholes[4 * i], wholes[4 * i + 2]] = [array.at, array.length]);
+    return (one, other) => {
+      const numbers = block.view;
+      numbers[first] = one;
+      numbers[first + 1] = other;
+      if (run(raised, raised + 8, at, at)) throw new Error(`${name} raised an exception, which it never should`);
+      return numbers[first + 2];
+    };
+  }
 }
 
 /** What models with one point have alike: their arrays, and taking parameters. */

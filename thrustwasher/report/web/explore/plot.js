@@ -22,6 +22,7 @@ function logTicks(low, high) {
 
 /** Return the heading of a view, with a link to the part of the equations that tells its theory. */
 function headed(title, part) {
+  if (!part) return el("h3", {}, title);
   const go = (event) => {
     event.preventDefault(); // the address holds the page's state
     document.getElementById("theory").open = true;
@@ -105,7 +106,7 @@ class Plot {
         words ? `<text class="note" x="${sx(m.x) + (end ? -8 : 8)}" y="${sy(m.y) + (m.below ? 18 : -8)}" text-anchor="${end ? "end" : "start"}">${escaped(words)}</text>` : "");
     }
     this.handles.forEach((h, i) => parts.push(
-      `<circle class="handle" tabindex="0" role="slider" data-i="${i}" aria-label="${escaped(h.label)}" aria-valuenow="${digits(h.x, 6)}" aria-valuetext="${escaped(h.text ?? h.label)}" cx="${sx(h.x)}" cy="${sy(h.y)}" r="8"/>`));
+      `<circle class="handle ${h.look ?? ""}" tabindex="0" role="slider" data-i="${i}" aria-label="${escaped(h.label)}" aria-valuenow="${digits(h.x, 6)}" aria-valuetext="${escaped(h.text ?? h.label)}" cx="${sx(h.x)}" cy="${sy(h.y)}" r="8"/>`));
     const focused = this.svg.contains(document.activeElement) ? document.activeElement.dataset.i : null;
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.svg.setAttribute("role", this.handles.length ? "group" : "img");

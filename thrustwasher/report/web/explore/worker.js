@@ -30,12 +30,14 @@ onmessage = ({ data }) => {
   const { id, task } = data;
   try {
     if (task === "begin") {
-      solver = new Model(new Kernel(data.bytes, data.about.functions), data.about);
+      const { about, bytes, modules } = data, each = ([key, own]) => [key, new Kernel(own, about.models[key].functions)];
+      solver = new Model(modules ? Object.fromEntries(Object.entries(modules).map(each)) : new Kernel(bytes, about.functions), about);
       postMessage({ id, task });
     } else if (task === "set") {
       jobs.clear();
       postMessage({ id, task, result: solver.set(data.parameters, data.rung) });
-    } else if (task === "solve") postMessage({ id, task, result: solver.solve(data.point, data.fresh, data.branch, data.extra) });
+    } else if (task === "stop") jobs.clear();
+    else if (task === "solve") postMessage({ id, task, result: solver.solve(data.point, data.fresh, data.branch, data.extra) });
     else {
       const idle = jobs.size === 0;
       jobs.set(task, { id, steps: solver[task](...data.given) });

@@ -1,0 +1,34 @@
+// Run a scene's kernels in node: JSON on standard input; figures of each run on standard output.
+"use strict";
+const fs = require("fs");
+const vm = require("vm");
+const zlib = require("zlib");
+
+const { scripts, about, modules, runs } = JSON.parse(fs.readFileSync(0, "utf8"));
+const source = scripts.map((file) => fs.readFileSync(file, "utf8")).join("\n");
+const { Kernel, Model } = vm.runInThisContext(`${source};({ Kernel, Model })`);
+const inflated = (text) => zlib.inflateSync(Buffer.from(text, "base64"));
+const numbers = (text) => {
+  const bytes = inflated(text);
+  return new Float64Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
+};
+about.tables = {};
+about.recorded = {};
+for (const [name, { map, recorded }] of Object.entries(about.washers)) {
+  if (map) about.tables[name] = [map.at, numbers(map.table)];
+  about.recorded[name] = { rows: numbers(recorded.rows), moving: recorded.moving };
+}
+const kernels = Object.entries(modules).map(([key, text]) => [key, new Kernel(inflated(text), about.models[key].functions)]);
+const model = new Model(Object.fromEntries(kernels), about);
+const given = Object.fromEntries(Object.entries(about.profiles).map(([name, { points }]) => [name, points]));
+const answers = runs.map(({ profiles = {}, washers, draw = null }) => {
+  try {
+    const steps = model.run({ profiles: { ...given, ...profiles }, washers, draw: draw === null ? null : about.scatter.rows[draw] });
+    let step;
+    do step = steps.next(); while (!step.done);
+    return { figures: step.value.figures };
+  } catch (problem) {
+    return { problem: problem.message };
+  }
+});
+process.stdout.write(JSON.stringify(answers));

@@ -65,10 +65,19 @@ class Seen:
 
 
 @contextmanager
-def opened(browser, path, *, wide=1200, scheme="light", ready="#now:not(:empty)", **more):
+def opened(
+    browser, path, *, wide=1200, scheme="light", ready="#now:not(:empty)", address="", **more
+):
     """Give the page of a file, once its scripts are done."""
     size = {"width": wide, "height": 900}
-    seen = Seen(browser, path.as_uri(), ready=ready, viewport=size, color_scheme=scheme, **more)
+    seen = Seen(
+        browser,
+        f"{path.as_uri()}{address}",
+        ready=ready,
+        viewport=size,
+        color_scheme=scheme,
+        **more,
+    )
     yield seen.page
     seen.close()
 

@@ -57,6 +57,16 @@ def test_the_address_is_the_state_and_comes_back(opened):
     assert "--set roughness=4e-7" in command
 
 
+def test_units_are_switched_and_kept_in_the_address(opened):
+    page = opened(address="#load=400&units=si")
+    assert page.page.text_content("#temperature").endswith(" K")
+    with page.page.expect_navigation():
+        page.page.select_option("#units", "workshop")
+    page.page.wait_for_selector("html[data-settled]")
+    assert page.page.text_content("#temperature").endswith(" °C")
+    assert "load=400" in page.page.url and page.page.url.endswith("units=workshop")
+
+
 def test_a_named_oil_is_taken_with_its_law(opened):
     page = opened(address="#load=300&speed=545&tilt=0.002&oil_temperature=297.15")
     assert page.page.input_value("#oil") == ""

@@ -7,6 +7,8 @@ from browser_pages import Seen, faults
 from scene_pages import html, nominal, python_figures
 
 from thrustwasher.explore.scene_data import started
+from thrustwasher.explore.scene_page import scene_page
+from thrustwasher.shift import load_scene
 
 pytestmark = pytest.mark.browser
 LOOKS = {
@@ -111,6 +113,7 @@ def test_a_is_pinned_and_comes_back_with_the_address(opened):
         ("#brake_pressure=" + ",".join(f"{k}:1" for k in range(11)), "11 points, allowed: 1 .. 10"),
         ("#nonsense=1", "nonsense is nothing that this page knows"),
         ("#%E0%A4%A", "is nothing that this page knows"),
+        ("#units=furlongs", "units = furlongs, allowed: mixed, si, workshop"),
         ("#scatter=maybe", "scatter = maybe, allowed: true or false"),
         ("#clutch_pressure=<img src=x onerror=alert(1)>", "allowed: pairs time:value"),
     ],
@@ -150,6 +153,16 @@ def test_a_band_of_the_draws_is_shown_on_demand(opened):
     assert page.evaluate("location.hash") == "#scatter=true"
 
 
+def test_units_are_switched_and_kept_with_the_profiles(opened):
+    page = opened(address=f"#{KISS}")
+    with page.expect_navigation():
+        page.select_option("#units", "workshop")
+    page.wait_for_selector(RUN)
+    assert page.evaluate("location.hash") == f"#{KISS}&units=workshop"
+    assert "[rpm]" in page.locator("#views svg").first.text_content()
+    assert "[bar]" in page.locator("#editor svg").first.text_content()
+
+
 def test_a_command_scene_has_its_ramp(opened):
     page = opened("msl", address="#shift_command=2:0,2.2:1")
     assert "shift.duration" not in page.text_content("#state")
@@ -174,8 +187,8 @@ def test_results_stay_in_view_on_a_narrow_screen(opened):
 
 def test_without_webassembly_the_start_is_shown(browser, tmp_path):
     path = tmp_path / "page.html"
-    path.write_text(html("planetary"), "utf-8")
+    path.write_text(scene_page(load_scene("msl")), "utf-8")
     seen = Seen(browser, path.as_uri(), init="delete window.WebAssembly")
     assert "has no WebAssembly" in seen.page.text_content("#state")
-    assert seen.page.is_visible("#still img") and figure(seen.page, "lock_time") > 0.8
+    assert seen.page.is_visible("#still img") and figure(seen.page, "lock_time") > 2.0
     seen.close()

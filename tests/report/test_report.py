@@ -63,6 +63,11 @@ class _Reader(HTMLParser):
         self.text.append(data)
 
 
+def words_of(page):
+    """Return what happened, in words."""
+    return next(s for s in page.sections if s.anchor == "said").texts
+
+
 def test_page_is_well_formed_and_fetches_nothing(record):
     reader = _Reader()
     reader.feed(render(shift_report.shift_page(record)))
@@ -75,7 +80,7 @@ def test_page_is_well_formed_and_fetches_nothing(record):
 def test_page_carries_its_chapters_and_the_numbers(record):
     page = shift_report.shift_page(record)
     text, titles = render(page), [section.title for section in page.sections]
-    assert len(titles) == 9 and {"The thrust washer", "Energy", "How far to trust it"} <= set(
+    assert len(titles) == 10 and {"The thrust washer", "Energy", "How far to trust it"} <= set(
         titles
     )
     for words in (
@@ -88,7 +93,16 @@ def test_page_carries_its_chapters_and_the_numbers(record):
         assert words in text
     bare = shift_report.shift_page(shift_stand_in.record(washer=False))
     assert "The thrust washer" not in [section.title for section in bare.sections]
-    assert "washer" not in " ".join(bare.summary)
+    assert "washer" not in " ".join(words_of(bare))
+
+
+def test_one_sentence_and_six_figures_stand_at_the_top(record):
+    page = shift_report.shift_page(record)
+    (sentence,) = page.summary
+    assert re.fullmatch(r"The clutch locked .* after the shift began; slipping made .*\.", sentence)
+    assert len(page.cards) == 6 and page.first.widgets == ["hero"]
+    folded = [s.anchor for s in page.sections if s.folded]
+    assert folded == ["said", "usual", "key-figures", "cost", "parameters", "trust"]
 
 
 def test_a_washer_that_gap_2_cannot_hold_is_a_warning(record):
@@ -111,7 +125,7 @@ def test_a_scene_with_a_mesh_shows_teeth_and_their_stress(record):
     page = shift_report.shift_page(shift_stand_in.record(washer=False, mesh=True))
     shown = {signal["name"] for signal in page.data["runs"][0]["moving"]}
     assert "mesh.stress_utilization_aisi1020" in shown
-    assert "contact of the gear teeth reached 114 °C, the gears' bodies 24 °C" in page.summary[2]
+    assert "contact of the gear teeth reached 114 °C, the gears' bodies 24 °C" in words_of(page)[2]
     assert any("1.10 times what AISI 1020 endures." in words for words in page.warnings)
     assert render(page)
 
@@ -179,7 +193,7 @@ def test_every_plot_becomes_a_file(record, tmp_path):
     text = render(page)
     save_plots(page, tmp_path)
     paths = list(tmp_path.iterdir())
-    assert len(paths) == sum(len(s.plots) for s in page.sections)
+    assert len(paths) == sum(len(s.plots) for s in (page.first, *page.sections)) == 1
     for path in paths:
         if path.suffix == ".png":
             assert base64.b64encode(path.read_bytes()).decode("ascii") in text

@@ -1,6 +1,9 @@
 """The report of a shift in a browser: one cursor, one zoom, every signal, nothing from outside."""
 
+import re
+import xml.etree.ElementTree as ET
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -131,11 +134,11 @@ def test_signals_are_switched_on_and_off(page):
 
 
 def test_every_signal_of_the_run_has_its_value_at_the_cursor(page):
-    page.evaluate("() => document.querySelectorAll('#plots details').forEach((d) => d.open = true)")
+    page.evaluate("() => document.querySelectorAll('.panel details').forEach((d) => d.open = true)")
     settle(page)
     page.evaluate("Plots.moveTo(900)")
     page.evaluate("() => dispatchEvent(new Event('beforeprint'))")  # those out of sight as well
-    rows = page.locator("#plots th[title]").evaluate_all("(all) => all.map((one) => one.title)")
+    rows = page.locator(".panel th[title]").evaluate_all("(all) => all.map((one) => one.title)")
     assert sorted(rows) == sorted(RECORD.signals)
     assert value_of(page, "clutch.temperature") == pytest.approx(
         RECORD.signals["clutch.temperature"][900] - 273.15, rel=1e-4
@@ -250,24 +253,109 @@ def test_the_washers_worst_moment_is_drawn_as_discs(page):
 def test_without_scripts_there_are_the_tables_and_one_picture(browser, report):
     with opened(browser, report, ready="", java_script_enabled=False) as page:
         assert page.locator("img").count() == 1 and page.locator("img").is_visible()
-        assert page.get_by_text("heat in the clutch", exact=True).is_visible()
+        page.locator("#key-figures > summary").click()
+        assert page.locator("#key-figures td").first.is_visible()
+        for chapter in page.locator("details.chapter:not(#key-figures) > summary").all():
+            chapter.click()
         for head in page.get_by_role("heading", level=2).all():  # none without a body
-            assert head.locator("xpath=..").locator("p, table, img").first.is_visible()
+            if not head.is_visible():
+                continue
+            assert (
+                head.locator("xpath=ancestor::*[@id][1]")
+                .locator("p, table, img, details")
+                .first.is_visible()
+            )
         assert page.get_by_role("heading", name="Friction of the clutch").count() == 0
         assert not page.locator(".widget").first.is_visible()
 
 
-def test_on_paper_all_plots_are_drawn_and_all_tables_open(page):
+def test_on_paper_are_the_plots_and_the_key_figures(page):
     page.emulate_media(media="print", color_scheme="dark")
     page.evaluate("() => dispatchEvent(new Event('beforeprint'))")
     drawn = page.locator(".panel:not(.more) .u-wrap").count()
     assert drawn == page.evaluate(f"() => {SHOWN}.length")
     assert not page.locator(".bar").is_visible()
-    assert page.locator("#parameters td").first.is_visible()
+    assert page.locator("#key-figures td").first.is_visible()
+    assert not page.locator("#parameters td").first.is_visible()
     assert (
         page.evaluate("() => getComputedStyle(document.body).backgroundColor")
         == "rgb(255, 255, 255)"
     )
+
+
+def test_the_first_screen_has_the_picture_and_the_page_is_short(page):
+    page.set_viewport_size({"width": 1300, "height": 900})
+    chart = page.locator("#hero canvas").first.bounding_box()
+    assert chart["y"] + page.evaluate("scrollY") < 350
+    assert page.locator(".card").count() == 6
+    assert page.evaluate("document.documentElement.scrollHeight") <= 7000
+
+
+def test_it_prints_on_two_to_four_pages(page, tmp_path):
+    pages = re.findall(rb"/Type\s*/Page[^s]", page.pdf(format="A4"))
+    assert 2 <= len(pages) <= 4
+
+
+def test_the_units_are_switched_and_kept_in_the_address(browser, report):
+    with opened(browser, report) as page:
+        page.wait_for_selector("#hero .u-over")
+        settle(page)
+        before = value_of(page, "transmission.engine_speed")
+        with page.expect_navigation():
+            page.select_option("#units", "workshop")
+        page.wait_for_selector("#hero .u-over")
+        assert page.evaluate("location.hash") == "#units=workshop"
+        settle(page)
+        rpm = value_of(page, "transmission.engine_speed")
+        assert rpm == pytest.approx(before * 30.0 / np.pi, rel=1e-4)
+        assert page.locator('.card[data-figure="peak_clutch_temperature"] b').count() <= 1
+        with page.expect_navigation():
+            page.select_option("#units", "si")
+        page.wait_for_selector("#hero .u-over")
+        page.evaluate("() => dispatchEvent(new Event('beforeprint'))")
+        assert value_of(page, "clutch.temperature") == pytest.approx(
+            RECORD.signals["clutch.temperature"][0], rel=1e-4
+        )
+
+
+def test_cursor_zoom_and_signals_are_in_the_address_and_come_back(browser, report):
+    with opened(browser, report) as page:
+        page.wait_for_function("() => Plots.state.panels[0].plot")
+        page.evaluate("Plots.zoom(0.5, 1.5); Plots.moveTo(700)")
+        page.get_by_label("speed of engine and driven gear").first.uncheck()
+        page.wait_for_function("() => document.documentElement.dataset.state?.includes('off=')")
+        address = page.evaluate("location.hash")
+    assert address == "#t=0.7&from=0.5&to=1.5&off=transmission.engine_speed"
+    with opened(browser, report, address=address) as page:
+        settle(page)
+        assert page.evaluate("Plots.state.index") == 700
+        assert page.evaluate("Plots.state.view") == {"min": 0.5, "max": 1.5}
+        assert not page.locator('input[data-signal="transmission.engine_speed"]').is_checked()
+
+
+def test_an_address_without_sense_changes_nothing(browser, report):
+    with opened(browser, report, address="#t=abc&from=3&to=1&off=nothing&%E0%A4%A=1") as page:
+        settle(page)
+        assert page.evaluate("Plots.state.view") == {"min": 0, "max": 2.5}
+        assert page.evaluate("Plots.state.index") == 0
+
+
+def test_signals_and_plots_are_taken_along(page):
+    with page.expect_download() as download:
+        page.get_by_role("button", name="save all signals as CSV").click()
+    lines = Path(download.value.path()).read_text("utf-8").splitlines()
+    assert lines[0].startswith("time [s],") and len(lines) == 2502
+    with page.expect_download() as download:
+        page.get_by_role("button", name="save Speeds as SVG").click()
+    ET.parse(download.value.path())
+    with page.expect_download() as download:
+        page.get_by_role("button", name="save Speeds as PNG").click()
+    assert Path(download.value.path()).read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_link_opens_its_folded_chapter(page):
+    page.locator('nav a[href="#trust"]').click()
+    assert page.locator("#trust p").first.is_visible()
 
 
 def test_the_policy_lets_nothing_be_fetched(browser, report):

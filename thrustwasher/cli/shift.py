@@ -21,7 +21,7 @@ OF_A_RUN = (
     *("scene", "compare", "no_report", "step", "master", "master_tolerance", "fidelity"),
     *("no_guard", "ssp", "fmi", "platforms", "oil", "scatter", "sensitivities"),
 )
-REPORT, TABLE, FOLDER = "report.html", "shift.csv", "shift-report"
+REPORT, TABLE, LIVE, FOLDER = "report.html", "shift.csv", "try.html", "shift-report"
 FMI = ("2", "3")  # versions of a package's FMUs
 RUNS, STUDY = "256", "scatter"  # base points of a study, its folder in that of the report
 OPTIONS = {
@@ -223,6 +223,9 @@ def _list(as_json: bool) -> int:
 
 def _load_report() -> None:
     """Load what draws and read the templates while the shift runs: its steps leave Python free."""
+    from scipy.stats import qmc  # noqa: F401 (the live page draws from it)
+
+    from ..explore import scene_page  # noqa: F401
     from ..report.html import PAGE
     from ..report.shift import shift_report  # noqa: F401 (it draws)
     from ..templates import template
@@ -338,10 +341,23 @@ def _write(result: Any, study: Any, folder: Path) -> None:
         from ..report.shift.shift_record import record_of
         from ..report.shift.shift_report import shift_page
 
-        page = shift_page(record_of(result, study))
+        live = _write_live(result, folder)
+        page = shift_page(record_of(result, study), live)
     (folder / REPORT).write_text(render(page), encoding="utf-8")
     save_plots(page, folder)
     result.write_csv(folder / TABLE)
+
+
+def _write_live(result: Any, folder: Path) -> str:
+    """Write the page in which the scene is run again; return its name, "" where there is none."""
+    from ..explore.scene_page import scene_page
+
+    try:
+        text = scene_page(result.scene, result)
+    except ParameterError:  # a master that no page runs
+        return ""
+    (folder / LIVE).write_text(text, encoding="utf-8")
+    return LIVE
 
 
 def _export(arguments: argparse.Namespace, scene: Any) -> int:

@@ -27,7 +27,7 @@ from .washer_page import VIEW as WASHER
 # by the models' keys
 VIEWS = {"washer": WASHER, "clutch": CLUTCH, "gearmesh": GEARMESH, "losses": LOSSES}
 TEMPLATE = "explore.html.jinja"
-PAGE = ("../draw", "dom", "plot", "solver", "scatter")  # scripts that every page has
+PAGE = ("../draw", "../units", "dom", "plot", "solver", "scatter")  # scripts that every page has
 DPI = 80
 
 

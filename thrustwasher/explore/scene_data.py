@@ -132,7 +132,7 @@ def modules(scene: Scene) -> dict[str, str]:
 
 
 def _packed(data: bytes) -> str:
-    return base64.b64encode(zlib.compress(data, 9)).decode("ascii")
+    return base64.b64encode(zlib.compress(data, 6)).decode("ascii")
 
 
 def _rules(spec: Any) -> list[str]:

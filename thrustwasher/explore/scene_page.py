@@ -20,7 +20,15 @@ from .scene_data import checked, instance_of, modules, scene_data, started
 
 TEMPLATE = WEB.parent / "scene" / "scene.html.jinja"
 WORKER = ("kernel", "../scene/system", "../scene/figures", "worker")
-PAGE = ("../draw", "dom", "plot", "../scene/profiles", "../scene/scene_file", "../scene/scene_page")
+PAGE = (
+    "../draw",
+    "../units",
+    "dom",
+    "plot",
+    "../scene/profiles",
+    "../scene/scene_file",
+    "../scene/scene_page",
+)
 LARGE = ("lock_time", "slip_energy", "peak_jerk", "peak_power", "torque_hole")
 
 
@@ -30,7 +38,8 @@ def scene_page(scene: Scene, result: ShiftResult | None = None) -> str:
     Parameters
     ----------
     scene : one shift
-    result : its run, where there is one; else it is run here
+    result : its run, where there is one: the page then has no still picture, which the report has;
+        else it is run here
 
     Raises
     ------
@@ -38,6 +47,7 @@ def scene_page(scene: Scene, result: ShiftResult | None = None) -> str:
     SolveError : the scene as it is cannot be run
     """
     checked(scene)
+    picture = result is None
     result = result or run_auto(scene, instance_of, guard=False)
     about = scene_data(result)
     style = joined("../draw.css", "explore.css", "../scene/scene.css")
@@ -58,7 +68,7 @@ def scene_page(scene: Scene, result: ShiftResult | None = None) -> str:
         worker=joined(*(f"{stem}.js" for stem in WORKER)),
         modules=modules(result.scene),
         figures=_figures(result),
-        picture=_picture(result),
+        picture=_picture(result) if picture else "",
         warnings=[*result.warnings],
     )
     return filled

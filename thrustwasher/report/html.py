@@ -72,6 +72,8 @@ class Table:
     """Rows of text; ``numbers`` are the columns set to the right.
 
     ``shades`` are shares 0 .. 1 that colour the cells of each row; None leaves one as it is.
+    One that ``stays`` folded is so on paper too.
+    ``figures`` are the names of the rows' key figures: scripts show these in other units.
     """
 
     heads: Sequence[str]
@@ -79,7 +81,9 @@ class Table:
     numbers: Sequence[int] = ()
     title: str = ""
     folded: bool = False
+    stays: bool = False
     shades: Sequence[Sequence[float | None]] = ()
+    figures: Sequence[str] = ()
 
     @classmethod
     def of(
@@ -92,7 +96,11 @@ class Table:
 
 @dataclass(frozen=True)
 class Section:
-    """A chapter of the page; ``widgets`` are the places that scripts fill."""
+    """A chapter of the page; ``widgets`` are the places that scripts fill.
+
+    One that is ``folded`` opens with a click or a link to it, and is on paper only if it is open or
+    ``printed``.
+    """
 
     anchor: str
     title: str
@@ -100,6 +108,8 @@ class Section:
     texts: Sequence[str] = ()
     plots: Sequence[Plot] = ()
     tables: Sequence[Table] = ()
+    folded: bool = False
+    printed: bool = False
 
     @property
     def look(self) -> str:
@@ -110,22 +120,29 @@ class Section:
 
 @dataclass(frozen=True)
 class Card:
-    """A key figure at the top of the page."""
+    """A key figure at the top of the page; ``figure``: its name, for other units."""
 
     name: str
     value: str
     note: str = ""
+    figure: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Page:
-    """Everything the page shows; ``scripts`` are files of ``web`` that work on ``data``."""
+    """Everything the page shows; ``scripts`` are files of ``web`` that work on ``data``.
+
+    ``first`` is a chapter without a title above the cards: the picture that says most. ``live`` is
+    the address of a page beside this one in which the same is tried.
+    """
 
     title: str
     subtitle: str
     summary: Sequence[str] = ()
     warnings: Sequence[str] = ()
     cards: Sequence[Card] = ()
+    first: Section | None = None
+    live: str = ""
     sections: Sequence[Section]
     footer: str
     scripts: Sequence[str] = ()
@@ -159,7 +176,7 @@ def _web(name: str) -> str:
 
 def save_plots(page: Page, folder: Path) -> None:
     """Write the plots but tiles into the folder: drawings as SVG, shaded maps as PNG."""
-    for section in page.sections:
+    for section in (*([page.first] if page.first else []), *page.sections):
         for plot in section.plots:
             if not plot.tiles:
                 (folder / plot.name).write_bytes(plot.content)

@@ -1,12 +1,13 @@
 """The report of a shift: what was simulated, what came out, how far to trust it."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from markupsafe import Markup
 
 from ...units import format_quantity as say
-from ..html import Card, Page, Plot, Section
+from ..html import Card, Page, Plot, Section, Table
 from ..scatter.study_page import chance_cards
 from ..scatter.words import BAND, LOST, band_words, loose_words, varies
 from . import shift_tables
@@ -19,6 +20,7 @@ from .shift_record import Record
 from .swing_texts import judder_text
 from .trust import trust_texts
 from .usual import beside, usual_table
+from .what_happened import headline, sentences
 from .worst_moments import Moment, highest, solve_moment, worst_film
 
 SCRIPTS = (
@@ -27,8 +29,9 @@ SCRIPTS = (
     "draw.css",
     "draw.js",
     "shift/shift.css",
-    *(f"shift/{name}.js" for name in ("decode", "page_parts", "controls", "plots", "flow")),
-    *(f"shift/{name}.js" for name in ("live", "discs", "slip", "start")),
+    "units.js",
+    *(f"shift/{name}.js" for name in ("decode", "page_parts", "state", "exports", "controls")),
+    *(f"shift/{name}.js" for name in ("plots", "flow", "live", "discs", "slip", "start")),
 )
 OVERVIEW_CAPTION = (
     "Shaded: the phases of the shift; dotted and numbered: what happened when. Above a film ratio "
@@ -46,31 +49,56 @@ HEAT_TEXT = (
 )
 
 
-def shift_page(record: Record) -> Page:
-    """Return the whole report of a finished shift."""
+def shift_page(record: Record, live: str = "") -> Page:
+    """Return the whole report of a finished shift; ``live``: the file in which it runs again."""
     still = Plot("overview", overview_figure(record), OVERVIEW_CAPTION, bitmap=True, still=True)
-    phases, cost = shift_tables.phase_table(record), shift_tables.cost_table(record)
-    heat = [shift_tables.energy_table(record), shift_tables.heat_table(record)]
+    phases = _below(shift_tables.phase_table(record), "The phases in numbers")
+    cost = shift_tables.cost_table(record)
+    heat = [
+        _below(shift_tables.energy_table(record), "The energy book"),
+        _below(shift_tables.heat_table(record), "Where the heat went"),
+    ]
     parameters = [shift_tables.parameter_table(part) for part in record.parts]
     texts, simulated = temperature_texts(record), simulated_texts(record)
     usual, washer = usual_table(record), shift_tables.washer_table(record)
-    ranges = Section("usual", "Beside what is usual", texts=[USUAL_TEXT], tables=[usual])
+    ranges = Section(
+        "usual", "Beside what is usual", texts=[USUAL_TEXT], tables=[usual], folded=True
+    )
     sections = [
-        *([ranges] if usual.rows else []),
-        Section("course", "The shift over time", ["plots"], texts, [still], [phases]),
+        Section("course", "More over time", ["plots"], texts, tables=[phases]),
         *_friction_sections(record),
         *_judder_sections(record),
-        *([Section("washer", "The thrust washer", ["discs"], tables=[washer])] if washer else []),
+        *(
+            [
+                Section(
+                    "washer", "The thrust washer", ["discs"], tables=[_below(washer, WASHER_TITLE)]
+                )
+            ]
+            if washer
+            else []
+        ),
         Section("energy", "Energy", ["flow"], [ENERGY_TEXT, HEAT_TEXT], tables=heat),
-        *how_sure_sections(record),
-        Section("key-figures", "Key figures", tables=[shift_tables.key_table(record)]),
-        *rung_sections(record),
-        Section("cost", "Time spent", texts=cost_texts(record), tables=[cost]),
-        Section("parameters", "What was simulated", texts=simulated, tables=parameters),
-        Section("trust", "How far to trust it", texts=trust_texts(record)),
+        Section("said", "What happened, in words", texts=sentences(record), folded=True),
+        *([ranges] if usual.rows else []),
+        Section(
+            "key-figures",
+            "Key figures",
+            ["copy-figures"],
+            tables=[shift_tables.key_table(record)],
+            folded=True,
+            printed=True,
+        ),
+        *(replace(section, folded=True) for section in how_sure_sections(record)),
+        *(replace(section, folded=True) for section in rung_sections(record)),
+        Section("cost", "Time spent", texts=cost_texts(record), tables=[cost], folded=True),
+        Section(
+            "parameters", "What was simulated", texts=simulated, tables=parameters, folded=True
+        ),
+        Section("trust", "How far to trust it", texts=trust_texts(record), folded=True),
     ]
+    first = Section("first", "Speeds and torques over time", ["hero"], plots=[still])
     run = run_data(record, _moments(record))
-    return page_of(record, run, sections, live_washer(record), _cards(record))
+    return page_of(record, run, sections, live_washer(record), _cards(record), first, live)
 
 
 def page_of(
@@ -79,21 +107,30 @@ def page_of(
     sections: Sequence[Section],
     washer: Any,
     cards: Sequence[Card] = (),
+    first: Section | None = None,
+    live: str = "",
 ) -> Page:
     """Return the page of a run; ``washer``: what solves it at the cursor's time, or None."""
     return Page(
         title=record.title,
         subtitle=f"Scene {record.name}, {record.time[-1] - record.time[0]:.4g} s simulated in "
         f"{say(record.wall_time, 's', digits=3)}, {len(record.parts)} FMUs, made by thrustwasher",
-        summary=run["summary"],
+        summary=[headline(record)] if first else run["summary"],
         warnings=run["warnings"],
         cards=cards,
+        first=first,
+        live=live,
         sections=sections,
         footer="One file, readable offline. The same numbers: shift.csv beside this page, and "
         "thrustwasher shift --json.",
         scripts=SCRIPTS,
         data={**page_data([run]), "washer": washer},
     )
+
+
+def _below(table: Table, title: str) -> Table:
+    """Return a table folded below the plots that show the same."""
+    return replace(table, title=title, folded=True, stays=True)
 
 
 TITLES = {
@@ -105,16 +142,18 @@ TITLES = {
 
 
 CARDS = (
-    *("lock_after_ramp_start", "lock_after_half_ramp", "lock_speed", "stopped_inertia"),
-    *("slip_energy", "slip_energy_per_area", "{pack}_heat_flux", "peak_jerk", "friction_mean"),
-    *("friction_lock", "{pack}_temperature", "peak_washer_temperature_max"),
-    *("least_washer_film_ratio", "peak_flash_temperature"),
+    *("lock_after_ramp_start", "lock_after_half_ramp", "slip_energy", "stopped_inertia"),
+    *("peak_jerk", "{pack}_temperature", "friction_mean", "least_washer_film_ratio"),
+    *("slip_energy_per_area", "friction_lock", "{pack}_heat_flux", "peak_flash_temperature"),
+    *("peak_washer_temperature_max", "lock_speed"),
 )
+WASHER_TITLE = "One washer in numbers"
+MOST_CARDS = 6
 OF_A_LONE_PACK = ("lock_after_half_ramp", "stopped_inertia", "friction_mean", "friction_lock")
 
 
 def _cards(record: Record) -> list[Card]:
-    """Return the figures at the top; braking time and friction where a pack acts alone."""
+    """Return six figures for the top; braking time and friction where a pack acts alone."""
     hidden = ("lock_after_ramp_start",) if record.alone else OF_A_LONE_PACK
     names = [n.format(pack=f"peak_{record.engaging}") for n in CARDS if n not in hidden]
     usual = beside(record)
@@ -138,17 +177,13 @@ def _cards(record: Record) -> list[Card]:
             Markup("<br>").join(
                 [*([usual[name][0].note(f.value)] if name in usual else []), *band(name)]
             ),
+            "" if name in usual else name,
         )
         for name in names
         if (f := record.figure(name)) is not None and f.value is not None
     ]
-    cards += chance_cards(record.scatter, [LOST]) if record.scatter else []
-    share = f"{record.energy['residual_share']:.1e}"
-    cards.append(Card(f"energy missing, of {record.whole_name}", share))
-    if record.step_error is not None:
-        errs = f"{100.0 * record.step_error.relative:.2g} %"
-        cards.append(Card("error of the step, in lock-up time or heat", errs))
-    return cards
+    chances = chance_cards(record.scatter, [LOST]) if record.scatter else []
+    return [*cards[: MOST_CARDS - len(chances)], *chances]
 
 
 def _friction_sections(record: Record) -> list[Section]:

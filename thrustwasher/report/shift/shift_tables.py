@@ -108,8 +108,9 @@ def key_table(record: Record) -> Table:
         found = record.band(f.name)
         return band_words(found) if found and varies(found) else ""
 
-    return Table.of(
-        (f for f in record.key_figures if f.value and f.name not in SAID_TWICE),
+    shown = [f for f in record.key_figures if f.value and f.name not in SAID_TWICE]
+    table = Table.of(
+        shown,
         {
             "": lambda f: str(f.text),
             "value": lambda f: f.words(f.value, 6 if f.unit == "s" else 5),
@@ -117,6 +118,7 @@ def key_table(record: Record) -> Table:
             "at time [s]": lambda f: "" if f.time is None else f"{f.time:.4g}",
         },
     )
+    return replace(table, figures=[f.name for f in shown])
 
 
 OF_A_WASHER = (

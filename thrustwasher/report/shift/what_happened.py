@@ -23,6 +23,23 @@ def sentences(r: Record) -> list[str]:
     return [_stop(r) if r.alone else _shift(r), _heat(r), *(planets or [_energy(r)])]
 
 
+def headline(r: Record) -> str:
+    """Return the shift in one sentence: lock-up, heat, jerk."""
+    pack, f, start = r.engaging, r.figures, r.ramp_start
+    lock = f["lock_time"]
+    locked = f"The {pack} was still slipping at the end"
+    if r.sticks_and_slips:
+        locked = f"The {pack} stuck and slipped in turn to the end"
+    elif lock is not None and r.alone:
+        locked = f"The {pack} stopped all slip in {say(lock - start, 's')}"
+    elif lock is not None:
+        locked = f"The {pack} locked {say(lock - start, 's')} after the shift began"
+    text = f"{locked}; slipping made {say(f['slip_energy'] or 0.0, 'J')} of heat in it"
+    if jerk := f.get("peak_jerk"):
+        text += f", and the greatest jerk of the vehicle was {say(jerk, 'm/s3')}"
+    return f"{text}."
+
+
 def rpm(speed: float) -> str:
     """Return a speed [rad/s], with rpm beside it."""
     return f"{speed:.4g} rad/s ({speed * 30.0 / math.pi:.0f} rpm)"

@@ -1,10 +1,18 @@
-/* What all pages share: folded tables are open on paper, and there the colours are those of light. */
+/* What all pages share: folded tables are open on paper but those that stay, and there the colours are those of light. */
 "use strict";
 (() => {
   const root = document.documentElement;
+  /* A link to a folded chapter opens it. */
+  const unfold = () => {
+    const place = location.hash.includes("=") ? null : document.getElementById(location.hash.slice(1));
+    if (place?.matches("details")) place.open = true;
+    if (place) place.scrollIntoView();
+  };
+  addEventListener("hashchange", unfold);
+  unfold();
   let folded = [];
   addEventListener("beforeprint", () => {
-    folded = [...document.querySelectorAll("details:not([open])")].filter((d) => !d.dataset.stays);
+    folded = [...document.querySelectorAll("details:not([open])")].filter((d) => !d.hasAttribute("data-stays"));
     for (const one of folded) one.open = true;
     root.classList.add("printed");
   });

@@ -21,6 +21,8 @@ function pretty(unit) {
 /** Return a quantity as a person reads it: in the first unit whose number is at least 1. */
 function shown(value, unit, relative = false, n = 4) {
   if (unit === "1" || unit === "") return digits(value, n);
+  const chosen = Units.of(unit, relative);
+  if (chosen) return `${digits((value - chosen[2]) / chosen[1], n)} ${pretty(chosen[0])}`;
   if (unit === "K" && !relative) return `${digits(value - 273.15, n)} °C`;
   const known = value ? ABOUT.units[unit] ?? [[unit, 1]] : [[unit, 1]];
   const [name, factor] = known.find(([, f]) => Math.abs(value) >= f) ?? known.at(-1);
@@ -40,6 +42,8 @@ function readQuantity(given, { unit, relative }) {
 
 /** Return the unit and factor that fit the largest of some values, for an axis. */
 function axisUnit(values, unit) {
+  const chosen = Units.of(unit);
+  if (chosen) return [pretty(chosen[0]), chosen[1], chosen[2]];
   if (unit === "K") return ["°C", 1, 273.15];
   const known = ABOUT.units[unit] ?? [[unit === "1" ? "" : unit, 1]];
   const most = Math.max(...values.map(Math.abs).filter(Number.isFinite), 0);

@@ -232,6 +232,7 @@ function settled() {
   if (state.rung !== ABOUT.rung) pairs.push(["fidelity", state.rung]);
   if (state.branch) pairs.push(["branch", state.branch]);
   if (view.scatter?.on) pairs.push(["scatter", "true"]);
+  if (Units.mode !== "mixed") pairs.push(["units", Units.mode]);
   for (const [name, value] of Object.entries(state.extra)) pairs.push([name, JSON.stringify(value)]);
   const text = `#${pairs.map(([n, v]) => `${n}=${encodeURIComponent(v)}`).join("&")}`;
   if (text !== location.hash) history.replaceState(null, "", text);
@@ -277,6 +278,8 @@ function readAddress() {
       if (!BRANCHES_ASKED.includes(text)) strange.push(`branch = ${text}, allowed: film or contact`);
     } else if (name === "fidelity") {
       if (!Object.hasOwn(ABOUT.worker.rungs, text)) strange.push(`fidelity = ${text}, allowed: ${Object.keys(ABOUT.worker.rungs).join(" or ")}`);
+    } else if (name === "units") {
+      if (Units.wrong) strange.push(Units.wrong);
     } else if (name === "scatter" && view.scatter) {
       if (![...TRUE, ...FALSE].includes(text)) strange.push(`scatter = ${text}, allowed: true or false`);
       else if (TRUE.includes(text) && !DRAWS) strange.push(`scatter = ${text}, allowed: false, since this part has no [scatter]`);
@@ -336,7 +339,8 @@ function builtControls() {
     setParameters(); // `set` itself tells nobody
   });
   main.append(el("div", { class: "field" }, el("label", { for: "oil" }, "oil: typical viscosity and density of its class", el("code", {}, "oil")), oils));
-  byId("reset").addEventListener("click", () => { location.hash = ""; });
+  byId("reset").after(Units.choice());
+  byId("reset").addEventListener("click", () => { location.hash = Units.mode === "mixed" ? "" : `units=${Units.mode}`; });
   for (const button of document.querySelectorAll("button[data-copy]")) {
     button.addEventListener("click", () => {
       getSelection().selectAllChildren(byId(button.dataset.copy));

@@ -341,6 +341,7 @@ function keepAddress() {
   for (const name of Object.keys(KNOWN)) if (!isSame(now[name], start[name])) pairs.push(`${name}=${writtenProfile(now[name])}`);
   for (const name of Object.keys(KNOWN)) if (!isSame(pinned.profiles[name], start[name])) pairs.push(`a.${name}=${writtenProfile(pinned.profiles[name])}`);
   if (byId("scatter").checked) pairs.push("scatter=true");
+  if (Units.mode !== "mixed") pairs.push(`units=${Units.mode}`);
   const text = pairs.length ? `#${pairs.join("&")}` : location.pathname + location.search;
   document.documentElement.dataset.settled = pairs.length ? text : "";
   if ((location.hash || "") !== (pairs.length ? text : "")) history.replaceState(null, "", text);
@@ -356,11 +357,13 @@ function readAddress() {
     if (Object.hasOwn(KNOWN, name)) {
       const read = readProfile(name, text);
       if (read.wrong) wrong.push(read.wrong); else (key === name ? given : before)[name] = read.points;
+    } else if (key === "units") {
+      if (Units.wrong) wrong.push(Units.wrong);
     } else if (key === "scatter") {
       if (!["true", "false"].includes(text)) wrong.push(`scatter = ${text}, allowed: true or false`);
       else if (text === "true" && !ABOUT.scatter) wrong.push("scatter = true, allowed: false, since nothing scatters in this scene");
       else scatter = text === "true";
-    } else wrong.push(`${key.slice(0, 40)} is nothing that this page knows, allowed: ${[...Object.keys(KNOWN), "scatter"].join(", ")}`);
+    } else wrong.push(`${key.slice(0, 40)} is nothing that this page knows, allowed: ${[...Object.keys(KNOWN), "scatter", "units"].join(", ")}`);
   }
   strange = wrong.length ? `The address: ${wrong.join("; ")}. ` : "";
   byId("scatter").checked = scatter;
@@ -429,6 +432,7 @@ function built() {
     link.click();
     say(`Saved as ${ABOUT.name}-tuned.toml; run it with: thrustwasher shift ${ABOUT.name}-tuned.toml`);
   });
+  document.querySelector(".tools").append(Units.choice());
   const scatter = byId("scatter"), sources = ABOUT.scatter?.sources ?? [];
   scatter.disabled = !ABOUT.scatter;
   scatter.addEventListener("change", () => {

@@ -10,7 +10,8 @@ const Controls = (() => {
     const bar = el("div", { class: "bar", role: "group", "aria-label": "cursor and zoom of all plots" }, slider, output,
       button("zoom in", "+", () => Plots.zoomBy(0.5)), button("zoom out", "−", () => Plots.zoomBy(2)),
       button("earlier", "◀", () => Plots.pan(-0.25)), button("later", "▶", () => Plots.pan(0.25)),
-      button("the whole run", "show all", all));
+      button("the whole run", "show all", all),
+      Exports.ofSignals(state), Units.choice());
     const happened = el("ul", { class: "happened", "aria-label": "events and phases" });
     const marks = state.events.map((event) => mark(state, event, happened));
     const phases = state.runs[0].phases.filter(([, start, end]) => end > start);

@@ -48,10 +48,16 @@ const Runs = (() => {
     });
   }
 
+  /* The unit of a signal where another one is chosen than that of its run. */
+  function shownIn(unit) {
+    const own = Units.of({ "°C": "K", kPa: "Pa" }[unit] ?? unit, unit === "K");
+    return own ? { unit: own[0], scale: own[1], zero: own[2] } : {};
+  }
+
   /* A signal whose values are made when they are first asked for. */
   function signalOf(given, make) {
     let values;
-    return Object.defineProperty({ ...given }, "values", { get: () => (values ??= make()) });
+    return Object.defineProperty({ ...given, ...shownIn(given.unit) }, "values", { get: () => (values ??= make()) });
   }
 
   /* Return {time, runs}; a run's `signals` are by name: help, unit, zero and values; `end` is its last point. */

@@ -11,3 +11,16 @@ function number(value, signal = { zero: 0, scale: 1 }) {
   return (Math.abs(shown) >= 1e6 || (shown !== 0 && Math.abs(shown) < 1e-4)
     ? shown.toExponential(3) : String(shown)).replace("-", "−");
 }
+
+/* Key figures in the units that are chosen; as they come they stand in the page already. */
+const Figures = {
+  show(figures) {
+    const known = new Map(figures.map((figure) => [figure.name, figure]));
+    for (const place of document.querySelectorAll("[data-figure]")) {
+      const { value, unit, difference } = known.get(place.dataset.figure) ?? {}, own = unit && Units.of(unit, difference);
+      if (!own || value === null) continue;
+      const [name, scale, zero] = own;
+      (place.querySelector("b") ?? place.cells[1]).textContent = `${number(value, { zero, scale })} ${name}`;
+    }
+  },
+};

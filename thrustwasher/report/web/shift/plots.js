@@ -5,8 +5,8 @@ const Plots = (() => {
   const DASHES = [undefined, [6, 4]];
   const NAMES = ["A", "B"];
   const NEAR = 6; // pixels: a click this near to an event means it
-  const HEIGHT = 210;
-  const PAPER = 640; // pixels that a plot is wide in print
+  const HEIGHT = 140, FIRST = 205;
+  const PAPER = 660, HALF = 320; // pixels that a plot is wide in print: the first ones, those side by side
 
   const state = { time: [], runs: [], index: 0, view: { min: 0, max: 1 }, panels: [], others: [], listeners: [] };
   let awaited = false;
@@ -180,8 +180,18 @@ const Plots = (() => {
   function shade(u, ctx, bbox) {
     const at = (t) => Math.max(bbox.left, Math.min(bbox.left + bbox.width, u.valToPos(t, "x", true)));
     state.runs[0].phases.forEach(([, start, end], i) => {
-      if (i % 2) ctx.fillRect(at(start), bbox.top, at(end) - at(start), bbox.height);
+      ctx.fillStyle = colour(`phase${i % 5}`);
+      ctx.fillRect(at(start), bbox.top, at(end) - at(start), bbox.height);
     });
+  }
+
+  /* The names of the phases where there is room for them. */
+  function namePhases(u, ctx, bbox, dots) {
+    ctx.textAlign = "left";
+    for (const [name, start, end] of state.runs[0].phases) {
+      const [a, b] = [start, end].map((t) => Math.max(bbox.left, Math.min(bbox.left + bbox.width, u.valToPos(t, "x", true))));
+      if (ctx.measureText(name).width + 8 * dots < b - a) ctx.fillText(name, a + 4 * dots, bbox.top + bbox.height - 6 * dots);
+    }
   }
 
   function drawLevels(panel, u, ctx, bbox, dots) {
@@ -205,10 +215,10 @@ const Plots = (() => {
     for (const event of state.events) {
       const x = u.valToPos(event.time, "x", true);
       if (x < bbox.left || x > bbox.left + bbox.width) continue;
-      up = x - before < 14 * dots ? up + 1 : 0;
+      up = x - before < 16 * dots ? up + 1 : 0;
       before = x;
       strokeLine(ctx, [x, bbox.top], [x, bbox.top + bbox.height]);
-      ctx.fillText(event.number, x + 2, bbox.top + (11 + 11 * (up % 4)) * dots);
+      ctx.fillText(event.number, x + 2, bbox.top + (11 + 11 * (up % 12)) * dots);
     }
   }
 
@@ -223,7 +233,7 @@ const Plots = (() => {
       series: [start + 2 * i + 2, start + 2 * i + 1], fill: () => pale(panel.colours[signal.name]),
     }));
     return {
-      width: Math.max(200, panel.chart.clientWidth), height: HEIGHT, legend: { show: false },
+      width: Math.max(200, panel.chart.clientWidth), height: panel.given.first ? FIRST : HEIGHT, legend: { show: false },
       cursor: {
         y: false, drag: { x: true, y: false, setScale: false, dist: 5 },
         bind: { dblclick: () => () => { zoom(first(), last()); } },
@@ -237,7 +247,7 @@ const Plots = (() => {
       }))],
       hooks: {
         drawClear: [drawing("shade", shade)],
-        draw: [drawing("soft", (...given) => drawLevels(panel, ...given)), drawing("mark", mark)],
+        draw: [drawing("soft", (...given) => drawLevels(panel, ...given)), drawing("mark", mark), ...panel.given.first ? [drawing("soft", namePhases)] : []],
         setSelect: [take],
       },
     };
@@ -282,6 +292,7 @@ const Plots = (() => {
 
   function toggle(panel, signal, on) {
     panel.off ??= new Set();
+    Address.chose(signal.name, on, panel.usual.has(signal.name));
     if (!panel.shown.includes(signal)) {
       panel.shown.push(signal);
       draw(panel);
@@ -297,7 +308,7 @@ const Plots = (() => {
   function rowOf(panel, body, signal, on) {
     panel.colours[signal.name] ??= COLOURS[Object.keys(panel.colours).length % COLOURS.length];
     const cells = state.runs.map(() => el("td"));
-    const box = el("input", { type: "checkbox", checked: on, onchange: () => toggle(panel, signal, box.checked) });
+    const box = el("input", { type: "checkbox", checked: on, "data-signal": signal.name, onchange: () => toggle(panel, signal, box.checked) });
     const line = el("i", { style: `border-color: var(--${panel.colours[signal.name]})` });
     const row = el("tr", {}, el("th", { scope: "row", title: signal.name },
       el("label", {}, box, line, el("span", {}, signal.help))), ...cells);
@@ -316,13 +327,14 @@ const Plots = (() => {
       `${panel.given.title} over time; the values at the cursor are in the table that follows` });
     const legend = el("div");
     const table = tableOf(panel);
+    panel.usual = new Set(panel.shown.map((signal) => signal.name));
     if (panel.shown.length) legend.append(table);
     panel.shown.forEach((signal) => rowOf(panel, table, signal, true));
     if (panel.extras) legend.append(extrasOf(panel));
     const unit = el("span", { class: "unit" }, ` [${panel.unit}]`);
-    const head = panel.more ? [] : [el("h3", {}, panel.given.title, unit)];
-    panel.box = el("section", { class: panel.more ? "panel more" : "panel" }, ...head,
-      ...(panel.given.note ? [el("p", {}, panel.given.note)] : []), el("div", { class: "beside" }, panel.chart, legend));
+    const note = el("span", { class: "note" }, panel.given.note ? ` ${panel.given.note}` : "");
+    const head = panel.more ? [] : [el("h3", {}, panel.given.title, unit, note, Exports.ofPanel(panel, state))];
+    panel.box = el("section", { class: panel.more ? "panel more" : "panel" }, ...head, el("div", { class: "beside" }, panel.chart, legend));
     place.append(panel.box);
   }
 
@@ -345,9 +357,10 @@ const Plots = (() => {
     for (const plot of allPlots()) plot.redraw(false);
   }
 
-  function fit(width) {
+  function fit(paper) {
     for (const plot of allPlots()) {
-      plot.setSize({ width: width ?? Math.max(200, plot.root.parentNode.clientWidth), height: plot.height });
+      const width = paper ? (plot.root.closest("#plots") ? HALF : PAPER) : Math.max(200, plot.root.parentNode.clientWidth);
+      plot.setSize({ width, height: plot.height });
     }
   }
 
@@ -368,7 +381,7 @@ const Plots = (() => {
         if (!panel.plot) draw(panel);
         paintPanel(panel);
       }
-      fit(PAPER);
+      fit(true);
       repaint();
     });
     addEventListener("afterprint", () => { fit(); repaint(); });
@@ -394,16 +407,32 @@ const Plots = (() => {
     return events.map((event, i) => ({ ...event, number: i + 1 }));
   }
 
-  function show(data, found, place) {
+  /* Switch a signal on or off by its name; nothing happens where there is none. */
+  function choose(name, on) {
+    for (const panel of state.panels) {
+      const signal = [...panel.shown, ...panel.extras ?? []].find((one) => one.name === name);
+      if (!signal) continue;
+      if (!panel.plot) draw(panel);
+      const fold = panel.box.querySelector("details");
+      if (panel.extras?.includes(signal)) fold.open = true;
+      toggle(panel, signal, on);
+      const boxOf = () => panel.box.querySelector(`input[data-signal="${CSS.escape(name)}"]`);
+      if (boxOf()) boxOf().checked = on; else setTimeout(() => { if (boxOf()) boxOf().checked = on; });
+      return;
+    }
+  }
+
+  function show(data, found, place, hero) {
     Object.assign(state, found, { view: { min: found.time[0], max: found.time[found.time.length - 1] } });
     state.events = happened();
     Controls.build(state, place);
     state.panels = sorted(data.panel);
-    for (const panel of state.panels) build(panel, place);
+    for (const panel of state.panels) build(panel, hero && panel.given.first ? hero : place);
     watch();
     schedule();
+    Address.apply(state);
     setTimeout(drawRest, 200);
   }
 
-  return { show, state, moveTo, zoom, zoomBy, pan, nearest, phaseAt, axis, NAMES };
+  return { show, choose, state, moveTo, zoom, zoomBy, pan, nearest, phaseAt, axis, NAMES };
 })();

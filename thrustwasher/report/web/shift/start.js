@@ -6,7 +6,9 @@
   const place = (id) => document.getElementById(id);
   document.documentElement.classList.add("js"); // before plots ask how wide they are
   try {
-    Plots.show(data, found, place("plots"));
+    Plots.show(data, found, place("plots"), place("hero"));
+    Figures.show(data.runs[0].figures);
+    if (place("copy-figures")) Exports.ofFigures(place("copy-figures"));
     if (place("flow")) Flow.start(data, Plots.state, place("flow"));
     if (place("slip")) Slip.start(Plots.state, place("slip"));
     Live.start(data.washer);

@@ -8,7 +8,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-__version__ = "0.17.0"
+__version__ = "0.18.0"
 
 if TYPE_CHECKING:
     from .calibration.estimates import Calibration

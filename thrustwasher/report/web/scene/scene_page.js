@@ -17,6 +17,7 @@ const EDITORS = [["Pressures on the pistons", ["clutch_pressure", "brake_pressur
 const VIEWS = [
   { title: "Speeds", label: "speed", unit: "rad/s", lines: [["engine", "transmission.engine_speed", 1], ["engine in first gear", "transmission.output_speed", ABOUT.ratio], ["output", "transmission.output_speed", 1]], band: "transmission.engine_speed" },
   { title: "Torques of the packs", label: "torque", unit: "N.m", lines: [["clutch", "transmission.clutch_reaction", 1], ["brake", "transmission.brake_reaction", 1]] },
+  { title: "Heat of the packs", label: "heat", unit: "J", lines: [["clutch", "transmission.clutch_heat", 1], ["brake", "transmission.brake_heat", 1]] },
   ABOUT.reach === null
     ? { title: "Acceleration of the output", label: "acceleration", unit: "rad/s2", lines: [["output", "transmission.output_acceleration", 1]], band: "transmission.output_acceleration" }
     : { title: "Acceleration of the vehicle", label: "acceleration", unit: "m/s2", lines: [["vehicle", "transmission.output_acceleration", ABOUT.reach]], band: "transmission.output_acceleration" },
@@ -138,7 +139,7 @@ function received(result, profiles, washers, which) {
 function failed(problem) {
   document.body.classList.add("stale");
   if (shown_) shown_.problem = problem;
-  say(`${strange}No run with these profiles: ${problem}. ${shown_ ? "The figures are those of the last run." : "There are no figures yet."}`, "problem");
+  say(`${strange}No run with these profiles: ${problem}. The figures are those of ${shown_ ? "the last run" : "the scene as it is"}.`, "problem");
   document.documentElement.dataset.run = `failed ${(count += 1)}`;
 }
 

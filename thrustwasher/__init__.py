@@ -14,8 +14,9 @@ if TYPE_CHECKING:
     from .calibration.estimates import Calibration
     from .calibration.model_fit import ModelCalibration, calibrate
     from .clutch.engagement import Engagement, engage_clutch
-    from .clutch.solve import ClutchParams, boundary_friction, solve_clutch
+    from .clutch.solve import ClutchParams, ClutchResult, boundary_friction, solve_clutch
     from .errors import BranchError, ParameterError, SolveError, Status
+    from .fmu.build import build_fmu
     from .gearmesh.solve import GearMeshParams, GearMeshResult, solve_gearmesh
     from .ladder.choose import Choice, choose
     from .losses.solve import LossesParams, LossesResult, solve_losses
@@ -25,6 +26,10 @@ if TYPE_CHECKING:
     from .optimisation.whole_search import optimise
     from .scatter.propagate import propagate
     from .scatter.result import ScatterResult
+    from .scatter.whole_shift import run_shift
+    from .shift.scene.scene_file import load_scene
+    from .shift.several_shifts import SequenceResult
+    from .shift.shift_result import ShiftResult
     from .sweep.run_sweep import run_sweep
     from .sweep.sweep_table import SweepTable
     from .washer.follow import WasherCourse, follow_washer
@@ -37,8 +42,9 @@ _HOMES = {
     "model.part_file": ("PartFile", "load_part"),
     "optimisation.whole_search": ("optimise",),
     "optimisation.optimum": ("Optimum",),
+    "fmu.build": ("build_fmu",),
     "errors": ("BranchError", "ParameterError", "SolveError", "Status"),
-    "clutch.solve": ("ClutchParams", "boundary_friction", "solve_clutch"),
+    "clutch.solve": ("ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"),
     "calibration.estimates": ("Calibration",),
     "calibration.model_fit": ("ModelCalibration", "calibrate"),
     "gearmesh.solve": ("GearMeshParams", "GearMeshResult", "solve_gearmesh"),
@@ -46,6 +52,10 @@ _HOMES = {
     "losses.solve": ("LossesParams", "LossesResult", "solve_losses"),
     "scatter.propagate": ("propagate",),
     "scatter.result": ("ScatterResult",),
+    "scatter.whole_shift": ("run_shift",),
+    "shift.scene.scene_file": ("load_scene",),
+    "shift.several_shifts": ("SequenceResult",),
+    "shift.shift_result": ("ShiftResult",),
     "washer.solve": ("WasherParams", "WasherResult", "solve_washer"),
     "washer.follow": ("WasherCourse", "follow_washer"),
     "washer.load_curve": ("LoadCurve", "load_curve"),
@@ -58,6 +68,7 @@ __all__ = [
     "Calibration",
     "Choice",
     "ClutchParams",
+    "ClutchResult",
     "Engagement",
     "GearMeshParams",
     "GearMeshResult",
@@ -70,6 +81,8 @@ __all__ = [
     "ParameterError",
     "PartFile",
     "ScatterResult",
+    "SequenceResult",
+    "ShiftResult",
     "SolveError",
     "Status",
     "SweepTable",
@@ -77,15 +90,18 @@ __all__ = [
     "WasherParams",
     "WasherResult",
     "boundary_friction",
+    "build_fmu",
     "calibrate",
     "choose",
     "engage_clutch",
     "follow_washer",
     "load_curve",
     "load_part",
+    "load_scene",
     "oil",
     "optimise",
     "propagate",
+    "run_shift",
     "run_sweep",
     "solve_clutch",
     "solve_gearmesh",

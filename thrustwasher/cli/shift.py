@@ -3,8 +3,7 @@
 import argparse
 import sys
 import time
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from collections.abc import Callable
 from pathlib import Path
 from threading import Thread
 from typing import Any
@@ -88,13 +87,15 @@ def run(arguments: argparse.Namespace) -> int:
         return _two_shifts.run(arguments, _scene, _simulate)
     if arguments.no_report and arguments.out != FOLDER:
         raise ParameterError(f"--out {arguments.out}: --no-report writes no files; leave one out")
+    from ..shift.from_fmus import check_rungs
+
     scene = _scene(arguments, arguments.scene or "planetary")
     if scene.sequence:
         if arguments.ssp:
             raise ParameterError(
                 "--ssp: a package has one shift, allowed: a scene without [sequence]"
             )
-        _check_rungs(scene, "with [sequence]")
+        check_rungs(scene)
     if arguments.ssp:
         return _export(arguments, scene)
     for option in ("fmi", "platforms"):
@@ -170,25 +171,13 @@ def _scatter_runs(arguments: argparse.Namespace, scene: Any) -> int | None:
     text = arguments.scatter
     if text is None:
         return None
-    from ..scatter.design import LEAST_RUNS, MOST_RUNS, rounded_runs
-    from ..shift.scene.places import scene_scatter
+    from ..scatter.whole_shift import runs_of_study
 
-    number = int(text) if text.strip().isdecimal() and len(text) < 12 else 0
-    if not LEAST_RUNS <= number <= MOST_RUNS:
-        raise ParameterError(
-            f"--scatter {text}: allowed: a whole number {LEAST_RUNS} .. {MOST_RUNS}, best a power "
-            "of two"
-        )
-    if scene.sequence:
-        raise ParameterError("--scatter: of one shift, allowed: a scene without [sequence]")
+    number = int(text) if text.strip().isdecimal() and len(text) < 12 else text
+    runs = runs_of_study(f"--scatter {text}", scene, number)
     if arguments.fmu == "python":
         raise ParameterError("--fmu python: a study runs native FMUs; leave out it or --scatter")
-    if not scene_scatter(scene).sources:
-        raise ParameterError(
-            f"--scatter: nothing scatters in {scene.name}: add [scatter] to the scene, such as "
-            'oil_temperature = "3 K"'
-        )
-    return rounded_runs(number)
+    return runs
 
 
 def _study(scene: Any, runs: int, folder: Path | None, write: Callable[[Any], None]) -> Any:
@@ -247,34 +236,19 @@ def _scene(arguments: argparse.Namespace, name: str) -> Any:
 
 def _simulate(arguments: argparse.Namespace, scene: Any) -> Any:
     """Return the result of a scene of one shift or several."""
-    from ..shift import run_auto, run_sequence
+    from ..shift.from_fmus import run_scene
 
     progress = _output.time_left(scene.name) if sys.stderr.isatty() else None
-    guard = not arguments.no_guard
     # Ctrl-C in an import may leave another one waiting for ever: what draws is loaded by a thread
     # that nobody waits for then, and this one imports nothing of it before that has ended.
     loader = Thread(target=_load_report, daemon=True)
-    result: Any
     with _fmu_instances(scene, arguments.fmu) as make:
         if not arguments.no_report:
             loader.start()
-        if scene.sequence:
-            instances = {name: make(name, part) for name, part in scene.parts.items()}
-            result = run_sequence(scene, instances, guard=guard, progress=progress)
-        else:
-            result = run_auto(scene, make, guard=guard, progress=progress)
+        result = run_scene(scene, make, guard=not arguments.no_guard, progress=progress)
     if loader.is_alive():
         loader.join()
     return result
-
-
-def _check_rungs(scene: Any, where: str) -> None:
-    """Refuse a fidelity that is still to be chosen."""
-    if open_ := [name for name, part in scene.parts.items() if part.tolerance]:
-        raise ParameterError(
-            f"fidelity of {', '.join(open_)} = auto, allowed {where}: a rung by "
-            "name (--fidelity PART=RUNG)"
-        )
 
 
 def _say(result: Any, folder: Path | None) -> None:
@@ -312,21 +286,11 @@ def _say_sequence(result: Any) -> None:
         print(text)
 
 
-@contextmanager
-def _fmu_instances(scene: Any, target: str) -> Iterator[Callable[[str, Any], Any]]:
+def _fmu_instances(scene: Any, target: str) -> Any:
     """Give a function that makes an FMU instance of a part; all are freed in the end."""
-    from ..fmu.fmu_cache import fmu_paths
-    from ..fmu.stepper import Instance
+    from ..shift.from_fmus import fmu_instances
 
-    names = {part.spec.name for part in scene.parts.values()}
-    paths = fmu_paths(names, target)
-    with ExitStack() as alive:
-
-        def make(name: str, part: Any) -> Any:
-            path = paths[part.spec.name]
-            return alive.enter_context(Instance(path, parameters=part.parameters(), name=name))
-
-        yield make
+    return fmu_instances(scene, target)
 
 
 def _write(result: Any, study: Any, folder: Path) -> None:
@@ -362,12 +326,14 @@ def _write_live(result: Any, folder: Path) -> str:
 
 def _export(arguments: argparse.Namespace, scene: Any) -> int:
     """Write the shift as a package that any SSP master runs, and name it."""
+    from ..shift.from_fmus import check_rungs
+
     _options.refuse_unused(arguments, "--ssp", ("no_report", "no_guard", "scatter"), out=FOLDER)
     if arguments.fmu == "python":
         raise ParameterError("--fmu python: a package holds native FMUs only; leave it out")
     if arguments.master not in (None, "jacobi"):
         raise ParameterError(f"--master {arguments.master}: a package is for a parallel master")
-    _check_rungs(scene, "in a package")
+    check_rungs(scene, "in a package")
     if arguments.fmi not in (None, *FMI):
         raise ParameterError(f"--fmi {arguments.fmi}: allowed: {' or '.join(FMI)}")
     target = _output.check_file(arguments.ssp, "--ssp", (".ssp",))

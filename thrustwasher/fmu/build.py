@@ -4,6 +4,7 @@ import os
 from collections.abc import Mapping, Sequence
 from importlib import metadata
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from ..errors import ParameterError, SolveError, within
@@ -26,10 +27,11 @@ from .shell.platform_libraries import chosen, library_identity, native_contents
 
 TARGETS = ("native", "python")
 DESCRIPTION = "modelDescription.xml"  # lies in front
+FMU = ".fmu"
 
 
 def build(
-    models: Sequence[str] | None = None,
+    models: Sequence[str | PartFile] | None = None,
     *,
     target: str = "native",
     fmi: int = 2,
@@ -48,7 +50,7 @@ def build(
     Parameters
     ----------
     models : FMU names such as "ThrustWasher" (or keys such as "washer"), part files such as
-        "mine.toml", whose FMU has the part's name; None: all models
+        "mine.toml" or parts, whose FMU has the part's name; None: all models
     target : "native": compiled, needs nothing where it runs; "python": needs this package of the
         same version there
     fmi : 2 or 3; the Python target knows 2 only
@@ -96,22 +98,68 @@ def build(
     return paths
 
 
+def build_fmu(
+    part_or_model: str | Path | PartFile,
+    out: str | Path = "dist",
+    *,
+    fmi: int = 2,
+    platforms: Sequence[str] | None = None,
+) -> Path:
+    """Build the native FMU of a part or a model and return its path.
+
+    Parameters
+    ----------
+    part_or_model : the path of a part file, a part (``load_part``), or a model: its key ("washer")
+        or the name of its FMU ("ThrustWasher")
+    out : the FMU's own path, if it ends in ".fmu", else the folder that it goes to under its name
+    fmi, platforms : as in ``thrustwasher.fmu.build.build``, which builds several at once
+
+    Raises
+    ------
+    ParameterError : an argument is not allowed, or a part is not sound; the message names it
+    EnvironmentProblem : as of ``build``
+
+    Examples
+    --------
+    >>> build_fmu("washer", "fmus")  # doctest: +SKIP
+    PosixPath('fmus/ThrustWasher.fmu')
+    """
+    if not isinstance(part_or_model, str | Path | PartFile):
+        raise ParameterError(
+            f"part_or_model = {part_or_model!r}, allowed: the path of a part file, a part, or the "
+            "key or name of a model"
+        )
+    if not isinstance(out, str | Path) or not str(out).strip():
+        raise ParameterError(f"out = {out!r}, allowed: the path of an FMU (.fmu), or a folder")
+    word = str(part_or_model) if isinstance(part_or_model, Path) else part_or_model
+    target = Path(out)
+    is_file = target.suffix == FMU
+    if target.is_dir() if is_file else target.is_file():
+        raise ParameterError(f"out = {str(out)!r}, allowed: the path of an FMU (.fmu), or a folder")
+    with TemporaryDirectory() as draft:
+        (built,) = build([word], fmi=fmi, platforms=platforms, out=Path(draft))
+        path = target if is_file else target / built.name
+        write(path, built.read_bytes())
+    return path
+
+
 def asked(
-    models: Sequence[str] | None, oil: str | Mapping[str, Any] | None = None
+    models: Sequence[str | PartFile] | None, oil: str | Mapping[str, Any] | None = None
 ) -> list[ModelSpec]:
-    """Return the models to build; a part file stands for its model with the part's values."""
+    """Return the models to build; a part stands for its model with its own values."""
     own = None if oil is None else sheet_oil("oil", oil)
     found: dict[str, tuple[str, ModelSpec]] = {}
     known = {spec.name: spec for spec in all_specs(helpers=True)}
-    for word in models or [spec.key for spec in all_specs()]:
-        if is_part(word):
-            spec = _part(word, own)
+    for given in models or [spec.key for spec in all_specs()]:
+        word, of_part = (given, is_part(given)) if isinstance(given, str) else (given.name, True)
+        if of_part:
+            spec = _part(given, own)
         else:
             spec = find_spec(word)
             if own and (models or own.parameters_for(spec)):
                 spec = _oiled(find_part(spec.key), own).model
         other, _ = found.setdefault(spec.name, (word, spec))
-        if other != word and (is_part(word) or is_part(other)):
+        if other != word and (of_part or is_part(other)):
             raise ParameterError(f"{other} and {word} have one name, {spec.name}; change it in one")
         if known.get(spec.name, spec).key != spec.key:
             raise ParameterError(
@@ -129,9 +177,9 @@ def _oiled(part: PartFile, oil: Oil | None) -> PartFile:
     return part.with_oil(oil)
 
 
-def _part(path: str, oil: Oil | None) -> ModelSpec:
-    part = _oiled(load_part(path), oil)
-    with within(f"part {path!r}"):
+def _part(given: str | PartFile, oil: Oil | None) -> ModelSpec:
+    part = _oiled(load_part(given) if isinstance(given, str) else given, oil)
+    with within(f"part {given if isinstance(given, str) else part.name!r}"):
         check_together(part.spec, part.params, part.fidelity)
     return part.model
 

@@ -15,5 +15,6 @@
 ``scene_target``         a gear shift that is studied
 ``study``                the runs: in batches, on many cores or a cluster, resumable
 ``target``               what a study needs to know of what it studies
+``whole_shift``          a gear shift from its scene alone, with a study if one is asked for
 =======================  ======================================================================
 """

@@ -3,6 +3,7 @@
 ==================  =========================================================================
 ``checks``          what a finished run is worth: its step, its steady washers
 ``cosim``           connected instances and the loop over communication points
+``from_fmus``       a scene run from FMUs of its own: built, freed
 ``key_figures``     what is read from the signals of a finished shift
 ``masters``         co-simulation masters
 ``oscillation``     oscillations, and whether they are the driveline's or the master's

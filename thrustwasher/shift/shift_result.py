@@ -72,6 +72,8 @@ class ShiftResult:
     chatter: Sequence[Chatter] = ()  # Packs whose slip flips from step to step
     selection: Selection | None = None
     """Why the rungs are what they are, if they were chosen for a tolerance."""
+    scatter: Any = field(default=None, repr=False)
+    """What the scatter of the scene makes of it (``ScatterResult``), if that was studied."""
 
     @property
     def steps(self) -> int:

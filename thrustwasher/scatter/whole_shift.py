@@ -1,0 +1,110 @@
+"""A gear shift from its scene alone: the run, and the study of its scatter if one is asked for."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from ..errors import ParameterError
+from ..shift.from_fmus import check_rungs, fmu_instances, run_scene
+from ..shift.scene.places import scene_scatter
+from ..shift.scene.scene import Scene, with_fidelities
+from ..shift.scene.scene_file import load_scene
+from ..shift.several_shifts import SequenceResult
+from ..shift.shift_result import ShiftResult
+from .design import LEAST_RUNS, MOST_RUNS, rounded_runs
+from .propagate import propagate
+
+Rungs = str | Sequence[str] | Mapping[str, str]
+
+
+def run_shift(
+    scene: str | Path | Scene = "planetary",
+    *,
+    step: float | None = None,
+    fidelity: Rungs | None = None,
+    scatter: int | None = None,
+) -> ShiftResult | SequenceResult:
+    """Return the result of a gear shift; its FMUs are built if they are missing, and freed.
+
+    The run is checked as ``thrustwasher shift`` checks it; ``thrustwasher.shift.run_shift`` takes
+    instances of one's own.
+
+    Parameters
+    ----------
+    scene : name of a built-in scene, path of a scene file, or what ``load_scene`` returns
+    step : communication step [s]; None: the scene's
+    fidelity : a rung for all parts that have it ("field", "auto:0.01"), or {part: rung}; None: the
+        scene's
+    scatter : also study how sure the figures are, by so many base points, 8 .. 131072, rounded up
+        to a power of two; it takes that many runs for each source of scatter too
+
+    Returns
+    -------
+    ShiftResult, with the study as ``scatter`` if one was asked for; SequenceResult of a scene with
+    a sequence of shifts
+
+    Raises
+    ------
+    ParameterError : an argument is not allowed; the message names it
+    SolveError : the run stopped; the message names part and time
+
+    Examples
+    --------
+    >>> result = run_shift("msl")  # doctest: +SKIP
+    >>> f"{result.figures['lock_time']:.2f} s"  # doctest: +SKIP
+    '2.11 s'
+    """
+    asked = _scene(scene).with_options(step=_seconds(step))
+    asked = with_fidelities(asked, _rungs(fidelity))
+    runs = None if scatter is None else runs_of_study(f"scatter = {scatter!r}", asked, scatter)
+    if asked.sequence:
+        check_rungs(asked)
+    with fmu_instances(asked) as make:
+        result = run_scene(asked, make)
+    if runs is None or isinstance(result, SequenceResult):
+        return result
+    return replace(result, scatter=propagate(result.scene, runs=runs))
+
+
+def runs_of_study(where: str, scene: Scene, runs: Any) -> int:
+    """Return the base points of a scene's study; ParameterError, from ``where``, if none can be."""
+    if scene.sequence:
+        raise ParameterError(f"{where}: of one shift, allowed: a scene without [sequence]")
+    try:
+        number = rounded_runs(runs)
+    except ParameterError:
+        raise ParameterError(
+            f"{where}: allowed: a whole number {LEAST_RUNS} .. {MOST_RUNS}, best a power of two"
+        ) from None
+    if not scene_scatter(scene).sources:
+        raise ParameterError(
+            f"{where}: nothing scatters in {scene.name}: add [scatter] to the scene, such as "
+            'oil_temperature = "3 K"'
+        )
+    return number
+
+
+def _scene(given: Any) -> Scene:
+    if isinstance(given, Scene):
+        return given
+    if isinstance(given, str | Path):
+        return load_scene(given)
+    raise ParameterError(f"scene = {given!r}, allowed: a name, the path of a file or a Scene")
+
+
+def _seconds(step: Any) -> float | None:
+    if step is None or (isinstance(step, int | float) and not isinstance(step, bool)):
+        return step
+    raise ParameterError(f"step = {step!r}, allowed: a number of seconds")
+
+
+def _rungs(fidelity: Any) -> list[str]:
+    if fidelity is None:
+        return []
+    found = [fidelity] if isinstance(fidelity, str) else fidelity
+    if isinstance(fidelity, Mapping):
+        found = [f"{part}={rung}" for part, rung in fidelity.items()]
+    if not isinstance(found, Sequence) or not all(isinstance(text, str) for text in found):
+        raise ParameterError(f"fidelity = {fidelity!r}, allowed: a rung, or {{part: rung}}")
+    return list(found)

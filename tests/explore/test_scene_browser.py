@@ -91,6 +91,23 @@ def test_the_saved_scene_gives_the_lock_up_of_the_page(opened, tmp_path):
     assert path.read_text("utf-8").splitlines()[1] == 'base = "planetary"'
 
 
+def test_a_scene_of_ones_own_is_saved_whole(browser, tmp_path):
+    path, page = tmp_path / "own.toml", tmp_path / "page.html"
+    lines = ['base = "planetary"', 'oil_temperature = "60 degC"', "[pressure.clutch]"]
+    path.write_text("\n".join([*lines, "scale = 1.05", "[sump]", ""]), "utf-8")
+    page.write_text(scene_page(load_scene(str(path))), "utf-8")
+    seen = Seen(browser, page.as_uri(), ready=RUN)
+    seen.page.click("#save")
+    assert "shift --scene own-tuned.toml" in seen.page.text_content("#as-command")
+    saved = tmp_path / "tuned.toml"
+    saved.write_text(seen.page.text_content("#as-scene"), "utf-8")
+    seen.close()
+    one, other = load_scene(str(path)), load_scene(str(saved))
+    assert {n: p.params for n, p in other.parts.items()} == {
+        n: p.params for n, p in one.parts.items()
+    }
+
+
 def test_a_is_pinned_and_comes_back_with_the_address(opened):
     page = opened(address=f"#{KISS}")
     page.click("#pin")

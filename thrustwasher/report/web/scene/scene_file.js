@@ -14,7 +14,7 @@ function tomlValue(value) {
 /** Return the lines of a table, its own values first. */
 function tomlLines(table, above = "") {
   const entries = Object.entries(table), inner = entries.filter(([, v]) => isTable(v)), own = entries.filter(([, v]) => !isTable(v));
-  const head = own.length && above ? ["", `[${above}]`] : [];
+  const head = (own.length || !inner.length) && above ? ["", `[${above}]`] : []; // an empty table says that a part is there
   return [...head, ...own.map(([k, v]) => `${plainKey(k)} = ${tomlValue(v)}`), ...inner.flatMap(([k, v]) => tomlLines(v, above ? `${above}.${plainKey(k)}` : plainKey(k)))];
 }
 

@@ -208,7 +208,7 @@ function drawEditor(editor) {
 
 function drawEditors() {
   byId("as-scene").textContent = sceneText(now);
-  byId("as-command").textContent = `thrustwasher shift ${ABOUT.name}-tuned.toml`;
+  byId("as-command").textContent = `thrustwasher shift --scene ${ABOUT.name}-tuned.toml`;
   for (const editor of Object.values(editors)) {
     drawEditor(editor);
     editor.tables.forEach((table) => table.show());
@@ -431,7 +431,7 @@ function built() {
   byId("save").addEventListener("click", () => {
     const link = el("a", { href: URL.createObjectURL(new Blob([sceneText(now)], { type: "application/toml" })), download: `${ABOUT.name}-tuned.toml` });
     link.click();
-    say(`Saved as ${ABOUT.name}-tuned.toml; run it with: thrustwasher shift ${ABOUT.name}-tuned.toml`);
+    say(`Saved as ${ABOUT.name}-tuned.toml; run it with: thrustwasher shift --scene ${ABOUT.name}-tuned.toml`);
   });
   document.querySelector(".tools").append(Units.choice());
   const scatter = byId("scatter"), sources = ABOUT.scatter?.sources ?? [];

@@ -8,6 +8,8 @@
 
 from typing import TYPE_CHECKING, Any
 
+from .shown import drawn_by as _drawn_by
+
 __version__ = "0.18.0"
 
 if TYPE_CHECKING:
@@ -119,6 +121,16 @@ def __getattr__(name: str) -> Any:
     value = getattr(import_module(f".{_HOME_OF[name]}", __name__), name)
     globals()[name] = value
     return value
+
+
+def _picture(result: Any) -> Any:
+    """Return the picture of a result: what draws lies above results."""
+    from .report.result_plots import figure_of
+
+    return figure_of(result)
+
+
+_drawn_by(_picture)
 
 
 def __dir__() -> list[str]:

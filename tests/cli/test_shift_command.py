@@ -43,7 +43,7 @@ def test_json_is_one_object_and_nothing_else(msl):
 def test_folder_holds_page_picture_and_series(msl):
     folder, _ = msl
     names = {path.name for path in folder.iterdir()}
-    assert names == {"report.html", "shift.csv", "overview.png"}
+    assert names == {"report.html", "try.html", "shift.csv", "overview.png"}
     with (folder / "shift.csv").open(encoding="utf-8") as stream:
         rows = csv.reader(stream)
         head = next(rows)
@@ -168,7 +168,8 @@ def test_a_study_stands_in_report_and_json_and_beside_them(scattered, tmp_path, 
     band = study["figures"]["lock_time"]
     assert band["quantiles"]["0.05"] < told["lock_time"] < band["quantiles"]["0.95"]
     report = (tmp_path / "r" / "report.html").read_text(encoding="utf-8")
-    (link,) = re.findall(r'href="([^"#]+)"', report)
+    live, link = re.findall(r'href="([^"#]+)"', report)
+    assert live == "try.html"
     page = (tmp_path / "r" / link).read_text(encoding="utf-8")
     assert 'id="how-sure"' in report and "clutch: friction scale" in page
     links = re.findall(r'href="([^"#]+)"', page)

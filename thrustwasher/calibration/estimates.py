@@ -7,8 +7,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..model.registry import find_model
+from ..model.solutions import words_at_points
 from ..numerics.jit import Array
+from ..shown import Card, Line, Tabled, Words
 from ..storage.digests import finite
+from ..units import format_quantity
 from .identifiability import Information, counted
 from .measured import Measured, output_units
 
@@ -47,7 +51,7 @@ class Series(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Calibration:
+class Calibration(Tabled):
     """Parameters fitted to measurements; ``str()`` of it is a summary in sentences."""
 
     params: Any  # the part with the fitted values, to solve and for FMUs
@@ -89,7 +93,7 @@ class Calibration:
         """Return the root mean square of an output's residuals [SI]."""
         return float(np.sqrt(np.mean(self.residuals_of(output) ** 2)))
 
-    def as_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, Any]:
         """Return what JSON can hold; None stands for infinite and for not known."""
         points = self.points
         same = ("degrees_of_freedom", "reduced_chi_square", "confidence")
@@ -112,6 +116,25 @@ class Calibration:
             "computed": self.fitted.tolist(),
             "error": None if points.error is None else points.error.tolist(),
         }
+
+    def _columns(self) -> dict[str, Any]:
+        """Return a row for each measured value, with the inputs of its point."""
+        points = self.points
+        inputs = {s.name: points.input(s.name) for s in points.plan.spec.inputs}
+        values = {"measured": points.value, "computed": self.fitted, "residual": self.residuals}
+        error = {} if points.error is None else {"error": points.error}
+        return {"point": points.row + 1, **inputs, "output": list(points.output), **values, **error}
+
+    def _words(self) -> dict[str, Words]:
+        return words_at_points(find_model(self.points.plan.spec.key))
+
+    def _card(self) -> Card:
+        known, notes = self._words(), [_size_text(self), *self.remarks()]
+        lines = [
+            Line(e.name, _value_text(e), _told(e, known.get(e.name, Words()).help, self.confidence))
+            for e in (*self.estimates, *self.derived)
+        ]
+        return Card(f"calibration of the {self.points.plan.spec.key}", lines, notes, self.warnings)
 
     def shown(self) -> list[Series]:
         """Return the outputs to be drawn over their inputs."""
@@ -167,6 +190,20 @@ def _size_text(found: Calibration) -> str:
         f"{rung}, rms residual {', '.join(rms)}, "
         f"{counted(found.degrees_of_freedom, 'degree')} of freedom."
     )
+
+
+def _value_text(e: Estimate) -> str:
+    """Return value and standard error in the unit that a person reads."""
+    value = format_quantity(e.value, e.unit, digits=5)
+    error = format_quantity(e.standard_error, e.unit, difference=True, digits=2)
+    return f"{value} ± {error}" if e.identifiable else value
+
+
+def _told(e: Estimate, help: str, confidence: float) -> str:
+    """Return what an estimate is, and what the points tell of it."""
+    unit = "" if e.unit == "1" else f" {e.unit}"
+    interval = f"{100 * confidence:g} %: {spanned(*e.interval)}{unit}" if e.identifiable else ""
+    return "; ".join(filter(None, (help, interval, e.reason)))
 
 
 def spanned(low: float, high: float) -> str:

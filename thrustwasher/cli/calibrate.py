@@ -113,7 +113,7 @@ def run(arguments: argparse.Namespace) -> int:
                 "data": data,
                 "fit": [e.name for e in found.estimates],
                 **columns,
-                **found.as_dict(),
+                **found.to_dict(),
                 "parameters": _output.parameters_of(found.params),
                 **_options.oil_record(part),
                 "wall_time": wall_time,

@@ -71,7 +71,7 @@ def _say(found: Any, told: dict[str, Any]) -> None:
     print(f"{rig.texts['title']}: {rig.output} of {rig.target_name}")
     print(f"  {rig.texts['source']}")
     for i in range(len(rig.measured)):
-        given = ", ".join(f"{n} {_output.shown(float(x[i]), '1')}" for n, x in rig.inputs.items())
+        given = ", ".join(f"{n} {_output.text_of(float(x[i]), '1')}" for n, x in rig.inputs.items())
         mark = "" if found.judged[i] else " (used for the fit)"
         print(
             f"  {given}: measured {rig.measured[i]:.4g}, computed {found.computed[i]:.4g} "

@@ -65,7 +65,7 @@ def run(arguments: argparse.Namespace) -> int:
         targets.draw(engagement_figure(result))
     if arguments.json:
         inputs = {**times, **{n: point[n] for n in ("oil_temperature", "drum_speed")}}
-        _output.print_json({**result.as_dict(), **inputs, **at.record(warnings, wall_time)})
+        _output.print_json({**result.to_dict(), **inputs, **at.record(warnings, wall_time)})
         return 0
     if at.there.taken:
         print(at.there.taken)

@@ -134,12 +134,9 @@ def say(found: "Optimum", folder: Path) -> None:
     print(f"{found.target}: {wanted}, {found.tries} designs tried in {found.wall_time:.3g} s")
     for note in found.notes:
         print(f"  {note}")
-    every = {
-        f.name: f for f in (*(g.figure for g in problem.goals), *(x.figure for x in problem.limits))
-    }
-    for name, figure in every.items():
-        before = shown(figure, found.start[name]) if found.start[name] == found.start[name] else "-"
-        print(f"  {name} = {shown(figure, found.best.figures[name])} (was {before})")
+    for figure in problem.every_figure:
+        value = shown(figure, found.best.figures[figure.name])
+        print(f"  {figure.name} = {value} (was {found.before(figure)})")
     for v in problem.variables:
         print(f"  {v.name} = {v.place.text(found.best.values[v.name])}")
     if found.front:

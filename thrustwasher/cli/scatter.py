@@ -85,7 +85,7 @@ def run(arguments: argparse.Namespace) -> int:
         )
     _output.warn(result.warnings)
     if arguments.json:
-        _output.print_json({**result.as_dict(), "out": str(folder)})
+        _output.print_json({**result.to_dict(), "out": str(folder)})
     else:
         say(result, folder)
     return 0

@@ -4,6 +4,7 @@ import argparse
 import sys
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from threading import Thread
 from typing import Any
@@ -123,8 +124,8 @@ def run(arguments: argparse.Namespace) -> int:
     slopes = _slopes(result.scene, arguments.sensitivities)
     if arguments.json:
         total, out = time.perf_counter() - began, str(folder) if folder else None
-        told = {**result.as_dict(), "total_time": total, "out": out}
-        told |= {"scatter": study.as_dict()} if study else {}
+        whole = replace(result, scatter=study) if study else result
+        told = {**whole.to_dict(), "total_time": total, "out": out}
         _output.print_json(told | ({"sensitivities": slopes} if slopes else {}))
         return 0
     if scene.sequence:
@@ -277,11 +278,7 @@ def _say_sequence(result: Any) -> None:
     print(
         f"{result.scene.title}: {len(result.shifts)} shifts, oil {oil[0]:.1f} .. {oil[-1]:.1f} degC"
     )
-    for shift, (_, way) in zip(result.shifts, result.scene.sequence.shifts, strict=True):
-        lock, heat = (shift.figures[name] for name in ("lock_after_ramp_start", "slip_energy"))
-        locked = "does not lock" if lock is None else f"locks {lock:.3f} s after the shift began"
-        begin = f"{shift.scene.shift_start:8.1f} s"
-        print(f"  {begin}  {way:4}  {locked}, {1e-3 * (heat or 0.0):.2f} kJ")
+    _output.print_rows(result.lines())
     for text in [*summary.step_words(result), *result.messages]:
         print(text)
 

@@ -1,16 +1,16 @@
 """An engagement of the wet clutch over time: load and slip are given, torque and heat follow."""
 
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import SolveError, Status
-from ..model.advice import Plain
 from ..model.parameters import check_number
 from ..model.prepare import course_of, rising
 from ..model.rungs import rung_named
+from ..model.solutions import OverTime
 from ..model.spec import REGIMES
 from ..numerics.jit import Array
 from .kernels import advance as clutch_advance
@@ -57,9 +57,10 @@ def outputs_over(
 
 
 @dataclass(frozen=True, slots=True)
-class Engagement(Plain):
+class Engagement(OverTime):
     """An engagement at the points ``time``; arrays of one length, SI units."""
 
+    _model: ClassVar[str] = SPEC.key
     time: Array
     load: Array
     speed: Array

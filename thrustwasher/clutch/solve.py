@@ -13,7 +13,8 @@ from ..model.parameters import check_number
 from ..model.prepare import filled
 from ..model.record import Sweep
 from ..model.rungs import rung_named
-from ..model.sensitivity import Asked, Differentiable
+from ..model.sensitivity import Differentiable
+from ..model.solutions import Asked
 from ..model.spec import REGIMES, ModelSpec
 from ..numerics.jit import Array
 from ..units import format_quantity

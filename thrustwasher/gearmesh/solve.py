@@ -14,7 +14,8 @@ from ..model.parameters import check_number
 from ..model.prepare import filled
 from ..model.record import Sweep
 from ..model.rungs import rung_named
-from ..model.sensitivity import Asked, Differentiable
+from ..model.sensitivity import Differentiable
+from ..model.solutions import Asked
 from .kernels import layout as k
 from .kernels.constants import derive
 from .kernels.load_sharing import shared

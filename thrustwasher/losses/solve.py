@@ -11,7 +11,8 @@ from ..model.idle import idle_warnings
 from ..model.parameters import check_number
 from ..model.prepare import filled
 from ..model.rungs import rung_named
-from ..model.sensitivity import Asked, Differentiable
+from ..model.sensitivity import Differentiable
+from ..model.solutions import Asked
 from .kernels import step as k
 from .parameters import SPEC, LossesParams
 

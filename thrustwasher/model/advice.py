@@ -1,31 +1,11 @@
 """What a reader of a result must not miss: warnings, one line each, the same everywhere."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import fields
 from typing import Any
 
 from ..errors import Status
 from ..units import format_quantity
 from .spec import ModelSpec, Signal
-
-
-class Plain:
-    """Base of results that are dataclasses: shown as a dictionary."""
-
-    __slots__ = ()
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return the fields as a dictionary that JSON can hold; status by name."""
-        names = [f.name for f in fields(self) if not f.name.startswith("_")]  # type: ignore[arg-type]
-        return {name: _plain(getattr(self, name)) for name in names}
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, Status):
-        return value.name
-    if isinstance(value, list):
-        return [_plain(item) for item in value]
-    return value.tolist() if hasattr(value, "tolist") else value
 
 
 def quantity_text(signal: Signal, value: float) -> str:

@@ -5,8 +5,8 @@ from dataclasses import fields, replace
 from typing import Any, NamedTuple
 
 from ..errors import ParameterError, suggestion
-from .advice import Plain
 from .registry import find_model
+from .solutions import Asked, AtPoint
 
 STEP = 1e-6  # of a value, or of its range where it is 0
 Table = dict[str, dict[str, float]]  # output -> parameter -> derivative
@@ -22,19 +22,15 @@ class Varied(NamedTuple):
     points: Points
 
 
-class Asked(NamedTuple):
-    """What a result was asked for with."""
-
-    model: str
-    params: Any
-    point: Mapping[str, Any]  # rung included
-
-
-class Differentiable(Plain):
+class Differentiable(AtPoint):
     """Base of results that follow from their parameters quickly and to rounding."""
 
     __slots__ = ()
     _asked: Asked
+
+    def asked_with(self) -> Asked:
+        """Return model, parameters and point that it is the solution of."""
+        return self._asked
 
     def sensitivities(
         self,

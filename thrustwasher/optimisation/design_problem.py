@@ -68,10 +68,15 @@ class Problem:
     """Share of the draws of the scatter in which the limits are to be met."""
 
     @property
+    def every_figure(self) -> tuple[Figure, ...]:
+        """The figures that count, each once."""
+        every = (*(g.figure for g in self.goals), *(x.figure for x in self.limits))
+        return tuple({figure.name: figure for figure in every}.values())
+
+    @property
     def figures(self) -> tuple[str, ...]:
         """Names of the figures that count."""
-        every = [*(g.figure.name for g in self.goals), *(x.figure.name for x in self.limits)]
-        return tuple(dict.fromkeys(every))
+        return tuple(figure.name for figure in self.every_figure)
 
     @property
     def names(self) -> tuple[str, ...]:

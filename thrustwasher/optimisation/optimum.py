@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 
 from ..scatter.result import write_columns
-from .design_problem import Problem
+from ..scatter.target import Figure
+from ..shown import Card, Line, Tabled, Words
+from .design_problem import Problem, shown
 from .designs import Array
 from .robustness import Share
 
@@ -26,7 +28,7 @@ class Design:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Optimum:
+class Optimum(Tabled):
     """The best design, or a front of designs of which none beats another in both figures."""
 
     target: str
@@ -67,6 +69,42 @@ class Optimum:
             "warnings": list(self.warnings),
             "notes": list(self.notes),
         }
+
+    def _columns(self) -> dict[str, Any]:
+        """Return a row for each design of the front, without a front the best one."""
+        designs = self.front or (self.best,)
+        values = {n: np.array([d.values[n] for d in designs]) for n in self.problem.names}
+        return values | {n: np.array([d.figures[n] for d in designs]) for n in self.best.figures}
+
+    def _words(self) -> dict[str, Words]:
+        places = (v.place for v in self.problem.variables)
+        known = {p.name: Words(p.unit, "", p.relative) for p in places}
+        figures = self.problem.every_figure
+        return known | {f.name: Words(f.unit, f.help, f.relative) for f in figures}
+
+    def _card(self) -> Card:
+        problem, best = self.problem, self.best
+        lines = [
+            Line(f.name, shown(f, best.figures[f.name]), f"{f.help}; was {self.before(f)}")
+            for f in problem.every_figure
+        ]
+        lines += [
+            Line(v.name, v.place.text(best.values[v.name]), f"was {v.place.text(v.place.nominal)}")
+            for v in problem.variables
+        ]
+        wanted = " and ".join(g.words for g in problem.goals)
+        title = f"{self.target}: {', '.join((wanted, *(x.words for x in problem.limits)))}"
+        notes = [*self.notes]
+        if self.front:
+            notes.insert(0, f"The best of both of a front of {len(self.front)} designs.")
+        if self.binding:
+            notes.append(f"What binds: {', '.join(self.binding)}.")
+        return Card(title, lines, notes, self.warnings)
+
+    def before(self, figure: Figure) -> str:
+        """Return a figure of the design as it was, as a person reads it; "-": it had none."""
+        value = self.start[figure.name]
+        return shown(figure, value) if math.isfinite(value) else "-"
 
     def write(self, folder: Path) -> None:
         """Write the file of the best design, and of a front all files and their table."""

@@ -1,6 +1,7 @@
 """One look for all plots: colours told apart by everyone, units on axes, no global state."""
 
 from collections.abc import Callable, Sequence
+from io import BytesIO
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -14,6 +15,7 @@ _RC = rc_params_from_file(Path(__file__).with_name("house.mplstyle"), use_defaul
 LEFT, RIGHT, TOP, BOTTOM = 0.8, 0.2, 0.36, 0.56  # inch around the panels
 ACROSS, DOWN = 0.82, 0.86  # inch between panels
 SECOND = 0.44  # inch of a second axis at the top: ticks and label
+SHOWN_DPI = 80  # of a figure in a notebook
 LINE, EDGE = 0.21, 0.08  # inch of a line above or below the panels; kept free at the very edge
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -21,6 +23,15 @@ F = TypeVar("F", bound=Callable[..., Any])
 def styled(function: F) -> F:
     """Run a drawing function in the house style; settings outside stay as they were."""
     return rc_context(_RC)(function)
+
+
+class Picture(Figure):
+    """A figure that a notebook shows by itself, without pyplot."""
+
+    def _repr_png_(self) -> bytes:
+        stream = BytesIO()
+        self.savefig(stream, format="png", dpi=SHOWN_DPI)
+        return stream.getvalue()
 
 
 def new_figure(
@@ -45,7 +56,7 @@ def new_figure(
     left, right, top : margins beside and above the panels [inch]
     across : between panels [inch]
     """
-    figure = Figure(figsize=(width, height))
+    figure = Picture(figsize=(width, height))
     bottom = BOTTOM + LINE * foot
     top += LINE * head
     wide = (width - left - right - (columns - 1) * across) / columns
@@ -76,7 +87,7 @@ def legend_below(
 
 def time_figure(height: float, rows: int) -> tuple[Figure, list[Axes]]:
     """Return panels over one time axis; all such figures have it at the same place of the page."""
-    figure = Figure(figsize=(10.4, height))
+    figure = Picture(figsize=(10.4, height))
     axes = figure.subplots(rows, 1, sharex=True)
     figure.subplots_adjust(
         left=0.085, right=0.735, top=1.0 - 0.32 / height, bottom=0.5 / height, hspace=0.22

@@ -16,6 +16,7 @@ from ..shift.scene.places import scene_places, scene_scatter
 from ..shift.scene.scene import Scene
 from ..shift.scene.variation import varied_scene
 from ..shift.steady_points import efficiency_map
+from ..shown import Card, Line, Tabled
 from .rig_file import Rig
 
 Array = NDArray[np.float64]
@@ -25,7 +26,7 @@ READ = 0.05  # of a measured value: what it counts for in a fit without reading 
 
 
 @dataclass(frozen=True)
-class Comparison:
+class Comparison(Tabled):
     """Measured and computed values of a rig; ``judged``: those that the figures are of."""
 
     rig: Rig
@@ -54,6 +55,23 @@ class Comparison:
         """Interval of 95 % of the share inside (Clopper & Pearson)."""
         found = binomtest(int(self.inside.sum()), len(self.inside)).proportion_ci()
         return float(found.low), float(found.high)
+
+    def _columns(self) -> dict[str, Any]:
+        own = ("computed", "low", "high", "judged")
+        found = {"measured": self.rig.measured, **{name: getattr(self, name) for name in own}}
+        return {**self.rig.inputs, **found}
+
+    def _card(self) -> Card:
+        found = self.to_dict()
+        lines = [
+            Line("points", str(found["points"]), "that are judged"),
+            Line("mean_deviation", f"{100.0 * found['mean_deviation']:.3g} %", "without its sign"),
+            Line("largest_deviation", f"{100.0 * found['largest_deviation']:.3g} %", ""),
+            Line("inside_band", f"{100.0 * found['inside_band']:.3g} %", "of the points"),
+            *(Line(name, f"{value:.4g}", "fitted") for name, value in self.fitted.items()),
+        ]
+        title = f"{self.rig.name}: computed beside {len(self.computed)} measured values"
+        return Card(title, lines, (), self.warnings)
 
     def to_dict(self) -> dict[str, Any]:
         """Return what JSON has of it."""

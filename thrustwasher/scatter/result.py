@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import EnvironmentProblem
+from ..shown import Card, Line, Tabled, Words, text_of
 from ..storage.digests import finite
 from ..storage.whole_files import whole_folder
 from .estimates import LEVELS
@@ -96,7 +96,7 @@ class Series:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ScatterResult:
+class ScatterResult(Tabled):
     """What a study found."""
 
     target: str
@@ -132,7 +132,7 @@ class ScatterResult:
     """What is to be known of errors, and no warning."""
     wall_time: float = 0.0
 
-    def as_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, Any]:
         """Return what JSON has of it, without sample and series; None for what is not finite."""
         figures = {}
         for name, band in self.figures.items():
@@ -176,15 +176,30 @@ class ScatterResult:
                 write_columns(draft / SERIES, columns, units)
 
     def frame(self) -> Any:
-        """Return the sample as a ``pandas.DataFrame``; EnvironmentProblem without pandas."""
-        try:
-            import pandas
-        except ImportError:
-            raise EnvironmentProblem(
-                "a DataFrame needs the package pandas: pip install pandas; sample has the same "
-                "columns, and write(folder) writes them as CSV"
-            ) from None
-        return pandas.DataFrame(self.sample)
+        """Return ``to_pandas()``, under the name it had first."""
+        return self.to_pandas()
+
+    def _columns(self) -> dict[str, Any]:
+        """Return the sample: a row for each base run."""
+        return self.sample
+
+    def _words(self) -> dict[str, Words]:
+        known = {name: Words(unit) for name, unit in self.units.items()}
+        return known | {n: Words(b.unit, b.help, b.relative) for n, b in self.figures.items()}
+
+    def _card(self) -> Card:
+        from ..report.scatter.decides import most_words, shares
+        from ..report.scatter.words import band_words, probability, varies
+
+        lines = []
+        for name, b in self.figures.items():
+            words = [b.help, f"nominal {text_of(b.nominal, b.unit, b.relative, 4)}"]
+            words += [most_words(shares(self, name))] if varies(b) else []
+            lines.append(Line(name, band_words(b), "; ".join(filter(None, words))))
+        for name, p in self.probabilities.items():
+            lines.append(Line(name, probability(p, self.runs), "probability, 95 % confidence"))
+        title = f"{self.target}: 5 .. 95 % of {self.runs} runs, {len(self.sources)} inputs scatter"
+        return Card(title, lines, self.notes, self.warnings)
 
     def _figure_rows(self) -> Iterable[list[Any]]:
         decided = list(dict.fromkeys(n for b in self.figures.values() for n in b.indices))

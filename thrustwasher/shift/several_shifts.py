@@ -11,7 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError, SolveError
+from ..shown import Card, Line, Tabled, Words, plain_dict
 from ..transmission.parameters import course_points
+from ..units import format_quantity
 from .checks.guard import REMEDY, followed_washers
 from .checks.step_error import by_step, parts_of_a_step, recorded_parts
 from .checks.step_estimate import StepError, excess
@@ -34,7 +36,7 @@ DRIVEN = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class SequenceResult:
+class SequenceResult(Tabled):
     """A finished sequence: the signals of the whole run, and each shift as a result of its own.
 
     In the shifts, heats and works count from the start of their window.
@@ -72,10 +74,10 @@ class SequenceResult:
         constant = np.full(len(self.time), self.scene.oil_temperature)
         return self.signals.get("sump.temperature", constant)
 
-    def as_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, Any]:
         """Return every number but the time series, as JSON can hold it."""
         oil = self.oil_temperature
-        return {
+        found: dict[str, Any] = {
             "scene": self.scene.name,
             "title": self.scene.title,
             "steps": len(self.time) - 1,
@@ -96,10 +98,36 @@ class SequenceResult:
             "wall_time": self.wall_time,
             "messages": self.messages,
         }
+        return plain_dict(found)
+
+    def _columns(self) -> dict[str, Any]:
+        return self._whole()._columns()
+
+    def _words(self) -> dict[str, Words]:
+        return self._whole()._words()
+
+    def _whole(self) -> ShiftResult:
+        """Return the first shift with the signals of the whole run."""
+        return replace(self.shifts[0], time=self.time, signals=self.signals)
+
+    def lines(self) -> list[Line]:
+        """Return a line per shift: when it begins, when it locks, the heat of its pack."""
+        found, ways = [], (way for _, way in sequence_of(self.scene).shifts)
+        for i, (shift, way) in enumerate(zip(self.shifts, ways, strict=True), 1):
+            lock, heat = (shift.figures[name] for name in ("lock_after_ramp_start", "slip_energy"))
+            locked = "does not lock" if lock is None else f"locks {lock:.3f} s after it began"
+            begin = f"{i} {way} at {shift.scene.shift_start:.1f} s"
+            found.append(Line(begin, f"{1e-3 * (heat or 0.0):.2f} kJ", locked))
+        return found
+
+    def _card(self) -> Card:
+        oil = " .. ".join(format_quantity(float(t), "K") for t in self.oil_temperature[[0, -1]])
+        title = f"{self.scene.title}: {len(self.shifts)} shifts, oil {oil}"
+        return Card(title, self.lines(), self.messages, self.warnings)
 
     def write_csv(self, path: str | Path) -> None:
         """Write time and all signals, as ``ShiftResult.write_csv`` does."""
-        replace(self.shifts[0], time=self.time, signals=self.signals).write_csv(path)
+        self._whole().write_csv(path)
 
 
 def run_sequence(

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError
+from ..shown import Card, Line, Tabled, Words, plain_dict
 from ..storage.whole_files import whole_file
 from .checks.step_estimate import StepError
 from .key_figures.events_and_phases import Event, Phase
@@ -38,7 +39,7 @@ class Cost:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ShiftResult:
+class ShiftResult(Tabled):
     """A finished shift, SI units.
 
     ``signals`` maps "part.variable" to the values at ``time``, for every input and output: an
@@ -117,10 +118,10 @@ class ShiftResult:
         }
         return {name: found.get(name, "1") for name in self.signals}
 
-    def as_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, Any]:
         """Return every number but the time series, as JSON can hold it."""
         scene = self.scene
-        return {
+        found: dict[str, Any] = {
             "scene": scene.name,
             **{name: getattr(scene, name) for name in ("title", "start_time", "stop_time")},
             "step": self.step,
@@ -148,7 +149,32 @@ class ShiftResult:
             "chatter": [c.as_dict() for c in self.chatter],
             "selection": self.selection.as_dict() if self.selection else None,
             "parameters": {name: part.parameters() for name, part in scene.parts.items()},
+            **({"scatter": self.scatter.to_dict()} if self.scatter else {}),
         }
+        return plain_dict(found)
+
+    def _columns(self) -> dict[str, Any]:
+        return {"time": self.time, **self.signals}
+
+    def _words(self) -> dict[str, Words]:
+        return {"time": Words("s"), **{name: Words(unit) for name, unit in self.units().items()}}
+
+    def _card(self) -> Card:
+        from ..report.shift.shift_record import record_of
+        from ..report.shift.summary import sentences
+
+        record = record_of(self, self.scatter)
+        lines = []
+        for figure in record.key_figures:
+            if figure.value is None:
+                continue
+            at = [] if figure.time is None else [f"at {figure.time:.4g} s"]
+            if (band := record.band(figure.name)) is not None:
+                ends = (figure.words(band.quantiles[level], 4) for level in (0.05, 0.95))
+                at.append(f"5 .. 95 %: {' .. '.join(ends)}")
+            words = "; ".join((figure.text, *at))
+            lines.append(Line(figure.name, figure.words(figure.value, 4), words))
+        return Card(self.scene.title, lines, list(sentences(record)), self.warnings)
 
     def write_csv(self, path: str | Path) -> None:
         """Write time and all signals with a value; heads carry the units. All of it or nothing."""

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ..errors import ParameterError, SolveError
 from ..fmu.running.direct_instance import DirectInstance
 from ..model.parameters import check_number
+from ..shown import Card, Tabled, Words, column_lines, plain_dict
 from .cosim.system import System
 from .run import connected, remarks
 from .scene.connections import PACKS
@@ -41,7 +42,7 @@ SWEEPS, SETTLED = 60, 1e-13  # of the torque
 
 
 @dataclass(frozen=True)
-class EfficiencyMap:
+class EfficiencyMap(Tabled):
     """Columns over all points, torque fastest; NaN where a figure has no meaning."""
 
     scene: Scene
@@ -56,6 +57,21 @@ class EfficiencyMap:
             "there is no [losses] in this scene: oil pump, churning, bearings, seals are left out"
         )
         return (*self.scene.warnings, *remarks(self.scene), *(() if lost else (none,)))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return scene, gear, columns, balance and warnings as JSON can hold them, SI units."""
+        own = {name: getattr(self, name) for name in ("gear", "columns", "balance", "warnings")}
+        return plain_dict({"scene": self.scene.name, **own})
+
+    def _columns(self) -> Mapping[str, NDArray[np.float64]]:
+        return self.columns
+
+    def _words(self) -> dict[str, Words]:
+        return {name: Words(*words) for name, words in COLUMNS.items()}
+
+    def _card(self) -> Card:
+        title = f"{self.scene.title}, {self.gear} gear, {len(self.columns['torque'])} points"
+        return Card(title, column_lines(self.columns, self._words()), (), self.warnings)
 
     @property
     def balance(self) -> float:

@@ -12,7 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FIRST_FAILURE, EnvironmentProblem, ParameterError, Status
+from ..model.registry import find_model
+from ..model.solutions import without_idle, words_at_points
 from ..model.spec import REGIMES
+from ..shown import Card, Tabled, Words, column_lines, plain_dict
 from ..storage.journal import Block
 from ..storage.whole_files import whole_file
 from .row_doubts import Beyond, beyond, joined
@@ -25,7 +28,7 @@ CHUNK = 50_000  # rows made into text, or a group of Parquet, at a time
 
 
 @dataclass(frozen=True)
-class SweepTable:
+class SweepTable(Tabled):
     """All points of a sweep: inputs, varied parameters, outputs, status; SI units.
 
     ``columns`` maps names to arrays in the order of the rows, as ``pandas.DataFrame`` takes them.
@@ -33,7 +36,7 @@ class SweepTable:
     Outputs of a failed point are NaN, "" or False; ``status`` says why;
     ``counts`` are the points by status. ``taken`` names the inputs that were not given and where
     their values come from, ``outside`` those of which points lie outside the part's box,
-    ``beyond`` the outputs that are beyond what a part bears.
+    ``beyond`` the outputs that are beyond what a part bears, ``model`` the key of what was solved.
     """
 
     columns: dict[str, NDArray[Any]]
@@ -44,6 +47,7 @@ class SweepTable:
     taken: str = ""
     outside: tuple[str, ...] = ()
     beyond: tuple[Beyond, ...] = ()
+    model: str = ""
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -66,6 +70,36 @@ class SweepTable:
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.columns[name]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return columns with their units and what is to be known of them, as JSON can hold it."""
+        own = ("model", "fidelity", "choice", "columns", "units", "counts", "taken", "warnings")
+        return plain_dict({name: getattr(self, name) for name in own})
+
+    def outputs(self) -> list[str]:
+        """Return the names of the model's outputs among the columns."""
+        known = {s.name for s in find_model(self.model).spec.outputs} if self.model else set()
+        return [name for name in self.columns if name in known]
+
+    def axes(self) -> list[str]:
+        """Return the names of the other columns that are not the same in all rows."""
+        own = {*self.outputs(), "status"}
+        others = [name for name in self.columns if name not in own]
+        return [name for name in others if len(set(self.columns[name].tolist())) > 1]
+
+    def _columns(self) -> dict[str, NDArray[Any]]:
+        return self.columns
+
+    def _words(self) -> dict[str, Words]:
+        known = words_at_points(find_model(self.model)) if self.model else {}
+        return {n: known.get(n, Words())._replace(unit=unit) for n, unit in self.units.items()}
+
+    def _card(self) -> Card:
+        title = f"{len(self)} points of {self.model or 'a sweep'}, {self.fidelity}"
+        notes = [f"{text[0].upper()}{text[1:]}." for text in (self.choice, self.taken) if text]
+        spec = find_model(self.model).spec if self.model else None
+        columns = without_idle(spec, self.columns) if spec else self.columns
+        return Card(title, column_lines(columns, self._words()), notes, self.warnings)
 
     @property
     def failures(self) -> dict[str, int]:
@@ -96,7 +130,7 @@ def make_table(
         names[status] = status.name
     columns["status"] = names[flags[:, -1]]
     counts = {Status(i).name: n for i, n in enumerate(np.bincount(flags[:, -1]).tolist()) if n}
-    more = plan.taken, plan.warnings, tuple(beyond(plan.spec, columns))
+    more = plan.taken, plan.warnings, tuple(beyond(plan.spec, columns)), plan.spec.key
     return SweepTable(columns, units, plan.fidelity, plan.choice, counts, *more)
 
 

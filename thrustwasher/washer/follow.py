@@ -3,15 +3,16 @@
 import math
 from dataclasses import dataclass
 from dataclasses import fields as dataclass_fields
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SolveError, Status
-from ..model.advice import Plain
 from ..model.parameters import as_numbers
 from ..model.prepare import course_of, rising
 from ..model.rungs import gone_rung, rung_named
+from ..model.solutions import OverTime
 from ..numerics.jit import Array
 from .kernel_arguments import constants
 from .kernels import layout as L
@@ -27,9 +28,10 @@ MOST_PIECES = 32
 
 
 @dataclass(frozen=True, slots=True)
-class WasherCourse(Plain):
+class WasherCourse(OverTime):
     """A washer at the points ``time``; arrays of one length, SI units."""
 
+    _model: ClassVar[str] = SPEC.key
     time: Array
     load: Array
     speed: Array

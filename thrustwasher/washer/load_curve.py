@@ -4,15 +4,20 @@ import dataclasses
 import re
 from collections.abc import Collection
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ..errors import ParameterError, SolveError, Status
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
+from ..model.registry import find_model
 from ..model.rungs import gone_rung, rung_named
+from ..model.solutions import scalars, words_at_points
 from ..numerics.jit import Array
 from ..numerics.status import OK
+from ..shown import Card, Line, Tabled, Words, column_lines, plain
+from ..units import format_quantity
 from .kernel_arguments import constants, work_array
 from .kernels import continuation
 from .kernels import layout as L
@@ -41,7 +46,7 @@ SHALLOW = 3e-4  # relative drop of the load that makes a fold; solve_washer uses
 
 
 @dataclass(frozen=True, slots=True)
-class LoadCurve:
+class LoadCurve(Tabled):
     """All solutions at fixed speed, tilt and oil temperature."""
 
     points: list[WasherResult]  # ordered by falling film_thickness
@@ -64,6 +69,45 @@ class LoadCurve:
         n = len(points)
         lines = (f"{len(texts)} of {n} points, {texts[0]}" for texts in found.values())
         return (*self.told, *idle, *lines)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return points, folds, parameters and warnings as JSON can hold them, SI units."""
+        return {
+            "points": [scalars(p) for p in self.points],
+            "folds": [plain(fold) for fold in self.folds],
+            "params": plain(self.points[0].params),
+            "warnings": list(self.warnings),
+        }
+
+    def _columns(self) -> dict[str, Any]:
+        """Return what differs from point to point: the load, then results in words and numbers."""
+        signals, known = {s.name for s in SPEC.inputs}, self._words()
+        own = [f.name for f in dataclasses.fields(WasherResult) if f.name not in signals]
+        names = ("load", *(name for name in own if name in known), "distress")
+        return {name: np.array([getattr(p, name) for p in self.points]) for name in names}
+
+    def _words(self) -> dict[str, Words]:
+        return words_at_points(find_model(SPEC.key))
+
+    def _card(self) -> Card:
+        folds = (
+            Line(
+                f.kind,
+                format_quantity(f.load, "N"),
+                f"load of this fold; film ratio {f.film_ratio:.3g}, "
+                f"{format_quantity(f.temperature, 'K')}, "
+                f"{format_quantity(f.friction_torque, 'N.m')}",
+            )
+            for f in self.folds
+        )
+        lines = [*folds, *column_lines(self._columns(), self._words())]
+        at = ", ".join(
+            f"{s.name} {format_quantity(getattr(self.points[0], s.name), s.unit)}"
+            for s in SPEC.inputs
+            if s.name != "load" and not s.optional
+        )
+        none = () if self.folds else ("No fold: one solution at every load here.",)
+        return Card(f"load curve of the washer at {at}", lines, none, self.warnings)
 
     def fold_sensitivities(
         self, parameters: Collection[str] | None = None

@@ -11,6 +11,7 @@ from ..ladder.error_table import error_estimate
 from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
 from ..model.sensitivity import chosen_unit
+from ..model.solutions import Asked, AtPoint
 from ..numerics.jit import Array
 from .kernel_arguments import NO_MESH, constants, work_array
 from .kernels import layout as L
@@ -84,7 +85,7 @@ class Fold:
 
 
 @dataclass(frozen=True, slots=True)
-class WasherResult:
+class WasherResult(AtPoint):
     """Steady state of the washer at one operating point; SI units."""
 
     friction_torque: float  # [N m] sign of speed
@@ -142,6 +143,11 @@ class WasherResult:
     def point(self) -> Inputs:
         """Return the inputs: load, speed, tilt, oil temperature, that of the gear's far face."""
         return (self.load, self.speed, self.tilt, self.oil_temperature, self.far_face_temperature)
+
+    def asked_with(self) -> Asked:
+        """Return model, parameters and point that it is the solution of."""
+        point = dict(zip(INPUTS, self.point(), strict=True))
+        return Asked(SPEC.key, self.params, {**point, "fidelity": self.fidelity})
 
     def sensitivities(
         self,

@@ -4,52 +4,25 @@ import argparse
 import csv
 import dataclasses
 import json
-import math
 import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from enum import Enum
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ...errors import ParameterError, Status
+from ...errors import ParameterError
+from ...model.solutions import scalars as scalars
+from ...model.solutions import status_words as status_words
 from ...model.spec import ModelSpec
+from ...shown import plain
+from ...shown import text_of as text_of
 from ...storage.whole_files import new_folder
 from ...storage.whole_files import whole_file as whole_file
 from ...storage.whole_files import whole_folder as whole_folder
-from ...units import format_quantity
 
 PLOT_SUFFIXES = (".png", ".svg", ".pdf")
 LINES = 16  # of a table on the screen
-
-
-def scalars(result: Any) -> dict[str, Any]:
-    """Return the public fields and properties of a result that JSON can hold, in their order."""
-    shown = [n for n, what in vars(type(result)).items() if isinstance(what, property)]
-    names = [f.name for f in dataclasses.fields(result) if not f.name.startswith("_")]
-    plain = ((name, as_json(getattr(result, name))) for name in (*names, *shown))
-    return {name: value for name, value in plain if value is not NotImplemented}
-
-
-def as_json(value: Any) -> Any:
-    """Return ``value`` as JSON types; NotImplemented for arrays and other large things."""
-    if isinstance(value, Enum):
-        return value.name
-    if value is None or isinstance(value, bool | str):
-        return value
-    if isinstance(value, int):
-        return int(value)
-    if isinstance(value, float):
-        return float(value) if math.isfinite(value) else None
-    if isinstance(value, tuple | list):
-        items = [as_json(item) for item in value]
-        return NotImplemented if NotImplemented in items else items
-    if isinstance(value, Mapping):
-        return {str(key): as_json(item) for key, item in value.items()}
-    if hasattr(value, "item") and getattr(value, "ndim", None) == 0:
-        return as_json(value.item())
-    return NotImplemented
 
 
 def parameters_of(params: Any) -> dict[str, Any]:
@@ -64,10 +37,10 @@ def print_json(record: Mapping[str, Any]) -> None:
 
 def json_text(record: Mapping[str, Any]) -> str:
     """Return one JSON object as text."""
-    return json.dumps(as_json(record), indent=2, allow_nan=False)
+    return json.dumps(plain(record), indent=2, allow_nan=False)
 
 
-def print_rows(rows: list[tuple[str, str, str]]) -> None:
+def print_rows(rows: Sequence[tuple[str, str, str]]) -> None:
     """Write name, value and meaning in columns."""
     names, values = max(len(row[0]) for row in rows), max(len(row[1]) for row in rows)
     for name, value, meaning in rows:
@@ -79,22 +52,8 @@ def print_table(units: Mapping[str, str], series: Mapping[str, Sequence[Any]], w
     print("".join(f"{name:>{width}}" for name in units))
     last = len(next(iter(series.values()))) - 1
     for i in sorted({round(last * k / (LINES - 1)) for k in range(LINES)}):
-        cells = (shown(series[name][i], unit) for name, unit in units.items())
+        cells = (text_of(series[name][i], unit) for name, unit in units.items())
         print("".join(f"{cell:>{width}}" for cell in cells))
-
-
-def shown(value: Any, unit: str, difference: bool = False, digits: int = 5) -> str:
-    """Return a value as a person reads it."""
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, int | float):
-        return format_quantity(float(value), unit, difference=difference, digits=digits)
-    return value.name if isinstance(value, Enum) else str(value)
-
-
-def status_words(status: Status) -> str:
-    """Return the advice of a sound solution, else the name of what is to be known of it."""
-    return status.advice if status is Status.OK else status.name
 
 
 def columns(spec: ModelSpec, names: Iterable[str], **others: str) -> dict[str, str]:
@@ -178,7 +137,7 @@ class Targets(NamedTuple):
             table = csv.writer(stream)
             table.writerow(f"{name} [{unit}]" if unit else name for name, unit in units.items())
             for row in zip(*(series[name] for name in units), strict=True):
-                table.writerow(map(as_json, row))
+                table.writerow(map(plain, row))
         note(f"wrote {self.out}")
 
     def draw(self, figure: Any) -> None:

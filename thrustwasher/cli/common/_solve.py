@@ -1,12 +1,12 @@
 """The command that solves a model at one operating point, made from the model's record."""
 
 import argparse
-import math
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from ...model.record import Command, Model, Variants
+from ...model.solutions import closing, heading, point_lines
 from ...model.spec import ModelSpec
 from . import _options, _output
 
@@ -77,21 +77,15 @@ class PointCommand:
                 given["change_per_percent"] = changes
             _output.print_json({**found, **point, **given, **at.record(warnings, wall_time)})
             return 0
-        where = ", ".join(
-            f"{s.name} {_output.shown(point[s.name], s.unit)}{_turns(point[s.name], s.unit)}"
-            for s in inputs
-            if not s.optional or point[s.name] != s.start
-        )
-        print(f"{model.title.format(**parameters)} at {where}")
+        print(heading(self._model, params, point))
         if at.there.taken:
             print(f"  {at.there.taken}")
-        _output.print_rows(list(_rows(model, spec, result, point)))
+        _output.print_rows(list(point_lines(self._model, result, point)))
         if model.variants:
             _print_variants(model.variants, result, parameters)
         if changes is not None:
             print_ranking(_ranking(model, spec, result, changes))
-        words = f"{_output.status_words(result.status)}; {model.closing.format(**found)}"
-        print(f"  {words}, {wall_time:.3g} s")
+        print(f"  {closing(self._model, result)}, {wall_time:.3g} s")
         return 0
 
 
@@ -121,16 +115,11 @@ def print_ranking(ranking: Ranking) -> None:
     wide = max(map(len, ranking), default=0)
     for output, (unit, row) in ranking.items():
         words = (
-            f"{name} {_output.shown(change, unit, True, digits=3)}"
+            f"{name} {_output.text_of(change, unit, True, digits=3)}"
             for name, change in list(row.items())[:SHOWN]
             if change
         )
         print(f"  {output:<{wide}}  {', '.join(words)}")
-
-
-def _turns(value: float, unit: str) -> str:
-    """Return a speed in rpm as well; "" for other quantities."""
-    return f" ({value * 30.0 / math.pi:.5g} rpm)" if unit == "rad/s" and value else ""
 
 
 def _rung(asked: str, spec: ModelSpec, params: Any, point: Mapping[str, float]) -> str:
@@ -148,23 +137,6 @@ def _rung(asked: str, spec: ModelSpec, params: Any, point: Mapping[str, float]) 
     return choice.fidelity
 
 
-def _rows(
-    model: Command, spec: ModelSpec, result: Any, point: Mapping[str, float]
-) -> Iterator[tuple[str, str, str]]:
-    """Yield name, value and meaning of all results there are, but inputs and those of variants."""
-    known = {s.name: (s.unit, s.help, s.relative) for s in spec.outputs}
-    known |= {name: (*words, False) for name, words in model.extra.items()}
-    apart = model.variants.fields() if model.variants else set()
-    for name, value in _output.scalars(result).items():
-        if name not in known or name in point or name in apart:
-            continue
-        unit, words, difference = known[name]
-        if value is not None:
-            yield name, _output.shown(getattr(result, name), unit, difference), words
-        elif name in model.extra:
-            yield name, "not known", words
-
-
 def _print_variants(variants: Variants, result: Any, parameters: Mapping[str, Any]) -> None:
     """Print the results of all variants, a row for each; nothing where there are none."""
     names = (variants.name(column, row) for column in variants.columns for row in variants.rows)
@@ -174,7 +146,7 @@ def _print_variants(variants: Variants, result: Any, parameters: Mapping[str, An
     print("  " + variants.head.ljust(22) + "".join(head.rjust(len(head) + 3) for head in heads))
     for words in variants.rows:
         cells = (
-            _output.shown(getattr(result, variants.name(column, words)), "1").rjust(len(head) + 3)
+            _output.text_of(getattr(result, variants.name(column, words)), "1").rjust(len(head) + 3)
             for column, head in variants.columns.items()
         )
         mine = parameters[variants.head] == words.replace(" ", "")

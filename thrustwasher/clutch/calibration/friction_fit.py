@@ -70,10 +70,10 @@ class LawCalibration(Calibration):
             half[speed < self._problem.speed.min()] = np.inf
         return self._problem.curve_over(values, speed), half
 
-    def as_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, Any]:
         """Return what JSON can hold; None stands for infinite and for not known."""
         return {
-            **super().as_dict(),
+            **super().to_dict(),
             "rms": self.rms,
             "friction_data": self.params.friction_data,
             "end_frictions": [finite(asdict(e)) for e in self.derived],

@@ -6,6 +6,7 @@
 ``gearmesh_plot``  temperatures of a gear mesh and what they leave of its endurance
 ``losses_plot``    driveline losses: heat by source over speed and oil temperature
 ``ranking_plot``   what one percent more of each parameter changes
+``sweep_plot``     the first outputs of a sweep over what is varied
 ``washer_plots``   the washer: maps over its annulus, its load curve with the folds
 =================  =====================================================================
 """

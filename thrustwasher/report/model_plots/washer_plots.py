@@ -174,6 +174,47 @@ def curve_figure(curve: Any, point: Mapping[str, float]) -> Figure:
     return figure
 
 
+@styled
+def course_figure(course: Any) -> Figure:
+    """Return torque, film, temperatures and what drives them over time.
+
+    Parameters
+    ----------
+    course : a washer's course, arrays over ``time`` [s]
+    """
+    figure, (torque, film, heat, inputs) = new_figure(10.4, 7.2, 2, 2, head=1)
+    t, across = course.time, "time [s]"
+    torque.plot(t, course.friction_torque, color=RED)
+    label(torque, "Friction torque", across, "friction torque [N·m]")
+
+    film.plot(t, np.maximum(course.film_ratio, LOWEST_RATIO), color=BLUE)
+    film.set_yscale("log")
+    for ratio, words in ((3.0, "3: mixed"), (1.0, "1: boundary")):
+        film.axhline(ratio, color=ORANGE, lw=0.9, ls=":")
+        note_at_right(film, words, ratio, va="bottom", color=GREY)
+    decade_ticks(film)
+    label(film, "Film", across, f"film ratio h/{SIGMA} [1]")
+
+    for name, words, colour, dashes in (
+        ("temperature_max", "hottest spot", ORANGE, "--"),
+        ("temperature", "mean of carrier and washer", RED, "-"),
+        ("oil_temperature", "oil", BLUE, ":"),
+    ):
+        heat.plot(t, getattr(course, name) - CELSIUS, color=colour, ls=dashes, label=words)
+    label(heat, "Temperatures", across, "temperature [°C]")
+    heat.legend()
+
+    inputs.plot(t, course.load, color=GREY, label="load [N]")
+    inputs.plot(t, course.speed, color=BLACK, ls="--", label="speed [rad/s]")
+    inputs.plot(t, 1e5 * course.tilt, color=ORANGE, ls=":", label="tilt [0.01 mrad]")
+    label(inputs, "What drives it", across, "load, speed, tilt")
+    inputs.legend()
+    lost = t[course.distress]
+    words = f"film lost at {format_quantity(float(lost[0]), 's')}" if len(lost) else "film kept"
+    heading(figure, f"Thrust washer over time, {course.thermal_mode.replace('_', ' ')}: {words}")
+    return figure
+
+
 def _say_what_is_cut(axis: Axes, points: Sequence[Any]) -> None:
     """Say how far the film ratio goes on below the axis, if it does."""
     lowest = min(p.film_ratio for p in points)

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from .. import palette
-from ..style import styled
+from ..style import Picture, heading, label, new_figure, styled
 from .decides import LEAST, RANK, Share, column
 from .words import (
     HIGH,
@@ -21,9 +21,11 @@ from .words import (
     named,
     scale_of,
     shortened,
+    title_of,
     with_unit,
 )
 
+ACROSS = 3  # distributions in a row
 WIDE, NARROW = 4.6, 3.3  # inch of a tile, two and three in a row
 BARS = 6  # at most
 COLOURS = ("BLUE", "RED", "GREEN", "ORANGE", "PURPLE", "SKY")
@@ -36,7 +38,7 @@ DRAWN = 0.01  # of the greatest spread: below it indices over time say nothing
 def _tile(
     width: float, height: float, *, left: float = 0.62, below: float = 0.3
 ) -> tuple[Figure, Axes]:
-    figure = Figure(figsize=(width, height))
+    figure = Picture(figsize=(width, height))
     size = 1.0 - (left + 0.16) / width, 1.0 - (below + 0.32) / height
     axis = figure.add_axes((left / width, below / height, *size))
     return figure, axis
@@ -96,9 +98,32 @@ def band_figure(name: str, series: Any, scale: Scale | None = None, title: str =
 @styled
 def distribution_figure(result: Any, name: str, title: str) -> Figure:
     """Return how often which values of a figure came out; those with the film lost apart."""
+    figure, axis = _tile(NARROW, 2.0, left=0.16)
+    scale = _draw_distribution(axis, result, name)
+    _title(axis, title, NARROW, scale)
+    return figure
+
+
+@styled
+def study_figure(result: Any, names: Sequence[str]) -> Figure:
+    """Return the distributions of these figures beside each other."""
+    rows = -(-len(names) // ACROSS)
+    figure, axes = new_figure(10.4, 0.5 + 2.4 * rows, rows, ACROSS, head=1, left=0.2, across=0.3)
+    for axis, name in zip(axes, names, strict=False):
+        scale = _draw_distribution(axis, result, name)
+        title = with_unit(title_of(name, result.figures[name]), scale, int(PER_INCH * NARROW))
+        label(axis, title, "", "")
+    for axis in axes[len(names) :]:
+        axis.set_visible(False)
+    words = f"{result.runs} runs; lines: 5, 50 and 95 %, dashed: nominal"
+    heading(figure, f"{result.target}: {words}")
+    return figure
+
+
+def _draw_distribution(axis: Axes, result: Any, name: str) -> Scale:
+    """Draw how often which values of a figure came out; return the unit they are drawn in."""
     band = result.figures[name]
     scale, values = band_scale(band), column(result.sample, name)
-    figure, axis = _tile(NARROW, 2.0, left=0.16)
     assert values is not None
     sound = np.isfinite(values)
     lost = column(result.sample, LOST) if name != LOST else None
@@ -126,15 +151,14 @@ def distribution_figure(result: Any, name: str, title: str) -> Figure:
     axis.spines["left"].set_visible(False)
     if len(groups) > 1 and all(len(group) for group in groups):
         axis.legend(loc="best", handlelength=1.0)
-    _title(axis, title, NARROW, scale)
-    return figure
+    return scale
 
 
 @styled
 def bar_figure(found: Sequence[Share], title: str) -> Figure:
     """Return the largest shares as bars with their confidence, the name above each."""
     shown = [share for share in found if share.weight >= LEAST][:BARS] or list(found[:1])
-    figure = Figure(figsize=(NARROW, 0.64 + 0.36 * len(shown)))
+    figure = Picture(figsize=(NARROW, 0.64 + 0.36 * len(shown)))
     tall = figure.get_figheight()
     axis = figure.add_axes((0.16 / NARROW, 0.32 / tall, 1.0 - 0.32 / NARROW, 1.0 - 0.62 / tall))
     by_rank = found[0].by == RANK

@@ -5,6 +5,8 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
+from matplotlib.figure import Figure
+
 from ...units import format_quantity as say
 from ..html import Page, Plot, Section, Table
 from . import summary
@@ -30,7 +32,7 @@ def sequence_page(result: Any) -> Page:
     warnings = list(result.warnings)
     run = run_data(whole, {}, room=ROOM, texts=([sentence], warnings))
     run |= {"slip": None, "shifts": len(records)}
-    still = Plot("sequence", overview_figure(whole, STILL), CAPTION, bitmap=True, still=True)
+    still = Plot("sequence", sequence_figure(result), CAPTION, bitmap=True, still=True)
     washer = live_washer(whole)
     texts = [f"{words}." for words in summary.step_words(result)]
     texts += [f"The run says: {message}." for message in result.messages]
@@ -41,6 +43,12 @@ def sequence_page(result: Any) -> Page:
         *([Section("trust", "How far to trust it", texts=texts)] if texts else []),
     ]
     return page_of(whole, run, sections, washer)
+
+
+def sequence_figure(result: Any) -> Figure:
+    """Return the picture of a ``SequenceResult``: its signals over the whole time."""
+    records = [record_of(shift) for shift in result.shifts]
+    return overview_figure(_whole(result, records), STILL)
 
 
 def _whole(result: Any, records: Sequence[Record]) -> Record:

@@ -1,0 +1,163 @@
+"""Solutions of a model, at a point and over time, as a person reads them: in its record's words."""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import fields
+from enum import Enum
+from typing import Any, ClassVar, NamedTuple
+
+from ..errors import Status
+from ..shown import Card, Line, Shown, Tabled, Words, column_lines, plain, public_names, text_of
+from .record import Model
+from .registry import find_model
+from .spec import ModelSpec
+
+
+class Asked(NamedTuple):
+    """What a result was asked for with."""
+
+    model: str
+    params: Any
+    point: Mapping[str, Any]  # rung included
+
+
+class AtPoint(Shown):
+    """Base of results at an operating point."""
+
+    __slots__ = ()
+    warnings: tuple[str, ...]
+
+    def asked_with(self) -> Asked:
+        """Return model, parameters and point that it is the solution of."""
+        raise NotImplementedError(type(self).__name__)
+
+    def _card(self) -> Card:
+        key, params, point = self.asked_with()
+        model = find_model(key)
+        lines = [*point_lines(model, self, point), *_variant_lines(model, self)]
+        return Card(
+            heading(model, params, point), lines, [f"{closing(model, self)}."], self.warnings
+        )
+
+
+class OverTime(Tabled):
+    """Base of results over time: fields that are arrays or lists over ``time``."""
+
+    __slots__ = ()
+    _model: ClassVar[str]
+    fidelity: str
+    warnings: tuple[str, ...]
+
+    def _columns(self) -> dict[str, Any]:
+        found = {name: getattr(self, name) for name in public_names(self)}
+        return {
+            name: plain(column) if isinstance(column, list) else column
+            for name, column in found.items()
+            if isinstance(column, list) or getattr(column, "ndim", 0) == 1
+        }
+
+    def _words(self) -> dict[str, Words]:
+        return {**words_of(find_model(self._model).spec), "time": Words("s", "points in time")}
+
+    def _card(self) -> Card:
+        columns, model = self._columns(), find_model(self._model)
+        title = f"{model.spec.name} at {len(columns['time'])} points in time, {self.fidelity}"
+        lines = column_lines(without_idle(model.spec, columns), self._words())
+        return Card(title, lines, (), self.warnings)
+
+
+def words_of(spec: ModelSpec) -> dict[str, Words]:
+    """Return unit and meaning of a model's parameters, inputs and outputs."""
+    metas = {f.name: f.metadata for f in fields(spec.params)}
+    found = {n: Words(m["unit"], m["help"], bool(m.get("relative"))) for n, m in metas.items()}
+    signals = (*spec.inputs, *spec.outputs)
+    return found | {s.name: Words(s.unit, s.help, s.relative) for s in signals}
+
+
+def words_at_points(model: Model) -> dict[str, Words]:
+    """Return unit and meaning of parameters, inputs and results where a model is solved."""
+    assert model.command is not None
+    found = words_of(model.spec)
+    found |= {s.name: Words(s.unit, s.help, s.relative) for s in model.inputs()}
+    return found | {name: Words(*words) for name, words in model.command.extra.items()}
+
+
+def without_idle(spec: ModelSpec, columns: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the columns but those of inputs that may be left out and are, all over."""
+    start = {s.name: s.start for s in spec.inputs if s.optional}
+    return {
+        name: column
+        for name, column in columns.items()
+        if name not in start or any(value != start[name] for value in column)
+    }
+
+
+def scalars(result: Any) -> dict[str, Any]:
+    """Return what of ``to_dict()`` is no array, no parameters, and nothing else that is large."""
+    shown = ((name, getattr(result, name)) for name in public_names(result))
+    return {name: plain(value) for name, value in shown if _is_small(value)}
+
+
+def _is_small(value: Any) -> bool:
+    if isinstance(value, tuple | list):
+        return all(map(_is_small, value))
+    if isinstance(value, Mapping):
+        return all(map(_is_small, value.values()))
+    is_one = value is None or isinstance(value, bool | str | int | float | Enum)
+    return is_one or getattr(value, "ndim", 1) == 0
+
+
+def heading(model: Model, params: Any, point: Mapping[str, Any]) -> str:
+    """Return what was solved and where; inputs that may be left out only where they are given."""
+    assert model.command is not None
+    values = {f.name: getattr(params, f.name) for f in fields(params)}
+    where = ", ".join(
+        f"{s.name} {text_of(point[s.name], s.unit)}{_turns(point[s.name], s.unit)}"
+        for s in model.inputs()
+        if s.name in point and not (s.optional and point[s.name] == s.start)
+    )
+    return f"{model.command.title.format(**values)} at {where}"
+
+
+def _turns(value: float, unit: str) -> str:
+    """Return a speed in rpm as well; "" for other quantities."""
+    return f" ({value * 30.0 / math.pi:.5g} rpm)" if unit == "rad/s" and value else ""
+
+
+def point_lines(model: Model, result: Any, point: Mapping[str, Any]) -> Iterator[Line]:
+    """Yield all results there are, but inputs and those of variants."""
+    command = model.command
+    assert command is not None
+    known = {s.name: Words(s.unit, s.help, s.relative) for s in model.spec.outputs}
+    known |= {name: Words(*words) for name, words in command.extra.items()}
+    apart = command.variants.fields() if command.variants else set()
+    for name, value in scalars(result).items():
+        if name not in known or name in point or name in apart:
+            continue
+        unit, words, difference = known[name]
+        if value is not None:
+            yield Line(name, text_of(getattr(result, name), unit, difference), words)
+        elif name in command.extra:
+            yield Line(name, "not known", words)
+
+
+def _variant_lines(model: Model, result: Any) -> Iterator[Line]:
+    """Yield the results of variants, as far as there are any."""
+    variants = model.command.variants if model.command else None
+    for row in variants.rows if variants else ():
+        assert variants is not None
+        for column, head in variants.columns.items():
+            name = variants.name(column, row)
+            if (value := getattr(result, name)) is not None:
+                yield Line(name, text_of(value, "1"), f"{head}, {variants.head} {row}")
+
+
+def closing(model: Model, result: Any) -> str:
+    """Return how it was solved, and what is to be known of that."""
+    assert model.command is not None
+    return f"{status_words(result.status)}; {model.command.closing.format(**scalars(result))}"
+
+
+def status_words(status: Status) -> str:
+    """Return the advice of a sound solution, else the name of what is to be known of it."""
+    return status.advice if status is Status.OK else status.name

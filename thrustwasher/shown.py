@@ -1,0 +1,186 @@
+"""How results show themselves: as plain data, as a table in a notebook, as a picture, in pandas.
+
+Results lie below what draws them: the head of the package hands over who does (``drawn_by``).
+"""
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import fields, is_dataclass
+from enum import Enum
+from html import escape
+from typing import Any, NamedTuple
+
+from .errors import EnvironmentProblem
+from .units import format_quantity
+
+MOST_WORDS = 5  # different texts of a column that are listed
+_drawers: list[Callable[[Any], Any]] = []
+
+
+class Words(NamedTuple):
+    """Unit and meaning of a figure; ``relative``: a difference of temperatures."""
+
+    unit: str = "1"
+    help: str = ""
+    relative: bool = False
+
+
+class Line(NamedTuple):
+    """A line of a table: figure, value with a readable unit, meaning."""
+
+    name: str
+    value: str
+    words: str = ""
+
+
+class Card(NamedTuple):
+    """A result as a person reads it; notes and warnings stand below the lines."""
+
+    title: str
+    lines: Iterable[Line]
+    notes: Sequence[str] = ()
+    warnings: Sequence[str] = ()
+
+
+class Shown:
+    """Base of results."""
+
+    __slots__ = ()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return fields and properties as JSON can hold them: SI units, None for NaN."""
+        return plain_dict({name: getattr(self, name) for name in public_names(self)})
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return ``to_dict()``, under the name it had first."""
+        return self.to_dict()
+
+    def plot(self) -> Any:
+        """Return a picture as a ``matplotlib.figure.Figure``; a notebook shows it.
+
+        Raises
+        ------
+        ParameterError : of this result there is nothing to draw; the message says why
+        """
+        return _drawers[-1](self)
+
+    def _card(self) -> Card:
+        """Return the result as a person reads it."""
+        raise NotImplementedError(type(self).__name__)
+
+    def _repr_html_(self) -> str:
+        """Return a small table, for notebooks: text is escaped, nothing runs."""
+        return _page(self._card())
+
+
+class Tabled(Shown):
+    """Base of results with columns."""
+
+    __slots__ = ()
+
+    def _columns(self) -> Mapping[str, Any]:
+        """Return the columns by name."""
+        raise NotImplementedError(type(self).__name__)
+
+    def _words(self) -> Mapping[str, Words]:
+        """Return unit and meaning of columns, as far as they have any."""
+        return {}
+
+    def to_pandas(self) -> Any:
+        """Return the columns as a ``pandas.DataFrame``; units [SI] are in ``attrs["units"]``.
+
+        Raises
+        ------
+        EnvironmentProblem : there is no pandas; the message says how to get it
+        """
+        try:
+            from pandas import DataFrame
+        except ImportError:
+            raise EnvironmentProblem(
+                f"{type(self).__name__}.to_pandas needs the package pandas: pip install pandas"
+            ) from None
+        columns, words = self._columns(), self._words()
+        frame = DataFrame(dict(columns))
+        frame.attrs["units"] = {name: words[name].unit for name in columns if name in words}
+        return frame
+
+
+def drawn_by(drawer: Callable[[Any], Any]) -> None:
+    """Let this function make the pictures of results."""
+    _drawers.append(drawer)
+
+
+def public_names(result: Any) -> list[str]:
+    """Return the names of a result's fields and properties, but those that begin with _."""
+    names = [f.name for f in fields(result)]
+    names += [n for n, what in vars(type(result)).items() if isinstance(what, property)]
+    return [name for name in names if not name.startswith("_")]
+
+
+def plain(value: Any) -> Any:
+    """Return what JSON can hold: names for enumerations, lists for arrays, None for NaN."""
+    if isinstance(value, Enum):
+        return value.name
+    if isinstance(value, float):
+        return float(value) if math.isfinite(value) else None
+    if value is None or isinstance(value, bool | str):
+        return value
+    if isinstance(value, int):
+        return int(value)
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, list | set | frozenset):
+        return [plain(item) for item in value]
+    if isinstance(value, tuple):
+        return tuple(plain(item) for item in value)
+    if is_dataclass(value) and not isinstance(value, type):
+        return plain_dict({name: getattr(value, name) for name in public_names(value)})
+    return plain(value.tolist()) if hasattr(value, "tolist") else str(value)
+
+
+def plain_dict(found: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a mapping as JSON can hold it."""
+    return {name: plain(value) for name, value in found.items()}
+
+
+def text_of(value: Any, unit: str, difference: bool = False, digits: int = 5) -> str:
+    """Return a value as a person reads it."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, int | float):
+        return format_quantity(float(value), unit, difference=difference, digits=digits)
+    return value.name if isinstance(value, Enum) else str(value)
+
+
+def column_lines(columns: Mapping[str, Any], words: Mapping[str, Words]) -> Iterable[Line]:
+    """Yield a line for each column: the range of its values, or which there are."""
+    for name, column in columns.items():
+        unit, help_, relative = words.get(name, Words())
+        yield Line(name, _range_of(plain(list(column)), unit, relative), help_)
+
+
+def _range_of(values: list[Any], unit: str, relative: bool) -> str:
+    if values and isinstance(values[0], bool):
+        return f"yes at {sum(values)} of {len(values)}"
+    if any(isinstance(value, str) for value in values):
+        found = list(dict.fromkeys(filter(None, values)))
+        more = ", ..." if len(found) > MOST_WORDS else ""
+        return ", ".join(map(str, found[:MOST_WORDS])) + more
+    known = [value for value in values if value is not None]
+    ends = (min(known), max(known)) if known else ()
+    return " .. ".join(dict.fromkeys(text_of(x, unit, relative, 4) for x in ends)) or "none"
+
+
+def _page(card: Card) -> str:
+    left = ' style="text-align: left"'
+    rows = (
+        f"<tr>{''.join(f'<td{left}>{escape(cell)}</td>' for cell in line)}</tr>"
+        for line in card.lines
+    )
+    heads = "".join(f"<th{left}>{head}</th>" for head in ("figure", "value", "meaning"))
+    below = [escape(note) for note in card.notes]
+    below += [f"<strong>Warning:</strong> {escape(text)}" for text in card.warnings]
+    return (
+        f"<table><caption{left}>{escape(card.title)}</caption><thead><tr>{heads}</tr></thead>"
+        f"<tbody>{''.join(rows)}</tbody></table>" + "".join(f"<p>{text}</p>" for text in below)
+    )

@@ -6,6 +6,7 @@ it only writes the documentation's pictures of them.
 """
 
 import argparse
+import re
 import shutil
 import statistics
 import subprocess
@@ -58,6 +59,11 @@ UPDATE = """async ([task, updates]) => {
 # Other fill and kiss of the clutch than the scene's.
 TUNED = """() => change("clutch_pressure", [[0.1, 0], [0.11, 6e4], [0.2, 6e4], [0.4, 3.2e5],
   [0.79, 3.41e5], [0.865, 3.46e5], [0.935, 7.2e5]])"""
+
+# Height of the page, where its first picture begins, its words.
+LAID_OUT = """() => [document.documentElement.scrollHeight,
+  document.querySelector("#hero canvas").getBoundingClientRect().top + scrollY,
+  document.body.innerText.split(/\\s+/).length]"""
 
 # The time from switching the scatter on to all of its draws.
 SCATTER = """async () => {
@@ -129,6 +135,17 @@ def measure_report(browser: Browser, folder: Path, step: str) -> None:
     page.evaluate("() => document.getElementById('plots').scrollIntoView()")
     page.wait_for_selector(".u-over")
     print(f"  {page.evaluate('Plots.state.time.length')} points")
+    page.set_viewport_size({"width": 1300, "height": 900})
+    page.evaluate("() => document.getElementById('discs')?.scrollIntoView()")
+    page.wait_for_timeout(1500)
+    page.evaluate("scrollTo(0, 0)")
+    high, first, words = page.evaluate(LAID_OUT)
+    paper = re.findall(rb"/Type\s*/Page[^s]", page.pdf(format="A4"))
+    print(
+        f"  {high} px high at 1300 px, the first picture at {first:.0f} px, {words} words, "
+        f"{len(paper)} printed pages"
+    )
+    page.evaluate("() => document.getElementById('plots').scrollIntoView()")
     for what in ("cursor", "zoom"):
         pace = sorted(page.evaluate(PACE, [what, FRAMES]))
         print(
@@ -192,8 +209,7 @@ def draw(browser: Browser, folder: Path, images: Path) -> None:
     called("shift", "--out", str(folder / "report"))
     shutil.copy(folder / "report" / "overview.png", images / "shift.png")
     page, _ = opened(browser, folder / "report" / "report.html", REPORT)
-    page.evaluate("() => document.getElementById('plots').scrollIntoView()")
-    page.wait_for_selector(".u-over")
+    page.wait_for_selector("#hero .u-over")
     page.evaluate("Plots.moveTo(Math.floor(0.4 * Plots.state.time.length))")
     page.wait_for_timeout(500)
     page.screenshot(path=images / "report.png")

@@ -10,6 +10,7 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import yaml
@@ -120,7 +121,9 @@ def write_notebooks(places: dict[Path, Path]) -> list[Pair]:
         out = GATHERED / "notebooks"
         command = [sys.executable, "-m", "nbconvert", "--to", "markdown", "--execute"]
         command += ["--output-dir", str(out), "--log-level", "WARN", str(path)]
+        began = time.perf_counter()
         subprocess.run(command, check=True)
+        print(f"{path.name}: {time.perf_counter() - began:.1f} s")
         places[path] = Path("notebooks") / f"{path.stem}.md"
         found.append((path.stem.replace("_", " "), f"notebooks/{path.stem}.md"))
     return found

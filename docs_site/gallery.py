@@ -84,15 +84,9 @@ figure = losses_figure(solve_losses(params, **point), point, params)
         "A shift",
         "Power-on upshift: the phases are shaded, events are numbered.",
         """
-from thrustwasher.fmu.stepper import DirectInstance
-from thrustwasher.report.shift.overview_plot import overview_figure
-from thrustwasher.report.shift.shift_record import record_of
-from thrustwasher.shift import load_scene, run_shift
+from thrustwasher import run_shift
 
-scene = load_scene("planetary")
-parts = scene.parts.items()
-result = run_shift(scene, {n: DirectInstance(p.spec, parameters=p.parameters()) for n, p in parts})
-figure = overview_figure(record_of(result))
+figure = run_shift("planetary").plot()
 """,
     ),
 )

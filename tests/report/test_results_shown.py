@@ -102,7 +102,7 @@ MADE = {  # result -> how it comes about, a figure with its unit, words of its m
         "decided most by width",
     ),
     "Optimum": (optimum, "0.258 N·m", "was 0.2582 N·m"),
-    "Calibration": (calibration, "m/s ± ", "slip speed below which"),
+    "Calibration": (calibration, " +- 0.028 m/s", "slip speed below which"),
     "ShiftResult": (shift, "2.111 s", "clutch locks"),
     "SequenceResult": (sequence, "kJ", "s after it began"),
     "EfficiencyMap": (

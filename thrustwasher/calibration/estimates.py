@@ -12,7 +12,7 @@ from ..model.solutions import words_at_points
 from ..numerics.jit import Array
 from ..shown import Card, Line, Tabled, Words
 from ..storage.digests import finite
-from ..units import format_quantity
+from ..units import display_unit
 from .identifiability import Information, counted
 from .measured import Measured, output_units
 
@@ -194,16 +194,17 @@ def _size_text(found: Calibration) -> str:
 
 def _value_text(e: Estimate) -> str:
     """Return value and standard error in the unit that a person reads."""
-    value = format_quantity(e.value, e.unit, digits=5)
-    error = format_quantity(e.standard_error, e.unit, difference=True, digits=2)
-    return f"{value} ± {error}" if e.identifiable else value
+    unit, size = display_unit(e.value, e.unit)
+    error = f" +- {e.standard_error / size:.2g}" if e.identifiable else ""
+    return f"{e.value / size:.5g}{error} {unit}".removesuffix(" 1")
 
 
 def _told(e: Estimate, help: str, confidence: float) -> str:
     """Return what an estimate is, and what the points tell of it."""
-    unit = "" if e.unit == "1" else f" {e.unit}"
-    interval = f"{100 * confidence:g} %: {spanned(*e.interval)}{unit}" if e.identifiable else ""
-    return "; ".join(filter(None, (help, interval, e.reason)))
+    unit, size = display_unit(e.value, e.unit)
+    low, high = (end / size for end in e.interval)
+    interval = f"{100 * confidence:g} %: {spanned(low, high)} {unit}".removesuffix(" 1")
+    return "; ".join(filter(None, (help, interval if e.identifiable else "", e.reason)))
 
 
 def spanned(low: float, high: float) -> str:

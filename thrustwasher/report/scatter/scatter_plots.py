@@ -21,7 +21,6 @@ from .words import (
     named,
     scale_of,
     shortened,
-    title_of,
     with_unit,
 )
 
@@ -111,7 +110,7 @@ def study_figure(result: Any, names: Sequence[str]) -> Figure:
     figure, axes = new_figure(10.4, 0.5 + 2.4 * rows, rows, ACROSS, head=1, left=0.2, across=0.3)
     for axis, name in zip(axes, names, strict=False):
         scale = _draw_distribution(axis, result, name)
-        title = with_unit(title_of(name, result.figures[name]), scale, int(PER_INCH * NARROW))
+        title = with_unit(named(name), scale, int(PER_INCH * NARROW))
         label(axis, title, "", "")
     for axis in axes[len(names) :]:
         axis.set_visible(False)

@@ -24,12 +24,21 @@ PAGES = {
         "Load curves with folds, engagements, washers followed in time.",
         "load_curve LoadCurve follow_washer WasherCourse engage_clutch Engagement",
     ),
-    "results": ("Results", "What a solve returns.", "WasherResult GearMeshResult LossesResult"),
+    "results": (
+        "Results",
+        "What a solve returns.",
+        "WasherResult ClutchResult GearMeshResult LossesResult",
+    ),
     "studies": (
         "Sweep, fit, scatter, optimise",
         "Many solves, on all cores.",
         "run_sweep SweepTable calibrate Calibration ModelCalibration propagate ScatterResult "
         "optimise Optimum choose Choice",
+    ),
+    "shifts": (
+        "A shift, an FMU",
+        "From a scene's name, from a part.",
+        "run_shift load_scene build_fmu ShiftResult SequenceResult",
     ),
     "parts": ("Parts", "A part of one's own in a file.", "load_part PartFile"),
     "errors": ("Errors", "Each has a name.", "ParameterError SolveError BranchError Status"),
@@ -37,8 +46,7 @@ PAGES = {
 SHIFT = (
     "Scenes and shifts",
     "`thrustwasher.shift`: a gear shift of parts that run together.",
-    "load_scene builtin_scenes run_shift run_auto run_sequence with_fidelities Scene Part "
-    "ShiftResult SequenceResult Cost Event Phase",
+    "builtin_scenes run_shift run_auto run_sequence with_fidelities Scene Part Cost Event Phase",
 )
 
 

@@ -1,6 +1,8 @@
-"""Every example runs and returns the number it is known for."""
+"""Every example runs and returns the number it is known for; so do the notebooks."""
 
 import importlib.util
+import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -87,3 +89,61 @@ def test_a_vehicle_of_ones_own_is_the_scenes():
     lock = run_shift(scene, instances(scene)).figures["lock_time"]
     for value, tolerance in map(PINNED.get, OWN_FMUS):
         assert lock == pytest.approx(value, rel=tolerance)
+
+
+# Notebooks
+
+NOTEBOOKS = sorted((EXAMPLES / "notebooks").glob("*.ipynb"))
+SAID = {  # among what each one prints
+    "1_washer": "0.2582 N m at a film ratio of 20.8",
+    "2_own_part": "Python at 300 N: 0.08754 N m",
+    "3_calibrate": "stick_speed    not determined",
+    "4_shift": "as it is   locks at 0.8365 s",
+    "5_scatter": "locks at 0.837 s",
+}
+each_notebook = pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+
+
+def cells(path, kind):
+    return [c for c in json.loads(path.read_text("utf-8"))["cells"] if c["cell_type"] == kind]
+
+
+def test_there_is_a_notebook_for_every_job():
+    assert [path.stem for path in NOTEBOOKS] == list(SAID)
+
+
+@each_notebook
+def test_a_notebook_is_kept_without_outputs(path):
+    code = cells(path, "code")
+    assert [c["outputs"] for c in code] == [[]] * len(code)
+    assert {c["execution_count"] for c in code} == {None}
+
+
+@each_notebook
+def test_a_notebook_begins_with_a_title_and_explains_itself(path):
+    text = ["".join(c["source"]) for c in cells(path, "markdown")]
+    assert text[0].startswith("# ") and len(text) >= 5
+    code = ["".join(c["source"]) for c in cells(path, "code")]
+    assert max(len(c.splitlines()) for c in code) <= 25
+
+
+@each_notebook
+def test_links_of_a_notebook_lead_somewhere(path):
+    text = "".join("".join(c["source"]) for c in cells(path, "markdown"))
+    links = re.findall(r"\]\(([^)\s#]+)", text)
+    assert [link for link in links if not (path.parent / link).exists()] == []
+
+
+@pytest.mark.slow
+@each_notebook
+def test_a_notebook_runs(path):
+    client, nbformat = needed.package("nbclient"), needed.package("nbformat")
+    needed.package("ipykernel"), needed.package("pandas")
+    book = nbformat.read(path, as_version=4)
+    where = {"metadata": {"path": str(path.parent)}}
+    client.NotebookClient(book, timeout=600, kernel_name="python3", resources=where).execute()
+    outputs = [o for c in book.cells if c.cell_type == "code" for o in c.outputs]
+    printed = "".join(o.text for o in outputs if o.output_type == "stream" and o.name == "stdout")
+    assert SAID[path.stem] in printed
+    shown = {kind for o in outputs if "data" in o for kind in o.data}
+    assert {"text/html", "image/png"} <= shown

@@ -10,11 +10,8 @@ PICTURES = (
         "Between the two folds a washer has three answers at one load; the middle one is unstable.",
         """
 from thrustwasher import WasherParams, load_curve
-from thrustwasher.report.model_plots.washer_plots import curve_figure
 
-point = {"speed": 545.0, "tilt": 0.002, "oil_temperature": 297.15}
-curve = load_curve(WasherParams(), **point)
-figure = curve_figure(curve, point)
+figure = load_curve(WasherParams(), speed=545.0, tilt=0.002).plot()
 """,
     ),
     (
@@ -22,10 +19,8 @@ figure = curve_figure(curve, point)
         "The tilted washer carries at its narrow side; cavitation ends the film behind it.",
         """
 from thrustwasher import WasherParams, solve_washer
-from thrustwasher.report.model_plots.washer_plots import field_figure
 
-point = {"load": 300.0, "speed": 953.0, "tilt": 0.002, "oil_temperature": 297.15}
-figure = field_figure(solve_washer(WasherParams(), **point), point)
+figure = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002).plot()
 """,
     ),
     (
@@ -49,11 +44,10 @@ axis.set(xlabel="speed [rad/s]", ylabel="friction coefficient")
         """
 import numpy as np
 from thrustwasher import ClutchParams, engage_clutch
-from thrustwasher.report.model_plots.clutch_plot import engagement_figure
 
 time = np.linspace(0.0, 1.0, 401)
 load, speed = np.minimum(time / 0.1, 1.0) * 5000.0, 200.0 * np.maximum(1.0 - time / 0.9, 0.0)
-figure = engagement_figure(engage_clutch(ClutchParams(), time=time, load=load, speed=speed))
+figure = engage_clutch(ClutchParams(), time=time, load=load, speed=speed).plot()
 """,
     ),
     (
@@ -61,10 +55,8 @@ figure = engagement_figure(engage_clutch(ClutchParams(), time=time, load=load, s
         "Temperatures over the numbers of teeth, and what they leave of the steels' endurance.",
         """
 from thrustwasher import GearMeshParams, solve_gearmesh
-from thrustwasher.report.model_plots.gearmesh_plot import gearmesh_figure
 
-params, point = GearMeshParams(), {"power": 18e3, "speed": 300.0, "oil_temperature": 353.15}
-figure = gearmesh_figure(solve_gearmesh(params, **point), point, params)
+figure = solve_gearmesh(GearMeshParams(), power=18e3, speed=300.0).plot()
 """,
     ),
     (
@@ -72,12 +64,18 @@ figure = gearmesh_figure(solve_gearmesh(params, **point), point, params)
         "Heat by source while all shafts turn faster together.",
         """
 from thrustwasher import LossesParams, solve_losses
-from thrustwasher.report.model_plots.losses_plot import losses_figure
 
-speeds = {"input_speed": 300.0, "output_speed": 200.0, "drum_speed": 0.0, "planet_speed": 400.0}
-point = speeds | {"tooth_force": 2000.0, "oil_temperature": 353.15}
-params = LossesParams()
-figure = losses_figure(solve_losses(params, **point), point, params)
+speeds = {"input_speed": 300.0, "output_speed": 200.0, "planet_speed": 400.0}
+figure = solve_losses(LossesParams(), **speeds, tooth_force=2000.0).plot()
+""",
+    ),
+    (
+        "How sure is a washer?",
+        "What nobody knows exactly makes a band of each figure.",
+        """
+from thrustwasher import propagate
+
+figure = propagate("washer", at={"load": 300.0, "speed": 953.0}, runs=64).plot()
 """,
     ),
     (

@@ -19,6 +19,8 @@ from thrustwasher.native.library import web_module
 from thrustwasher.report.web_worker import WEB
 
 HERE = Path(__file__).parent
+# Version 20 at times waits for ever where its compiler in the background wants memory collected.
+NODE = ("--no-concurrent-recompilation",)
 MODELS = ("washer", "gearmesh", "clutch", "losses")
 node = pytest.mark.skipif(
     not (shutil.which("node") or needed.IN_CI), reason="install the Debian package nodejs"
@@ -58,7 +60,7 @@ def answers(model, tasks, *, params=None, rung=None):
         "tasks": [["set", numbers, rung or spec.default_fidelity], *tasks],
     }
     done = subprocess.run(
-        ["node", str(HERE / "worker_run.js")],
+        ["node", *NODE, str(HERE / "worker_run.js")],
         input=json.dumps(given),
         text=True,
         capture_output=True,

@@ -5,6 +5,8 @@ import subprocess
 from functools import cache
 from pathlib import Path
 
+from pages import NODE
+
 from thrustwasher.explore.scene_data import instance_of, modules, scene_data, started
 from thrustwasher.explore.scene_page import scene_page
 from thrustwasher.report.web_worker import WEB
@@ -45,7 +47,7 @@ def page_runs(name, runs):
         "runs": runs,
     }
     done = subprocess.run(
-        ["node", str(HERE / "scene_run.js")],
+        ["node", *NODE, str(HERE / "scene_run.js")],
         input=json.dumps(given),
         text=True,
         capture_output=True,

@@ -355,7 +355,7 @@ def test_signals_and_plots_are_taken_along(page):
 
 def test_a_link_opens_its_folded_chapter(page):
     page.locator('nav a[href="#trust"]').click()
-    assert page.locator("#trust p").first.is_visible()
+    page.wait_for_selector("#trust p", state="visible")
 
 
 def test_the_policy_lets_nothing_be_fetched(browser, report):

@@ -3,12 +3,20 @@
 import math
 
 import mpmath as mp
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from thrustwasher.tribology.greenwood_tripp import (
+    N_KNOTS,
+    NODES,
+    REACH,
+    STEP,
+    TABLE,
+    U_MIN,
+    WEIGHTS,
     area_integrals,
     contact_integral,
     height_integrals,
@@ -46,6 +54,20 @@ def test_no_pressure_and_absurd_pressure_have_an_answer():
     crushed, _, status, _ = separation_and_slope(1e30, 1.0)
     assert status == 0 and crushed == pytest.approx(-1e12, rel=1e-12)
     assert math.isfinite(separation_and_slope(1e-29, -900.0)[0])
+
+
+def test_the_table_in_its_file_is_what_quadrature_gives():
+    """Knots of ln F_5/2, slope and curvature; relative to the density, so that none underflows."""
+    u = (U_MIN + STEP * np.arange(N_KNOTS))[:, None]
+    low = np.sqrt(np.maximum(0.0, -u - REACH))
+    high = np.sqrt(np.where(u < 0.0, REACH - u, REACH**2 / (np.hypot(u, REACH) + np.abs(u))))
+    s = (low + (high - low) * NODES) ** 2
+    weight = 2.0 * (high - low) * WEIGHTS * np.exp(-0.5 * s * (s + 2.0 * u))
+    five, three, one = ((weight * s ** (n + 0.5)).sum(1) for n in (2.5, 1.5, 0.5))
+    slope = -2.5 * three / five
+    value = np.log(five / math.sqrt(2.0 * math.pi)) - 0.5 * u[:, 0] ** 2
+    wanted = [value, STEP * slope, STEP**2 * (3.75 * one / five - slope**2)]
+    np.testing.assert_allclose(TABLE, wanted, rtol=1e-13, atol=1e-14)
 
 
 @pytest.mark.parametrize("u", [-2e3, -30.1, -29.9, -7.99, -2.51, -0.04, 0.5749, 4.9, 5.1, 13.97])

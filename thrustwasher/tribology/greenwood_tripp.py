@@ -5,6 +5,7 @@ F_3/2 by quadrature, F_5/2 from a table, F_1 and F_2 closed, the separation of a
 """
 
 import math
+from pathlib import Path
 
 import numpy as np
 
@@ -65,21 +66,9 @@ def pressure_scale(roughness: float, modulus: float, density: float, radius: flo
     )
 
 
-def _table() -> np.ndarray:
-    """Return ln F_5/2 at the knots, its slope and curvature times the knot distance."""
-    u = (U_MIN + STEP * np.arange(N_KNOTS))[:, None]
-    low = np.sqrt(np.maximum(0.0, -u - REACH))
-    high = np.sqrt(np.where(u < 0.0, REACH - u, REACH**2 / (np.hypot(u, REACH) + np.abs(u))))
-    s = (low + (high - low) * NODES) ** 2
-    # relative to the density at u, so that nothing underflows at large u
-    weight = 2.0 * (high - low) * WEIGHTS * np.exp(-0.5 * s * (s + 2.0 * u))
-    five, three, one = ((weight * s ** (n + 0.5)).sum(1) for n in (2.5, 1.5, 0.5))
-    slope = -2.5 * three / five
-    value = np.log(five * INV_SQRT2PI) - 0.5 * u[:, 0] ** 2
-    return np.array([value, STEP * slope, STEP**2 * (3.75 * one / five - slope**2)])
-
-
-TABLE = _table()
+# ln F_5/2 at the knots, its slope and curvature times the knot distance; shape (3, N_KNOTS). Kept in
+# a file: computed anew, the last bits would depend on the processor, and with them compiled code.
+TABLE = np.load(Path(__file__).parents[1] / "data" / "greenwood_tripp.npy")
 
 
 @kernel

@@ -9,12 +9,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
+from thrustwasher.tribology.contact_table import TABLE
 from thrustwasher.tribology.greenwood_tripp import (
     N_KNOTS,
     NODES,
     REACH,
     STEP,
-    TABLE,
     U_MIN,
     WEIGHTS,
     area_integrals,

@@ -5,13 +5,13 @@ F_3/2 by quadrature, F_5/2 from a table, F_1 and F_2 closed, the separation of a
 """
 
 import math
-from pathlib import Path
 
 import numpy as np
 
 from ..numerics.jit import kernel
 from ..numerics.spline import quintic
 from ..numerics.status import MAX_ITERATIONS
+from .contact_table import TABLE
 from .flow_factors import INV_SQRT2, INV_SQRT2PI
 
 N_NODES = 48
@@ -64,11 +64,6 @@ def pressure_scale(roughness: float, modulus: float, density: float, radius: flo
         * math.sqrt(roughness / radius)
         * modulus
     )
-
-
-# ln F_5/2 at the knots, its slope and curvature times the knot distance; shape (3, N_KNOTS). Kept in
-# a file: computed anew, the last bits would depend on the processor, and with them compiled code.
-TABLE = np.load(Path(__file__).parents[1] / "data" / "greenwood_tripp.npy")
 
 
 @kernel

@@ -56,3 +56,14 @@ function allowed({ min, max, kind }, [name, factor, offset]) {
   const [low, high] = [min, max].map((v) => digits((v - offset) / factor, 6));
   return `${low} .. ${high}${name === "1" ? "" : ` ${pretty(name)}`}${kind === "integer" ? ", a whole number" : ""}`;
 }
+
+const SHARES = [0.05, 0.5, 0.95]; // of a band: its ends and its middle
+
+/** Return quantiles of some values, linear between them as numpy.quantile; none of no values. */
+function quantiles(values) {
+  const sorted = values.filter(Number.isFinite).sort((a, b) => a - b), last = sorted.length - 1;
+  return SHARES.map((share) => {
+    const at = share * last, k = Math.floor(at);
+    return last < 0 ? NaN : sorted[k] + (at - k) * (sorted[Math.min(k + 1, last)] - sorted[k]);
+  });
+}

@@ -2,17 +2,8 @@
 /* Scatter: the model solved at draws of what is not known exactly, by two workers; quantiles of what it gives. */
 
 const { draws: DRAWS = 0, sources: SOURCES = [] } = ABOUT.scatter ?? {};
-const CHANGES = SOURCES.flatMap(({ changes }) => changes), SHARES = [0.05, 0.5, 0.95];
+const CHANGES = SOURCES.flatMap(({ changes }) => changes);
 const FRAME = 120; // ms between two looks at what is there so far
-
-/** Return quantiles of some values, linear between them as numpy.quantile; none of no values. */
-function quantiles(values) {
-  const sorted = values.filter(Number.isFinite).sort((a, b) => a - b), last = sorted.length - 1;
-  return SHARES.map((share) => {
-    const at = share * last, k = Math.floor(at);
-    return last < 0 ? NaN : sorted[k] + (at - k) * (sorted[Math.min(k + 1, last)] - sorted[k]);
-  });
-}
 
 /** Return what a change makes of a value in a draw, within the value's range; `counts`: what counts where it is 0. */
 function drawn({ how, values }, k, value, { kind, min, max }, counts = 0) {

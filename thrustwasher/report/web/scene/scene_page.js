@@ -5,7 +5,6 @@ const byId = (id) => document.getElementById(id);
 const SETTLE = 300; // ms after the last change: then the washers are solved on their own rung
 const DRAWN = 420; // points of a line, at most
 const MOST_TIMES = 131; // instants of a band
-const SHARES = [0.05, 0.5, 0.95];
 const LOOKS = ["one", "two", "three"];
 const COMMAND = { unit: "1", min: 0, max: 1, text: "shift command: 0 first gear, 1 second gear", fixed: [ABOUT.shift.from, ABOUT.shift.to] };
 const RAMP = [[ABOUT.shift.start, ABOUT.shift.from], [ABOUT.shift.start + ABOUT.shift.duration, ABOUT.shift.to]];
@@ -303,15 +302,6 @@ function nextDraw() {
       const { time, signals } = result, by = Math.max(1, Math.floor(time.length / MOST_TIMES)), picked = (values) => values.filter((_, i) => i % by === 0);
       done({ figures: result.figures, time: picked(time), signals: Object.fromEntries(VIEWS.filter((v) => v.band).map(({ band }) => [band, picked(signals[band])])) });
     }
-  });
-}
-
-/** Return quantiles of some values, linear between them as numpy.quantile; NaN of none. */
-function quantiles(values) {
-  const sorted = values.filter(Number.isFinite).sort((a, b) => a - b), last = sorted.length - 1;
-  return SHARES.map((share) => {
-    const at = share * last, k = Math.floor(at);
-    return last < 0 ? NaN : sorted[k] + (at - k) * (sorted[Math.min(k + 1, last)] - sorted[k]);
   });
 }
 

@@ -5,7 +5,7 @@ const Plots = (() => {
   const DASHES = [undefined, [6, 4]];
   const NAMES = ["A", "B"];
   const NEAR = 6; // pixels: a click this near to an event means it
-  const HEIGHT = 135, FIRST = 200;
+  const HEIGHT = 132, FIRST = 196;
   const PAPER = 660, HALF = 320; // pixels that a plot is wide in print: the first ones, those side by side
 
   const state = { time: [], runs: [], index: 0, view: { min: 0, max: 1 }, panels: [], others: [], listeners: [] };

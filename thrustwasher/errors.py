@@ -73,6 +73,11 @@ class Status(IntEnum):
         4,
         "both packs hold: the driveline stands still or the engine stalls; release one pack",
     )
+    CHATTER = (
+        5,
+        "the slip reverses every few steps: the torque answers too late for this step and "
+        "driveline; set holding = given with coupling_inertia and coupling_age, or a shorter step",
+    )
     MAX_ITERATIONS = (
         10,
         "not converged; start from a neighbouring result or refine in smaller steps",

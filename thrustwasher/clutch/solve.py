@@ -349,6 +349,7 @@ SWEEP = Sweep(
         "stored_heat",
         "oil_energy",
         "advised_step",
+        "plant_inertia",
     ),
     least={"film_ratio": (k.LEAST_RATIO, BEYOND_LAW)},
 )

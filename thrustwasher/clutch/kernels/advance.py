@@ -11,7 +11,7 @@ from ...numerics.status import MAX_ITERATIONS, OK
 from ...tribology.lumped_body import exponential_weights
 from . import layout as L
 from .pack_friction import coefficient_slopes, settled_slope
-from .rates import moves_film, n_unknowns, settled_cooling, surfaces
+from .rates import given_power, moves_film, n_unknowns, settled_cooling, surfaces
 from .rosenbrock import Ramp, attempt
 from .rosenbrock_derivatives import Change, follow
 
@@ -91,7 +91,9 @@ def warm_up(
 
 @kernel
 def settled_power(par: Array, load: float, slip: float, work: Array) -> float:
-    """Return the friction power of a face [W] in the state W_NOW, the film settled."""
+    """Return the friction power of a face [W] in W_NOW, the film settled, or the one given."""
+    if work[L.W_GIVEN] != 0.0:
+        return given_power(work, slip)
     surfaces(par, work, L.W_NOW, L.W_SURFACE)
     mu, _, _ = coefficient_slopes(par, slip, work[L.W_SURFACE])
     contact = par[L.P_FACES] * par[L.D_RADIUS] * mu * load

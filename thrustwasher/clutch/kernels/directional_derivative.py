@@ -17,6 +17,7 @@ from ...numerics.status import NOT_FINITE, OK
 from ...tribology.lumped_body import exponential_weights
 from . import layout as L
 from .advance import integrate, is_integrated, load_memory, settle, settle_film
+from .holding import dip_of, hold
 from .pack_friction import coefficient_slopes
 from .pack_outputs import ring_outputs
 from .rates import n_unknowns, settled_cooling, surfaces
@@ -24,7 +25,7 @@ from .rosenbrock_derivatives import follow
 
 
 @kernel
-def heat_of_a_ramp(par: Array, inp: Array, state: Array, seed: Array) -> float:
+def heat_of_a_ramp(par: Array, inp: Array, state: Array, work: Array, seed: Array) -> float:
     """Return the change of the interface [K] where the film settles, at the end of an interval.
 
     The power at that end is the one of the temperature at its start.
@@ -39,6 +40,8 @@ def heat_of_a_ramp(par: Array, inp: Array, state: Array, seed: Array) -> float:
             rate = par[L.D_GAIN] * settled_cooling(par, load) * par[L.D_AREA]
         _, _, second = exponential_weights(rate * state[L.S_DURATION])
         rise += par[np.uintp(L.D_GAIN + i)] * second * state[L.S_DURATION]
+    if work[L.W_GIVEN] != 0.0:
+        return rise * work[L.W_GIVEN_SLOPE] * seed[L.I_SPEED]
     mu, _, mu_slip = coefficient_slopes(par, slip, temperature)
     faster = sign_of(slip) * seed[L.I_SPEED]
     smooth = math.tanh(abs(slip) / par[L.P_SPEED_SMOOTHING])
@@ -88,8 +91,28 @@ def followed(par: Array, inp: Array, state: Array, work: Array, seed: Array) -> 
         if status == OK:
             status = settle(par, ramp, duration, state[L.S_POWER], work)
         settle_film(par, load, work)
-    work[L.W_SURFACE_CHANGE] = heat_of_a_ramp(par, inp, state, seed)
+    work[L.W_SURFACE_CHANGE] = heat_of_a_ramp(par, inp, state, work, seed)
     return work[L.W_SETTLED_LOAD] * seed[L.I_LOAD], status
+
+
+@kernel
+def answer_slopes(
+    par: Array, inp: Array, work: Array, seed: Array, out: Array, dout: Array
+) -> None:
+    """Change ``dout`` to that of a pack that holds; ``out``: of one that does not."""
+    slip, mem = inp[L.I_SPEED], work[L.W_MEMORY : L.W_MEMORY + L.N_MEMORY]
+    capacity, grows = out[L.O_CAPACITY], dout[L.O_CAPACITY]
+    wet, dwet = abs(out[L.O_VISCOUS_TORQUE]), sign_of(slip) * dout[L.O_VISCOUS_TORQUE]
+    torque, _, by_slip, by_dry, by_wet, _ = hold(par, mem, slip, mem[L.M_STEP], capacity - wet, wet)
+    rest = 1.0 - max(dip_of(par, mem, torque, capacity), 0.0)
+    torque *= rest
+    dout[L.O_TORQUE] = rest * (by_slip * seed[L.I_SPEED] + by_dry * (grows - dwet) + by_wet * dwet)
+    share = torque / capacity if capacity > 0.0 else 0.0
+    more = (dout[L.O_TORQUE] - share * grows) / capacity if capacity > 0.0 else 0.0
+    dout[L.O_VISCOUS_TORQUE] = dwet * share + wet * more
+    dout[L.O_CONTACT_TORQUE] = dout[L.O_TORQUE] - dout[L.O_VISCOUS_TORQUE]
+    dout[L.O_POWER] = dout[L.O_TORQUE] * slip + torque * seed[L.I_SPEED]
+    dout[L.O_HEAT_FLUX] = dout[L.O_POWER] / (par[L.P_FACES] * par[L.D_AREA])
 
 
 @kernel
@@ -115,6 +138,9 @@ def directional_derivative(
     scratch = work[L.W_VARIED : L.W_VARIED + L.NOUT]
     change = (seed[L.I_LOAD], seed[L.I_SPEED], film, seed[L.I_DRUM])
     ring_outputs(par, point, change, work, scratch, dout)
+    dout[L.O_PLANT_INERTIA] = 0.0
+    if par[L.P_HOLDING] != L.OFF:
+        answer_slopes(par, inp, work, seed, scratch, dout)
     dout[L.O_TEMPERATURE] = heat
     dout[L.O_ENERGY] = dout[L.O_OIL_HEAT] = dout[L.O_STORED_HEAT] = 0.0
     dout[L.O_OIL_ENERGY] = dout[L.O_ADVISED] = 0.0

@@ -203,3 +203,40 @@ def pack_rates(
             work[place] = 0.0 if opens else -rate * work[place] / mean
     work[np.uintp(to + L.R_RATE)] = rate
     work[np.uintp(to + L.R_RATE_U)], work[np.uintp(to + L.R_RATE_F)] = rate_u, rate_f
+    if work[L.W_GIVEN] != 0.0:
+        _give_power(par, slip, work, at)
+
+
+@kernel
+def given_power(work: Array, slip: float) -> float:
+    """Return the power of a face [W] that is given, at a slip [rad/s]."""
+    return work[L.W_GIVEN_POWER] + work[L.W_GIVEN_SLOPE] * slip
+
+
+@kernel
+def _give_power(par: Array, slip: float, work: Array, at: int) -> None:
+    """Put the power that is given in place of the pack's own."""
+    for k in range(int(par[L.D_RINGS])):
+        ring, share = at + k * L.N_OF_RING, work[np.uintp(L.W_RING_SHARE + k)]
+        for i in range(L.R_POWER, L.R_POWER_D + 1):
+            work[np.uintp(ring + i)] = 0.0
+        work[np.uintp(ring + L.R_POWER)] = share * given_power(work, slip)
+        work[np.uintp(ring + L.R_POWER_S)] = share * work[L.W_GIVEN_SLOPE]
+
+
+@kernel
+def share_power(par: Array, load: float, slip: float, drum: float, u: float, work: Array) -> None:
+    """Fill the rings' shares in a power that is given: as they would share their own now."""
+    rings, total = int(par[L.D_RINGS]), 0.0
+    work[L.W_RING_SHARE] = 1.0
+    if rings == 1:
+        return
+    work[L.W_GIVEN] = 0.0
+    surfaces(par, work, L.W_NOW, L.W_SURFACE)
+    pack_rates(par, load, slip, drum, u, work, L.W_NEIGHBOUR)
+    for k in range(rings):
+        total += kept_of(work, L.NEIGHBOUR, k)[L.R_POWER]
+    for k in range(rings):
+        ring, own = ring_of(par, k), kept_of(work, L.NEIGHBOUR, k)[L.R_POWER]
+        share = own / total if total > 0.0 else ring[L.D_AREA] / par[L.D_AREA]
+        work[np.uintp(L.W_RING_SHARE + k)] = share

@@ -244,7 +244,8 @@ class Scene:
         # with second order.
         for name, part in parts.items():
             if hasattr(part.params, "input_course"):
-                parts[name] = replace(part, params=_with(part.params, input_course="linear"))
+                run = _with(part.params, input_course="linear", holding="off")
+                parts[name] = replace(part, params=run)
         return replace(self, parts=parts)
 
 

@@ -44,6 +44,7 @@ RESERVED = {
     "torque_age": "the choice of master sets it",
     "ring_mesh": "a table [ring_mesh] sets it",
     "input_course": "in a shift it is linear, as the transmission expects",
+    "holding": "in a shift it is off: the transmission decides between stick and slip",
 }
 
 NEEDLES = 0.004  # friction of a needle thrust bearing at its mean radius: an estimate

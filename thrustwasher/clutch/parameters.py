@@ -7,6 +7,7 @@ from operator import attrgetter
 from typing import Any
 
 from ..errors import ParameterError
+from ..model.holding import coupling_age, coupling_inertia, holding_choice
 from ..model.parameters import check_ranges, check_rules, choice, count, flag, quantity
 from ..model.part_file import preset_params
 from ..model.spec import Rule
@@ -28,14 +29,7 @@ FRICTION_DATA = {
     "boundary": "friction of the asperities alone (a rig at low speed): all shear of oil is added",
 }
 
-HOLDING = {
-    "identified": "finds inertia and delay of the driveline from the slip, then holds",
-    "given": "holds with coupling_inertia and coupling_age",
-    "off": "friction passes smoothly through zero over speed_smoothing; nothing is held",
-}
-
 N_TABLE = 5
-OF_GIVEN = (("holding", "given"),)
 OF_TABLE = (("friction_law", "table"),)
 OF_WANG = (("friction_law", "wang"),)
 OVER_SPEED = (  # the rung closed has the constant law
@@ -257,29 +251,9 @@ class ClutchParams:
         "what load and slip do between two steps",
         of_a_run=True,
     )
-    holding: str = choice(
-        "identified",
-        HOLDING,
-        "Holding",
-        "how friction_torque holds a pack that sticks between two shafts of the host",
-        of_a_run=True,
-    )
-    coupling_inertia: float = quantity(
-        0.1,
-        "kg.m2",
-        1e-6,
-        1e6,
-        "inertia that the slip sees, J1 J2/(J1 + J2) of the two shafts",
-        tunable=True,
-        read_by=OF_GIVEN,
-    )
-    coupling_age: int = count(
-        0,
-        0,
-        2,
-        "steps after which the torque acts: 0 at once, 1 where values are a step old",
-        read_by=OF_GIVEN,
-    )
+    holding: str = holding_choice("the pack")
+    coupling_inertia: float = coupling_inertia()
+    coupling_age: int = coupling_age()
     probing: bool = flag(
         True,
         "torque dips by 2 % while the pack slips and the driveline is not known",

@@ -26,12 +26,15 @@ def filled(
 ) -> Any:
     """Return the ``size`` numbers of a kernel's ``par``: parameters, rung, derived constants.
 
-    It is for solutions without a past: a washer's bodies are taken as steady. ParameterError if the
+    It is for solutions without a past: a washer's bodies are taken as steady, nothing is held.
+    ParameterError if the
     rung is not one of the model's, or the parameters cannot be used together.
     """
     rung = rung_named(spec, fidelity)
     if getattr(params, "thermal_mode", "quasi_steady") != "quasi_steady":
         params = replace(params, thermal_mode="quasi_steady")
+    if getattr(params, "holding", "off") != "off":
+        params = replace(params, holding="off")
     numbers = [*as_numbers(params), list(spec.fidelities).index(rung) + 1]
     par = np.zeros(size)
     par[: len(numbers)] = numbers

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..errors import ParameterError
+from ..model.holding import coupling_age, coupling_inertia, holding_choice
 from ..model.parameters import (
     check_number,
     check_ranges,
@@ -356,6 +357,9 @@ class WasherParams:
         "temperatures at the start, if transient",
         read_by=TRANSIENT,
     )
+    holding: str = holding_choice("the washer")
+    coupling_inertia: float = coupling_inertia()
+    coupling_age: int = coupling_age()
 
     @classmethod
     def preset(cls, name: str, **changes: Any) -> "WasherParams":

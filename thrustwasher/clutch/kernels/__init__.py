@@ -9,8 +9,7 @@
 ``rosenbrock_derivatives``  how they change with the inputs at the end of an interval
 ``advance``                 a pack's memory and its way along an interval of time
 ``pack_outputs``            the outputs at a point in time, with slopes
-``plant``                   the driveline a pack sits in, identified from its slip
-``holding``                 the torque that holds there, chatter, the work of the torques
+``coupling``                a pack in a driveline that it does not know: its torque, its heat
 ``steady``                  a pack that slips for ever: the temperature where cooling wins
 ``directional_derivative``  how the outputs change with the inputs: exact, film and heat held
 ``step``                    one co-simulation step
@@ -25,7 +24,6 @@ CALLED = {
         "thrustwasher.clutch.kernels.pack_friction: friction ploughing coefficient_slopes",
         "thrustwasher.clutch.kernels.pack_friction: contact_share load_share settled_slope",
         "thrustwasher.clutch.kernels.pack_friction: shear_slopes viscous_slopes",
-        "thrustwasher.clutch.kernels.holding: hold",
         "thrustwasher.clutch.kernels.constants: broken_rule derive derive_rings",
         "thrustwasher.clutch.kernels.directional_derivative: directional_derivative",
         "thrustwasher.clutch.kernels.pack_outputs: fill_outputs mean_surface ring_outputs",

@@ -14,10 +14,11 @@ from ...numerics.arrays import are_finite, clear, copy
 from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import sign_of
 from ...numerics.status import NOT_FINITE, OK
+from ...tribology.holding import memory as M
 from ...tribology.lumped_body import exponential_weights
 from . import layout as L
 from .advance import integrate, is_integrated, load_memory, settle, settle_film
-from .holding import dip_of, hold
+from .coupling import answer_slopes
 from .pack_friction import coefficient_slopes
 from .pack_outputs import ring_outputs
 from .rates import n_unknowns, settled_cooling, surfaces
@@ -96,26 +97,6 @@ def followed(par: Array, inp: Array, state: Array, work: Array, seed: Array) -> 
 
 
 @kernel
-def answer_slopes(
-    par: Array, inp: Array, work: Array, seed: Array, out: Array, dout: Array
-) -> None:
-    """Change ``dout`` to that of a pack that holds; ``out``: of one that does not."""
-    slip, mem = inp[L.I_SPEED], work[L.W_MEMORY : L.W_MEMORY + L.N_MEMORY]
-    capacity, grows = out[L.O_CAPACITY], dout[L.O_CAPACITY]
-    wet, dwet = abs(out[L.O_VISCOUS_TORQUE]), sign_of(slip) * dout[L.O_VISCOUS_TORQUE]
-    torque, _, by_slip, by_dry, by_wet, _ = hold(par, mem, slip, mem[L.M_STEP], capacity - wet, wet)
-    rest = 1.0 - max(dip_of(par, mem, torque, capacity), 0.0)
-    torque *= rest
-    dout[L.O_TORQUE] = rest * (by_slip * seed[L.I_SPEED] + by_dry * (grows - dwet) + by_wet * dwet)
-    share = torque / capacity if capacity > 0.0 else 0.0
-    more = (dout[L.O_TORQUE] - share * grows) / capacity if capacity > 0.0 else 0.0
-    dout[L.O_VISCOUS_TORQUE] = dwet * share + wet * more
-    dout[L.O_CONTACT_TORQUE] = dout[L.O_TORQUE] - dout[L.O_VISCOUS_TORQUE]
-    dout[L.O_POWER] = dout[L.O_TORQUE] * slip + torque * seed[L.I_SPEED]
-    dout[L.O_HEAT_FLUX] = dout[L.O_POWER] / (par[L.P_FACES] * par[L.D_AREA])
-
-
-@kernel
 def directional_derivative(
     par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: Array
 ) -> int:
@@ -139,7 +120,7 @@ def directional_derivative(
     change = (seed[L.I_LOAD], seed[L.I_SPEED], film, seed[L.I_DRUM])
     ring_outputs(par, point, change, work, scratch, dout)
     dout[L.O_PLANT_INERTIA] = 0.0
-    if par[L.P_HOLDING] != L.OFF:
+    if par[L.P_HOLDING] != M.OFF:
         answer_slopes(par, inp, work, seed, scratch, dout)
     dout[L.O_TEMPERATURE] = heat
     dout[L.O_ENERGY] = dout[L.O_OIL_HEAT] = dout[L.O_STORED_HEAT] = 0.0

@@ -1,5 +1,7 @@
 """Where the wet clutch keeps its numbers: places in the arrays of parameters, state and work."""
 
+from ...tribology.holding.memory import N_MEMORY
+
 # Parameters, in the order of ClutchParams.
 (
     P_INNER_RADIUS,
@@ -128,44 +130,8 @@ S_STARTED, S_FILM, S_ENERGY, S_HEAT = range(4)  # the last three: unknowns in th
     S_CAPACITY_CHANGE,
     S_CAPACITY_SPAN,
     S_ADVISED,
-    S_MEMORY,
+    S_MEMORY,  # of the driveline it sits in
 ) = range(S_HEAT + N_HEAT, S_HEAT + N_HEAT + 17)
-# What a pack remembers of the driveline it sits in, the newest first: slips seen, steps, torques
-# given; then sums of the least squares for each age of the torque.
-(
-    M_COUNT,  # steps
-    M_SLIP,
-    M_STEP,
-    M_TORQUE,
-    M_XX,
-    M_XY,
-    M_YY,
-    M_WEIGHT,  # of the samples
-    M_AGE,  # identified, and one more; 0: not yet
-    M_INERTIA,  # kg m2
-    M_ERROR,  # of it: relative standard deviation
-    M_OUTSIDE,  # acceleration of the slip by all other torques [rad/s2]
-    M_FOLLOWS,  # it may be filtered
-    M_HELD,  # steps since the pack last slid
-    M_DIPS,  # steps with the pattern in this engagement
-    M_STUCK,  # the pack was stuck at the start
-    M_NARROWED,  # 1 - share of the width over which the torque of an unknown plant rises
-    M_SIGN,  # of the slip
-    M_SWING,  # largest change of the torque in a step since the slip last reversed [N m]
-    M_REVERSES,  # it does so in this step
-    M_REVERSED,  # the steps of the last two reversals
-    M_CHATTER,  # until this step
-    M_CAUTION,  # 1 - largest share of the slip that is ended in a step
-    M_MOST_CAPACITY,
-    M_MOST_SLIP,
-    M_CAPACITY,  # of asperities, then of oil [N m], after the last step
-    M_WORK,  # of the torques since the start [J], were they of each age
-    M_BOOKED,  # heat that film and temperatures have had of it [J]
-    N_MEMORY,
-) = (
-    *(0, 1, 4, 7, 12, 15, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32),
-    *(34, 35, 36, 37, 38, 40, 43, 44),
-)
 NSTATE = S_MEMORY + N_MEMORY
 
 N_STAGES = 6
@@ -251,7 +217,6 @@ CONSTANT_LAW, TABLE_LAW = 2, 3  # friction_law
 BOUNDARY_DATA = 2  # friction_data
 N_TABLE = 5  # points above standstill
 LINEAR_COURSE = 2  # input_course
-IDENTIFIED, GIVEN, OFF = 1, 2, 3  # holding
 HOT_LIMIT = 523.0  # K
 LEAST_RATIO = -3.0  # film ratio below which rough faces are pressed out of the models' reach
 OPEN_PRESSURE = 1e3  # Pa; a pack pressed less than this is open

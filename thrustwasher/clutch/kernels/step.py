@@ -24,6 +24,9 @@ from ...numerics.courses import value_at
 from ...numerics.jit import Array, Ints, kernel
 from ...numerics.status import BAD_INPUT, CHATTER, HOT, NOT_FINITE, OK, OUTSIDE_VERIFIED
 from ...numerics.step_size import advised_step
+from ...tribology.holding import memory as M
+from ...tribology.holding.reversals import chatters
+from ...tribology.holding.torque import age_of
 from . import layout as L
 from .advance import (
     advance,
@@ -36,21 +39,11 @@ from .advance import (
 )
 from .constants import broken_rule as broken_rule
 from .constants import derive as derive
+from .coupling import answer, coupling_of, remember
 from .directional_derivative import directional_derivative
-from .holding import (
-    age_of,
-    chatters,
-    dip_of,
-    hold,
-    inertia_of,
-    note,
-    notice,
-    work_done,
-    work_foreseen,
-)
 from .pack_friction import regime_of
 from .pack_outputs import fill_outputs, mean_surface, stored_heat
-from .rates import given_power, n_unknowns, pack_rates, share_power, surfaces
+from .rates import given_power, n_unknowns, pack_rates, surfaces
 
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
 NOUT, NIOUT, sens = L.NOUT, L.NIOUT, directional_derivative
@@ -81,8 +74,8 @@ def step(
     work[L.W_SUBSTEPS] = work[L.W_REFUSED] = 0.0
     work[L.W_PROPOSED], work[L.W_DURATION] = state[L.S_SUBSTEP], dt
     status = load_memory(par, before[0], before[2], state, work)
-    holds = par[L.P_HOLDING] != L.OFF
-    foreseen = 0.0
+    holds = par[L.P_HOLDING] != M.OFF
+    work[L.W_GIVEN] = foreseen = 0.0
     if status == OK:
         foreseen = remember(par, state, before, linear, dt, work, out)
     if linear:
@@ -142,7 +135,7 @@ def step(
         out[L.O_ADVISED] = advise(par, state, span, straight, out[L.O_CAPACITY])
         if chatters(work[L.W_MEMORY :]):
             out[L.O_ADVISED] = min(out[L.O_ADVISED], LESS * dt)
-        elif work[L.W_MEMORY + L.M_REVERSES] != 0.0 and state[L.S_ADVISED] > 0.0:
+        elif work[L.W_MEMORY + M.REVERSES] != 0.0 and state[L.S_ADVISED] > 0.0:
             out[L.O_ADVISED] = min(out[L.O_ADVISED], state[L.S_ADVISED])
     out[L.O_OIL_ENERGY] = energy - out[L.O_STORED_HEAT]
     if status == OK and not _is_finite(par, work, unknowns, out):
@@ -156,10 +149,10 @@ def step(
         state[L.S_SHOWN_OIL_HEAT] = out[L.O_OIL_HEAT]
         state[L.S_SHOWN_STORED] = out[L.O_STORED_HEAT]
         note_capacity(state, span if started else 0.0, out)
-        copy(work[L.W_MEMORY :], state[L.S_MEMORY : L.S_MEMORY + L.N_MEMORY])
+        copy(work[L.W_MEMORY :], state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY])
     iout[L.IO_PLANT_AGE] = -1
     if holds:
-        iout[L.IO_PLANT_AGE] = age_of(par, work[L.W_MEMORY :])
+        iout[L.IO_PLANT_AGE] = age_of(coupling_of(par), work[L.W_MEMORY :])
     iout[L.IO_REGIME] = regime_of(par, out[L.O_RATIO], slip)
     advice = OK
     if out[L.O_RATIO] < L.LEAST_RATIO:
@@ -170,93 +163,6 @@ def step(
         advice = CHATTER
     iout[L.IO_STATUS] = advice if status == OK else status
     return status
-
-
-@kernel
-def remember(
-    par: Array,
-    state: Array,
-    point: tuple[float, float, float, float],
-    linear: bool,
-    dt: float,
-    work: Array,
-    out: Array,
-) -> float:
-    """Take the memory of the driveline to W_MEMORY, and into account what is seen at ``point``.
-
-    Gives the power of a pack that holds to the interval that is integrated next: of the last step
-    with a linear course, else of this one. Returns the work foreseen in this step [J].
-    """
-    mem, slip = work[L.W_MEMORY : L.W_MEMORY + L.N_MEMORY], point[1]
-    copy(state[L.S_MEMORY : L.S_MEMORY + L.N_MEMORY], mem)
-    work[L.W_GIVEN] = foreseen = 0.0
-    holds = par[L.P_HOLDING] != L.OFF
-    if holds and dt > 0.0 and mem[L.M_COUNT] == 0.0:
-        settle_film(par, point[0], work)
-        fill_outputs(par, point[0], slip, point[3], work, out)
-        mem[L.M_CAPACITY + 1] = abs(out[L.O_VISCOUS_TORQUE])
-        mem[L.M_CAPACITY] = out[L.O_CAPACITY] - mem[L.M_CAPACITY + 1]
-    dry, wet = mem[L.M_CAPACITY], mem[L.M_CAPACITY + 1]
-    if dt > 0.0:
-        notice(par, mem, slip, dry + wet)
-    if not holds:
-        return foreseen
-    film = work[np.uintp(L.W_NOW + L.Y_FILM)]
-    if linear:
-        share_power(par, state[L.S_LOAD], state[L.S_SLIP], state[L.S_DRUM], film, work)
-    else:
-        share_power(par, point[0], slip, point[3], film, work)
-    done, span = work_done(par, mem, slip), state[L.S_DURATION] if linear else dt
-    heat = done
-    if dt > 0.0:
-        torque = hold(par, mem, slip, dt, dry, wet)[0]
-        foreseen = work_foreseen(par, mem, slip, dt, torque)
-    if not linear:
-        heat += foreseen
-    if span > 0.0:
-        power, slope = (heat - mem[L.M_BOOKED]) / (span * par[L.P_FACES]), 0.0
-        if linear:
-            slope = mem[np.uintp(L.M_TORQUE + max(age_of(par, mem), 0))] / par[L.P_FACES]
-            power -= slope * 0.5 * (mem[L.M_SLIP] + slip)
-        work[L.W_GIVEN], work[L.W_GIVEN_POWER], work[L.W_GIVEN_SLOPE] = 1.0, power, slope
-        mem[L.M_BOOKED] = heat
-    return foreseen
-
-
-@kernel
-def answer(par: Array, slip: float, dt: float, work: Array, out: Array) -> int:
-    """Put the torque of a pack that holds to ``out``; return 1 where it does, else 0.
-
-    Takes ``slip`` [rad/s] and torque to W_MEMORY if ``dt`` > 0. At the slip that was given last it
-    is the torque given then, as far as the capacity now allows.
-    """
-    mem = work[L.W_MEMORY : L.W_MEMORY + L.N_MEMORY]
-    wet = abs(out[L.O_VISCOUS_TORQUE])
-    capacity = out[L.O_CAPACITY]
-    dry, torque = capacity - wet, out[L.O_TORQUE]
-    out[L.O_PLANT_INERTIA] = 0.0
-    holds, outside, dips = False, 0.0, -1.0
-    if par[L.P_HOLDING] != L.OFF:
-        out[L.O_PLANT_INERTIA] = inertia_of(par, mem)
-        if dt == 0.0 and mem[L.M_COUNT] > 0.0 and slip == mem[L.M_SLIP]:
-            holds = mem[L.M_HELD] > 0.0
-            torque = min(capacity, max(-capacity, mem[L.M_TORQUE]))
-        else:
-            step = dt if dt > 0.0 else mem[L.M_STEP]
-            torque, holds, _, _, _, outside = hold(par, mem, slip, step, dry, wet)
-            dips = dip_of(par, mem, torque, capacity)
-            if dips > 0.0:
-                torque *= 1.0 - dips
-        share = torque / capacity if capacity > 0.0 else 0.0
-        out[L.O_TORQUE] = torque
-        out[L.O_VISCOUS_TORQUE] = wet * share
-        out[L.O_CONTACT_TORQUE] = torque - out[L.O_VISCOUS_TORQUE]
-        out[L.O_POWER] = torque * slip
-        out[L.O_HEAT_FLUX] = out[L.O_POWER] / (par[L.P_FACES] * par[L.D_AREA])
-    if dt > 0.0:
-        note(mem, slip, dt, torque, holds, outside, dips >= 0.0)
-        mem[L.M_CAPACITY], mem[L.M_CAPACITY + 1] = dry, wet
-    return 1 if holds else 0
 
 
 @kernel
@@ -307,7 +213,7 @@ def look_ahead(par: Array, inp: Array, dt: float, power: float, work: Array) -> 
     oil, cooling = inp[L.I_OIL], work[L.W_COOLING]
     if par[L.P_FIDELITY] == L.FINE:
         film = work[np.uintp(L.W_NOW + L.Y_FILM)]
-        if par[L.P_HOLDING] != L.OFF:
+        if par[L.P_HOLDING] != M.OFF:
             work[L.W_GIVEN], work[L.W_GIVEN_POWER], work[L.W_GIVEN_SLOPE] = 1.0, power, 0.0
         pack_rates(par, inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_DRUM], film, work, L.W_NEIGHBOUR)
         for k in range(int(par[L.D_RINGS])):

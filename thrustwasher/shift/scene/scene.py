@@ -242,10 +242,13 @@ class Scene:
         parts = {**self.parts, "transmission": replace(gearbox, params=params)}
         # The transmission looks ahead by itself: packs that say where they are now couple to it
         # with second order.
+        # Stick and slip are decided in it alone.
         for name, part in parts.items():
             if hasattr(part.params, "input_course"):
-                run = _with(part.params, input_course="linear", holding="off")
-                parts[name] = replace(part, params=run)
+                parts[name] = replace(part, params=_with(part.params, input_course="linear"))
+            if hasattr(part.params, "holding"):
+                held = parts[name]
+                parts[name] = replace(held, params=_with(held.params, holding="off"))
         return replace(self, parts=parts)
 
 

@@ -9,6 +9,7 @@ its own.
 """
 
 from ...tribology.asperities import N_TABLE
+from ...tribology.holding.memory import N_MEMORY
 
 # Positions: heights [m] of washer and gear, tilts [rad] of the washer about x and y; and the forces
 # conjugate to them. Both orders are those of rows and columns of the 4 x 4 systems.
@@ -56,7 +57,8 @@ P_CONDUCTIVITY = 26
     P_THERMAL_MODE,
 ) = range(30, 51)
 P_DENSITY, P_SPECIFIC_HEAT = 51, 55
-P_BODY_STORAGE, P_THERMAL_START, P_FIDELITY, N_PARAM = range(59, 63)
+P_BODY_STORAGE, P_THERMAL_START, P_HOLDING, P_COUPLING_INERTIA, P_COUPLING_AGE = range(59, 64)
+P_FIDELITY, N_PARAM = 64, 65
 N_STEADY = P_THERMAL_MODE  # a steady solution depends on those before; what follows is of time
 OF_CARRIER, OF_WASHER, OF_GEAR = 1, 2, 3  # places of a body's own property behind the common one
 CONTACT_YIELD, SUMMIT_HEIGHTS, CONSTANT_FRICTION = 2.0, 2.0, 2.0  # values of the laws
@@ -175,4 +177,7 @@ S_FACTOR_OUT, S_SUBSTEP = 26, 29  # (3) as OUT_CARRIER; the next substep to try 
 S_TANGENT, S_LOAD_SLOPE = 30, 34  # dq/ds (4) and dload/ds [N/m] at the last solution, 0: unknown
 S_ENERGY, S_STORED_HEAT = 36, 37  # made and stored since the start [J]
 S_FAR_FACE = 38  # [K] temperature at the gear's far face
-S_FIELDS = 39  # temperatures, pressures, temperatures of the factor, terms of the ladders
+S_MEMORY = 39  # of the driveline the washer sits in
+S_FIELDS = (
+    S_MEMORY + N_MEMORY
+)  # temperatures, pressures, temperatures of the factor, terms of the ladders

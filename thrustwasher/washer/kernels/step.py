@@ -5,7 +5,12 @@ The map is a look-up; the other rungs are one kernel on meshes.
 
 from ...numerics.arrays import clear, copy
 from ...numerics.jit import Array, Ints, inlined, kernel
-from ...numerics.status import BAD_INPUT, NO_BRANCH, NOT_FINITE, OK, SINGULAR
+from ...numerics.status import BAD_INPUT, CHATTER, NO_BRANCH, NOT_FINITE, OK, SINGULAR
+from ...tribology.holding import memory as M
+from ...tribology.holding.drag import hold_drag
+from ...tribology.holding.memory import N_MEMORY, Coupling
+from ...tribology.holding.reversals import chatters
+from ...tribology.holding.torque import knows
 from . import layout as L
 from .constants import derive_grid, size_of_par
 from .directional_derivative import differentiate
@@ -48,7 +53,8 @@ TABLE = {
     "ON": L.MAP,
 }
 NWORK = TABLE_AT + ROOM
-NSEED = NINP + len(SHARES)  # inputs, then tunable parameters
+NSEED = NINP + len(SHARES)  # inputs, then tunable shares of heat
+LESS = 0.2  # of the step that was taken: the advice where the speed chatters
 
 __all__ = [
     "NINP",
@@ -112,7 +118,35 @@ def _keep_book(out: Array, state: Array) -> None:
 
 
 @kernel
+def coupling_of(par: Array) -> Coupling:
+    """Return how the washer holds where its shaft could stand."""
+    return int(par[L.P_HOLDING]), par[L.P_COUPLING_INERTIA], int(par[L.P_COUPLING_AGE]), 0.0, False
+
+
+@kernel
 def step(
+    par: Array, inp: Array, state: Array, work: Array, out: Array, iout: Ints, t: float, dt: float
+) -> int:
+    """Advance by ``dt``, write the outputs: those of sliding, held where the shaft could stand."""
+    status = slide(par, inp, state, work, out, iout, t, dt)
+    if status != OK:
+        return status
+    mem = state[L.S_MEMORY : L.S_MEMORY + N_MEMORY]
+    speed, torque = inp[L.I_SPEED], out[L.O_TORQUE]
+    given, _, _ = hold_drag(coupling_of(par), mem, speed, dt, torque, abs(torque))
+    if given != torque:
+        if torque != 0.0:
+            out[L.O_COEFFICIENT] *= abs(given / torque)
+        out[L.O_TORQUE], out[L.O_POWER] = given, given * speed
+    if chatters(mem):
+        iout[L.IO_STATUS] = CHATTER
+        if par[L.P_THERMAL_MODE] == L.TRANSIENT and dt > 0.0:
+            out[L.O_ADVISED] = min(out[L.O_ADVISED], LESS * dt)
+    return status
+
+
+@kernel
+def slide(
     par: Array, inp: Array, state: Array, work: Array, out: Array, iout: Ints, t: float, dt: float
 ) -> int:
     """Advance by ``dt`` (quasi-steady: solve at the present inputs) and write the outputs.
@@ -193,6 +227,24 @@ def step(
 
 @kernel
 def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: Array) -> int:
+    """Fill ``dout`` (NOUT,) as ``slide_sens`` does; where the washer holds, with its slope.
+
+    That of the torque over the speed is then the law's: it ends the speed with the step.
+    """
+    status = slide_sens(par, inp, state, work, seed, dout)
+    mem = state[L.S_MEMORY : L.S_MEMORY + N_MEMORY]
+    if status == OK and knows(coupling_of(par), mem, mem[M.STEP]) and inp[L.I_SPEED] != mem[M.SLIP]:
+        torque = workspace_of(par, work).outputs[L.O_TORQUE]
+        speed, change = inp[L.I_SPEED], seed[L.I_SPEED]
+        given, holds, slope = hold_drag(coupling_of(par), mem, speed, 0.0, torque, abs(torque))
+        if holds:
+            dout[L.O_TORQUE] = slope * change
+            dout[L.O_POWER] = slope * change * speed + given * change
+    return status
+
+
+@kernel
+def slide_sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: Array) -> int:
     """Fill ``dout`` (NOUT,), the derivative of the real outputs along ``seed`` (NSEED,).
 
     ``seed`` holds changes of the inputs, then, if it is so long, of the tunable shares of heat.

@@ -18,7 +18,7 @@ import math
 import numpy as np
 
 from ...numerics.jit import Array, kernel
-from . import layout as L
+from . import memory as M
 
 N_AGES = 3
 EXCITED = 0.004  # of the largest capacity: smaller changes of the torque say nothing
@@ -43,29 +43,29 @@ def _second_difference(mem: Array, at: int) -> float:
 @kernel
 def _left(mem: Array, d: int) -> float:
     """Return the squares that the age ``d`` does not explain."""
-    xx, xy = mem[np.uintp(L.M_XX + d)], mem[np.uintp(L.M_XY + d)]
-    left = mem[L.M_YY]
+    xx, xy = mem[np.uintp(M.XX + d)], mem[np.uintp(M.XY + d)]
+    left = mem[M.YY]
     if xx > 0.0 and xy > 0.0:
         left -= xy * xy / xx
-    return max(left, 1e-13 * mem[L.M_YY])
+    return max(left, 1e-13 * mem[M.YY])
 
 
 @kernel
 def doubt(mem: Array) -> None:
     """Forget most of what was identified: the plant may be another one. It holds until then."""
     for i in range(2 * N_AGES + 1):
-        mem[np.uintp(L.M_XX + i)] *= CHANGED
-    mem[L.M_WEIGHT] *= 0.5
-    if mem[L.M_AGE] > 0.0:
-        mem[L.M_ERROR] = max(mem[L.M_ERROR], 1.3 * UNSURE)
+        mem[np.uintp(M.XX + i)] *= CHANGED
+    mem[M.WEIGHT] *= 0.5
+    if mem[M.AGE] > 0.0:
+        mem[M.ERROR] = max(mem[M.ERROR], 1.3 * UNSURE)
 
 
 @kernel
 def is_deaf(mem: Array) -> bool:
     """Tell if the slip does not answer the torque at any age, as one that is prescribed."""
     for d in range(N_AGES):
-        xx, xy = mem[np.uintp(L.M_XX + d)], mem[np.uintp(L.M_XY + d)]
-        if xx > 0.0 and xy > 0.0 and xy * xy > DEAF * mem[L.M_YY] * xx:
+        xx, xy = mem[np.uintp(M.XX + d)], mem[np.uintp(M.XY + d)]
+        if xx > 0.0 and xy > 0.0 and xy * xy > DEAF * mem[M.YY] * xx:
             return False
     return True
 
@@ -75,42 +75,42 @@ def largest_answer(mem: Array) -> float:
     """Return the largest 1/J [1/(kg m2)] that the samples do not exclude."""
     most = 0.0
     for d in range(N_AGES):
-        xx = mem[np.uintp(L.M_XX + d)]
+        xx = mem[np.uintp(M.XX + d)]
         if xx > 0.0:
-            spread = math.sqrt(mem[L.M_YY] / xx / mem[L.M_WEIGHT])
-            most = max(most, mem[np.uintp(L.M_XY + d)] / xx + 2.0 * spread)
+            spread = math.sqrt(mem[M.YY] / xx / mem[M.WEIGHT])
+            most = max(most, mem[np.uintp(M.XY + d)] / xx + 2.0 * spread)
     return most
 
 
 @kernel
 def identify(mem: Array, slip: float) -> None:
     """Learn from the slip [rad/s] at the start of a step; age, inertia and error go to ``mem``."""
-    if mem[L.M_COUNT] < 4.0:
+    if mem[M.COUNT] < 4.0:
         return
-    rate_1 = (mem[L.M_SLIP] - mem[L.M_SLIP + 1]) / mem[L.M_STEP + 1]
-    rate_2 = (mem[L.M_SLIP + 1] - mem[L.M_SLIP + 2]) / mem[L.M_STEP + 2]
-    y = (slip - mem[L.M_SLIP]) / mem[L.M_STEP] - 2.0 * rate_1 + rate_2
-    most, unit = 0.0, mem[L.M_MOST_CAPACITY]
+    rate_1 = (mem[M.SLIP] - mem[M.SLIP + 1]) / mem[M.STEP + 1]
+    rate_2 = (mem[M.SLIP + 1] - mem[M.SLIP + 2]) / mem[M.STEP + 2]
+    y = (slip - mem[M.SLIP]) / mem[M.STEP] - 2.0 * rate_1 + rate_2
+    most, unit = 0.0, mem[M.MOST_CAPACITY]
     for d in range(N_AGES):
-        most = max(most, abs(_second_difference(mem, L.M_TORQUE + d)))
-    if mem[L.M_AGE] > 0.0 and mem[L.M_ERROR] < UNSURE:
-        known = _second_difference(mem, L.M_TORQUE + int(mem[L.M_AGE]) - 1)
-        strange = abs(y + known / mem[L.M_INERTIA])
-        if strange > STRANGE * unit / mem[L.M_INERTIA] and strange > 0.3 * abs(y):
+        most = max(most, abs(_second_difference(mem, M.TORQUE + d)))
+    if mem[M.AGE] > 0.0 and mem[M.ERROR] < UNSURE:
+        known = _second_difference(mem, M.TORQUE + int(mem[M.AGE]) - 1)
+        strange = abs(y + known / mem[M.INERTIA])
+        if strange > STRANGE * unit / mem[M.INERTIA] and strange > 0.3 * abs(y):
             doubt(mem)
-            mem[L.M_DIPS] = 0.0
+            mem[M.DIPS] = 0.0
             return
     if not most > EXCITED * unit:
         return
     scale = min(1.0, LEVER * unit / most)
     y *= scale
     for d in range(N_AGES):
-        x = -scale * _second_difference(mem, L.M_TORQUE + d)
-        mem[np.uintp(L.M_XX + d)] = KEPT * mem[np.uintp(L.M_XX + d)] + x * x
-        mem[np.uintp(L.M_XY + d)] = KEPT * mem[np.uintp(L.M_XY + d)] + x * y
-    mem[L.M_YY] = KEPT * mem[L.M_YY] + y * y
-    mem[L.M_WEIGHT] = KEPT * mem[L.M_WEIGHT] + 1.0
-    if mem[L.M_WEIGHT] >= ENOUGH:
+        x = -scale * _second_difference(mem, M.TORQUE + d)
+        mem[np.uintp(M.XX + d)] = KEPT * mem[np.uintp(M.XX + d)] + x * x
+        mem[np.uintp(M.XY + d)] = KEPT * mem[np.uintp(M.XY + d)] + x * y
+    mem[M.YY] = KEPT * mem[M.YY] + y * y
+    mem[M.WEIGHT] = KEPT * mem[M.WEIGHT] + 1.0
+    if mem[M.WEIGHT] >= ENOUGH:
         _decide(mem)
 
 
@@ -124,14 +124,14 @@ def _decide(mem: Array) -> None:
             best, second, age = left, best, d
         elif left < second:
             second = left
-    xx, xy = mem[np.uintp(L.M_XX + age)], mem[np.uintp(L.M_XY + age)]
-    contrast = CONTRAST if mem[L.M_WEIGHT] < MANY else CONTRAST_OF_MANY
-    if not (xy > 0.0 and best < contrast * second and best < EXPLAINED * mem[L.M_YY]):
+    xx, xy = mem[np.uintp(M.XX + age)], mem[np.uintp(M.XY + age)]
+    contrast = CONTRAST if mem[M.WEIGHT] < MANY else CONTRAST_OF_MANY
+    if not (xy > 0.0 and best < contrast * second and best < EXPLAINED * mem[M.YY]):
         return
     answer = xy / xx
-    if not answer * mem[L.M_MOST_CAPACITY] * mem[L.M_STEP] > FAINT * mem[L.M_MOST_SLIP]:
+    if not answer * mem[M.MOST_CAPACITY] * mem[M.STEP] > FAINT * mem[M.MOST_SLIP]:
         return
     if not 0.0 < 1.0 / answer < 1e300:
         return
-    mem[L.M_AGE], mem[L.M_INERTIA] = float(age + 1), 1.0 / answer
-    mem[L.M_ERROR] = math.sqrt(best / max(mem[L.M_WEIGHT] - 1.0, 0.5) / xx) / answer
+    mem[M.AGE], mem[M.INERTIA] = float(age + 1), 1.0 / answer
+    mem[M.ERROR] = math.sqrt(best / max(mem[M.WEIGHT] - 1.0, 0.5) / xx) / answer

@@ -1,0 +1,30 @@
+"""Parameters of units that hold between two shafts of a driveline they do not know."""
+
+from typing import Any
+
+from .parameters import choice, count, quantity
+
+HOLDING = {
+    "identified": "finds inertia and delay of the driveline from what its torque does, then holds",
+    "given": "holds with coupling_inertia and coupling_age",
+    "off": "nothing is held: friction passes through zero as it does without a driveline",
+}
+OF_GIVEN = (("holding", "given"),)
+
+
+def holding_choice(unit: str) -> Any:
+    """Return the field that says how ``unit`` ("the pack") holds."""
+    text = f"how friction_torque holds {unit} where the two shafts of the host could stand still"
+    return choice("identified", HOLDING, "Holding", text, of_a_run=True)
+
+
+def coupling_inertia() -> Any:
+    """Return the field of the inertia that the slip sees [kg m2]."""
+    text = "inertia that the slip sees: J1 J2/(J1 + J2) of two shafts, J of one"
+    return quantity(0.1, "kg.m2", 1e-6, 1e6, text, tunable=True, read_by=OF_GIVEN)
+
+
+def coupling_age() -> Any:
+    """Return the field of the delay of the torque, in steps of the host."""
+    text = "steps after which the torque acts: 0 at once, 1 where values are a step old"
+    return count(0, 0, 2, text, read_by=OF_GIVEN)

@@ -19,7 +19,7 @@ sums of the least squares, and the work of the torques.
     OUTSIDE,  # acceleration of the slip by all other torques [rad/s2]
     FOLLOWS,  # it may be filtered
     HELD,  # steps since the pack last slid
-    DIPS,  # steps with the pattern in this engagement
+    DIPS,  # steps with dips in this engagement, short ones in part
     STUCK,  # the pack was stuck at the start
     NARROWED,  # 1 - share of the width over which the torque of an unknown plant rises
     SIGN,  # of the slip
@@ -32,11 +32,13 @@ sums of the least squares, and the work of the torques.
     MOST_SLIP,
     CAPACITY,  # of asperities, then of oil [N m], after the last step
     WORK,  # of the torques since the start [J], were they of each age
+    LONGEST,  # step [s]
+    CLOSED,  # steps since the start, or since the unit was open
     BOOKED,  # heat that film and temperatures have had of it [J]
     N_MEMORY,
 ) = (
     *(0, 1, 4, 7, 12, 15, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32),
-    *(34, 35, 36, 37, 38, 40, 43, 44),
+    *(34, 35, 36, 37, 38, 40, 43, 44, 45, 46),
 )
 
 IDENTIFIED, GIVEN, OFF = 1, 2, 3  # how it holds

@@ -29,6 +29,7 @@ CONTRAST, CONTRAST_OF_MANY = 0.25, 0.5  # squares left at the best age over thos
 EXPLAINED = 0.5  # squares left at the best age over all
 FAINT = 1e-6  # of the largest slip: a step that moves it by less is not that of a plant
 UNSURE = 0.03  # relative standard deviation of the inertia
+SEEN = 4.0  # steps that a sample is made of
 STRANGE = 0.2  # of what the capacity does to the slip: more that is not explained is a new plant
 CHANGED = 0.05  # of what was known stays where the plant may be another one
 DEAF = 0.1  # squares explained over all: below it the slip does not answer
@@ -61,6 +62,15 @@ def doubt(mem: Array) -> None:
 
 
 @kernel
+def forget(mem: Array) -> None:
+    """Forget the samples: a new engagement follows, perhaps in another driveline."""
+    doubt(mem)
+    for i in range(2 * N_AGES + 1):
+        mem[np.uintp(M.XX + i)] = 0.0
+    mem[M.WEIGHT] = mem[M.CLOSED] = 0.0
+
+
+@kernel
 def is_deaf(mem: Array) -> bool:
     """Tell if the slip does not answer the torque at any age, as one that is prescribed."""
     for d in range(N_AGES):
@@ -85,7 +95,7 @@ def largest_answer(mem: Array) -> float:
 @kernel
 def identify(mem: Array, slip: float) -> None:
     """Learn from the slip [rad/s] at the start of a step; age, inertia and error go to ``mem``."""
-    if mem[M.COUNT] < 4.0:
+    if mem[M.CLOSED] < SEEN:
         return
     rate_1 = (mem[M.SLIP] - mem[M.SLIP + 1]) / mem[M.STEP + 1]
     rate_2 = (mem[M.SLIP + 1] - mem[M.SLIP + 2]) / mem[M.STEP + 2]

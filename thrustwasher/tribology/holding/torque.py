@@ -22,12 +22,13 @@ from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import sign_of
 from . import memory as M
 from .memory import Coupling
-from .plant import UNSURE, doubt, identify, is_deaf, largest_answer
+from .plant import UNSURE, forget, identify, is_deaf, largest_answer
 from .reversals import COUNTED, SLOWEST, watch
 
-PATTERN = np.array([0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0, 1.0, 0.0])  # of the dips
-DIP = 0.02  # of the torque
-FIRST_DIPS, DEAF_DIPS, MOST_DIPS = 20.0, 100.0, 400.0  # steps with the pattern: at least, at most
+DIP = 0.02  # of the torque, at most
+ROUND = 10.0  # steps after which the dips begin again
+SLOW_WAVE, FAST_WAVE, SLOW_SHARE = 1.0, 3.0, 0.3  # waves in a round, what the slow one makes up
+FIRST_DIPS, DEAF_DIPS, MOST_DIPS = 20.0, 100.0, 400.0  # steps with dips: at least, at most
 SURE = 0.02  # relative standard deviation of the inertia: no more dips
 VAGUE = 0.15  # ... above it the slip is ended slowest
 STEADY, CAREFUL = 1.0, 0.5  # share of the slip that is ended in a step
@@ -70,8 +71,7 @@ def notice(coupling: Coupling, mem: Array, slip: float, capacity: float) -> None
     if mem[M.COUNT] == 0.0 and abs(slip) <= smoothing:
         mem[M.STUCK] = 1.0
     if capacity < OPEN * mem[M.MOST_CAPACITY]:
-        if mem[M.DIPS] > 0.0:
-            doubt(mem)
+        forget(mem)
         mem[M.DIPS] = mem[M.CAUTION] = 0.0
     if mode == M.IDENTIFIED:
         unsure = mem[M.AGE] == 0.0 or mem[M.ERROR] > UNSURE or mem[M.CAUTION] > 0.0
@@ -179,20 +179,41 @@ def _nearest(mem: Array, slip: float) -> float:
 def dip_of(coupling: Coupling, mem: Array, torque: float, capacity: float) -> float:
     """Return the share of the torque that is left out in this step, -1 where none is asked for.
 
-    A pack that slides in a plant which is not known yet gives a little less by a fixed pattern.
+    A pack that slides in a driveline which is not known gives a little less, in two waves. They
+    run on with the steps' length, a step of the longest seen being one: a host that judges its
+    steps by the outputs finds no jump.
     """
     mode, _, _, _, probing = coupling
     if mode != M.IDENTIFIED or not probing:
         return -1.0
     if abs(torque) < (1.0 - DIP) * capacity or capacity == 0.0:
         return -1.0
-    dips = mem[M.DIPS]
-    wanted = dips < FIRST_DIPS
+    if mem[M.DIPS] % ROUND == 0.0 and not _wants_dips(mem):
+        return -1.0
+    turn = 2.0 * math.pi / ROUND * mem[M.DIPS]
+    slow, fast = 1.0 - math.cos(SLOW_WAVE * turn), 1.0 - math.cos(FAST_WAVE * turn)
+    return 0.5 * DIP * (SLOW_SHARE * slow + (1.0 - SLOW_SHARE) * fast)
+
+
+@kernel
+def _wants_dips(mem: Array) -> bool:
+    """Tell if dips are to go on: at first, while the driveline is not known, or not well."""
+    if mem[M.DIPS] < FIRST_DIPS:
+        return True
     if mem[M.AGE] == 0.0:
-        wanted = wanted or dips < (DEAF_DIPS if is_deaf(mem) else MOST_DIPS)
-    else:
-        wanted = wanted or mem[M.ERROR] > SURE
-    return DIP * PATTERN[np.uintp(int(dips) % 10)] if wanted else -1.0
+        return mem[M.DIPS] < (DEAF_DIPS if is_deaf(mem) else MOST_DIPS)
+    return mem[M.ERROR] > SURE
+
+
+@kernel
+def _go_on(mem: Array, h: float) -> None:
+    """Count a step with dips, a short one in part; a round ends where none are wanted."""
+    now = mem[M.DIPS]
+    after = now + min(1.0, h / mem[M.LONGEST])
+    end = ROUND * (math.floor(now / ROUND) + 1.0)
+    mem[M.DIPS] = after
+    if after >= end - 1e-9 and not (_wants_dips(mem) and after > end):
+        mem[M.DIPS] = end
 
 
 @kernel
@@ -207,8 +228,10 @@ def note(
         mem[np.uintp(M.STEP + k)] = mem[np.uintp(M.STEP + k - 1)]
     mem[M.TORQUE], mem[M.SLIP], mem[M.STEP] = torque, slip, h
     mem[M.COUNT] += 1.0
+    mem[M.CLOSED] += 1.0
     mem[M.HELD] = mem[M.HELD] + 1.0 if holds else 0.0
     mem[M.OUTSIDE] = outside
     mem[M.FOLLOWS] = 1.0 if mem[M.AGE] > 0.0 else 0.0
+    mem[M.LONGEST] = max(mem[M.LONGEST], h)
     if dips:
-        mem[M.DIPS] += 1.0
+        _go_on(mem, h)

@@ -32,7 +32,7 @@ sums of the least squares, and the work of the torques.
     MOST_SLIP,
     CAPACITY,  # of asperities, then of oil [N m], after the last step
     WORK,  # of the torques since the start [J], were they of each age
-    LONGEST,  # step [s]
+    LONGEST,  # step [s], of late
     CLOSED,  # steps since the start, or since the unit was open
     BOOKED,  # heat that film and temperatures have had of it [J]
     N_MEMORY,

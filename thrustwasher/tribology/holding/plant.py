@@ -1,7 +1,7 @@
 # mypy: disable-error-code="no-any-return"
-"""What driveline a pack sits in, found from the slip that answers its torque.
+"""What driveline a unit sits in, found from the slip that answers its torque.
 
-The slip of a pack between two shafts obeys ds/dt = a - T/J: J is the inertia that the slip sees,
+The slip of a unit between two shafts obeys ds/dt = a - T/J: J is the inertia that the slip sees,
 J1 J2/(J1 + J2) of two shafts, a what all other torques do to it. The torque given in step n acts d
 steps later: at once where a host passes fresh values, a step late where it passes old ones. Both
 are told by second differences, which smooth outside torques hardly touch:
@@ -10,7 +10,7 @@ are told by second differences, which smooth outside torques hardly touch:
 
 1/J comes by least squares for d = 0, 1, 2 side by side. A sample counts where the torque moves at
 all, and is forgotten only by others. No sample counts more than one of a tenth of the capacity: a
-larger jump of the torque tends to come with one of the outside torque. Derived in docs/theory.
+larger jump of the torque tends to come with one of the outside torque. Derived in docs/theory/holding.md.
 """
 
 import math

@@ -1,7 +1,7 @@
 # mypy: disable-error-code="no-any-return"
-"""The torque that holds a pack in a driveline which is not ours, and the heat it makes there.
+"""The torque that holds a unit between two shafts of a driveline that it does not know.
 
-Between its two shafts a pack that sticks gives the torque which ends the slip with the step: with
+A unit that sticks gives the torque which ends the slip with the step: with
 inertia J and age d of the torque (``plant``), a the outside acceleration of the last step,
 
     a = (s_n - s_(n-1))/H_(n-1) + T_(n-1-d)/J,
@@ -9,9 +9,12 @@ inertia J and age d of the torque (``plant``), a the outside acceleration of the
     T_n = J (a + g s_p/H),  at most the capacity,
 
 with H the longest of the last four steps where d > 0: which one the torque will act over is not
-known yet. While the plant is known badly, or the slip reverses again and again, a is filtered and
-the slip ended in part (g < 1). A pack whose slip is out of a few steps' reach slides, whatever the
-law says: false knowledge never drives it. Derived in docs/theory.
+known yet. A host that judges its steps by the outputs may shorten them at will: H is not less than
+a tenth of the longest step, so that the torque does not jump with the step.
+
+While the driveline is known badly, or the slip reverses again and again, a is filtered and the slip
+ended in part (g < 1). A unit whose slip is out of a few steps' reach slides, whatever the law says:
+false knowledge never drives it. Derived in docs/theory/holding.md.
 """
 
 import math
@@ -26,6 +29,8 @@ from .plant import UNSURE, forget, identify, is_deaf, largest_answer
 from .reversals import COUNTED, SLOWEST, watch
 
 DIP = 0.02  # of the torque, at most
+LEAST_STEP = 0.1  # of the longest step: over less no slip is ended
+LASTS = 0.995  # of the longest step, at each step
 ROUND = 10.0  # steps after which the dips begin again
 SLOW_WAVE, FAST_WAVE, SLOW_SHARE = 1.0, 3.0, 0.3  # waves in a round, what the slow one makes up
 FIRST_DIPS, DEAF_DIPS, MOST_DIPS = 20.0, 100.0, 400.0  # steps with dips: at least, at most
@@ -148,7 +153,7 @@ def hold(
         if gain < STEADY and mem[M.FOLLOWS] > 0.0:
             outside, by_rate = mem[M.OUTSIDE] + gain * (outside - mem[M.OUTSIDE]), gain
         by_rate /= mem[M.STEP]
-    ahead, by_ahead, longest = slip, 1.0, h
+    ahead, by_ahead, longest = slip, 1.0, max(h, LEAST_STEP * mem[M.LONGEST])
     for k in range(age):  # torques that were given and have still to act
         ahead += h * (outside - mem[np.uintp(M.TORQUE + age - 1 - k)] / inertia)
         by_ahead += h * by_rate
@@ -232,6 +237,6 @@ def note(
     mem[M.HELD] = mem[M.HELD] + 1.0 if holds else 0.0
     mem[M.OUTSIDE] = outside
     mem[M.FOLLOWS] = 1.0 if mem[M.AGE] > 0.0 else 0.0
-    mem[M.LONGEST] = max(mem[M.LONGEST], h)
+    mem[M.LONGEST] = max(LASTS * mem[M.LONGEST], h)
     if dips:
         _go_on(mem, h)

@@ -13,8 +13,10 @@ from ..model.prepare import filled
 from ..model.rungs import rung_named
 from ..model.sensitivity import Differentiable
 from ..model.solutions import Asked
+from ..model.spec import CHURNING_REGIMES
 from .kernels import step as k
-from .parameters import SPEC, LossesParams
+from .parameters import SHAFTS, SPEC, LossesParams
+from .ranges import doubts_of_point
 
 __all__ = ["LossesParams", "LossesResult", "solve_losses"]
 
@@ -32,6 +34,9 @@ class LossesResult(Differentiable):
     pump_power: float
     seal_power: float
     oil_heat: float  # [W] the sum
+    input_churning_regime: str  # "none", "viscous", "inertial", "between", "centrifugal_viscous"
+    output_churning_regime: str  # or "centrifugal_inertial"
+    drum_churning_regime: str
     status: Status
     fidelity: str
     _asked: Asked = field(repr=False, compare=False)
@@ -65,7 +70,8 @@ def solve_losses(
 
     Returns
     -------
-    LossesResult; status OUTSIDE_VERIFIED with oil below -20 or above 150 degC
+    LossesResult; status OUTSIDE_VERIFIED with oil below -20 or above 150 degC, or where a gear
+    churns outside the range of the laws
 
     Raises
     ------
@@ -74,8 +80,9 @@ def solve_losses(
 
     Notes
     -----
-    Source: docs/theory/losses.md: Palmgren's bearing friction, Changenet & Velex (2007) churning,
-    ISO/TR 14179-2 seals, all as publicly quoted.
+    Source: docs/theory/losses.md: Palmgren's bearing friction with SKF's factors for thick oil,
+    churning after Changenet, Leprince, Ville & Velex (2011), ISO/TR 14179-2 seals, all as publicly
+    quoted.
 
     Examples
     --------
@@ -96,8 +103,10 @@ def solve_losses(
     if status.is_failure and throw:
         words = ", ".join(f"{name} = {value:g}" for name, value in point.items())
         raise SolveError(f"{words}: {status.advice}")
-    shown = dict(zip(SPEC.real_outputs, out.tolist(), strict=True))
+    shown: dict[str, Any] = dict(zip(SPEC.real_outputs, out.tolist(), strict=True))
     del shown["oil_energy"]  # of a step, not of a point
+    names = ["none", *CHURNING_REGIMES]  # 0: no solution
+    shown |= {f"{n}_churning_regime": names[i] for n, i in zip(SHAFTS, flags, strict=False)}
     return LossesResult(
         **shown,
         status=status,
@@ -105,6 +114,6 @@ def solve_losses(
         _asked=Asked(SPEC.key, params, {**point, "fidelity": fidelity}),
         warnings=(
             *idle_warnings(SPEC.key, params, fidelity),
-            *warnings_of(SPEC, status, point, shown),
+            *warnings_of(SPEC, status, point, shown, doubts_of_point(params, point)),
         ),
     )

@@ -1,0 +1,122 @@
+"""Make the tables and figures that the pages tell, between ``<!-- table: NAME -->`` and ``end``.
+
+    python docs/tables.py [NAME ...]        write them into the pages; default: all
+    python docs/tables.py --check [NAME ...]
+
+``tests/test_docs.py`` makes them all anew and compares.
+"""
+
+import argparse
+import math
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+from thrustwasher import solve_losses
+from thrustwasher.losses.parameters import LossesParams
+
+HERE = Path(__file__).parent
+PAGES = [HERE.parent / "README.md", *sorted(HERE.rglob("*.md"))]
+BLOCK = re.compile(r"(?s)(<!-- table: ([\w-]+) -->\n)(.*?)(<!-- end -->)")
+MADE: dict[str, Callable[[], str]] = {}
+SLOW = set[str]()  # a minute or more
+CELSIUS = 273.15
+
+
+def made(name: str, *, slow: bool = False) -> Callable[[Callable[[], str]], Callable[[], str]]:
+    """Keep a function under the name of the block that it makes."""
+
+    def keep(make: Callable[[], str]) -> Callable[[], str]:
+        MADE[name] = make
+        if slow:
+            SLOW.add(name)
+        return make
+
+    return keep
+
+
+def table(head: list[str], rows: list[list[str]]) -> str:
+    """Return a table of Markdown."""
+    lines = [head, ["---"] * len(head), *rows]
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def churned(speed: float, celsius: float) -> float:
+    """Return the torque [N m] of the default output gear."""
+    bare = LossesParams(output_bearing_count=0, output_seal_diameter=0.0)  # type: ignore[call-arg]
+    oil = celsius + CELSIUS
+    return solve_losses(
+        bare, input_speed=0.0, output_speed=speed, oil_temperature=oil
+    ).output_torque
+
+
+@made("churning")
+def _churning() -> str:
+    speeds, oils = (30, 41, 70, 100, 114, 130, 147, 170, 240), (-20, 0, 20, 40, 60, 80, 100)
+    head = ["rad/s", *(f"{t} degC" for t in oils)]
+    return table(head, [[str(w), *(f"{churned(w, t):.3f}" for t in oils)] for w in speeds])
+
+
+@made("churning-width")
+def _width() -> str:
+    points = ((41, 80), (70, 80), (100, 80), (150, -20), (240, -20), (30, 100))
+    rows = []
+    for speed, oil in points:
+        torque = churned(speed, oil)
+        gamma = speed**2 * (0.03 * 0.08**2) ** (1.0 / 3.0)
+        wide = 2.0 ** (0.21 if gamma < 750.0 else 0.85)
+        rows.append([f"{speed} rad/s, {oil} degC", f"{torque:.3f}", f"{wide * torque:.3f}"])
+    return table(["", "b/D [N m]", "b/R [N m]"], rows)
+
+
+@made("losses")
+def _losses() -> str:
+    rpm = math.pi / 30.0
+    shared = {"tooth_force": 2000.0, "oil_temperature": 80.0 + CELSIUS, "input_speed": 2000 * rpm}
+    direct = {"output_speed": 2000 * rpm, "drum_speed": 2000 * rpm}
+    first = {"output_speed": 800 * rpm, "planet_speed": -2000 * rpm}
+    rows = []
+    for words, point in (
+        ("all shafts at 2000 rpm, planets still (`--planet-speed 0`)", direct),
+        ("output at 800 rpm, drum held, planets at -2000 rpm", first),
+    ):
+        r = solve_losses(LossesParams(), **shared, **point)
+        powers = (r.pump_power, r.churning_power, r.bearing_power, r.seal_power)
+        parts = [f"{x:.0f}, {100.0 * x / r.oil_heat:.0f} %" for x in powers]
+        rows.append([words, *parts, f"{r.oil_heat:.0f}"])
+    return table(["", "pump", "churning", "bearings", "seals", "sum"], rows)
+
+
+def blocks(page: Path) -> dict[str, str]:
+    """Return the blocks of a page by name."""
+    return {name: text[1:-1] for _, name, text, _ in BLOCK.findall(page.read_text("utf-8"))}
+
+
+def _kept(new: dict[str, str], match: re.Match[str]) -> str:
+    return f"\n{new[match[2]]}\n" if match[2] in new else match[3]
+
+
+def main() -> None:
+    """Write, or compare."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("names", nargs="*")
+    parser.add_argument("--check", action="store_true", help="write nothing, exit 1 if stale")
+    arguments = parser.parse_args()
+    names = arguments.names or list(MADE)
+    new = {name: MADE[name]() for name in names}
+    stale = []
+    for page in PAGES:
+        text = page.read_text("utf-8")
+        fresh = BLOCK.sub(lambda m: f"{m[1]}{_kept(new, m)}{m[4]}", text)
+        if fresh != text:
+            stale.append(page.relative_to(HERE.parent))
+            if not arguments.check:
+                page.write_text(fresh, "utf-8")
+    for page in stale:
+        print("stale:" if arguments.check else "written:", page)
+    if stale and arguments.check:
+        raise SystemExit(1)
+
+
+if __name__ == "__main__":
+    main()

@@ -10,12 +10,16 @@ import argparse
 import math
 import re
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 from thrustwasher import solve_losses
 from thrustwasher.losses.parameters import LossesParams
+from thrustwasher.shift import load_scene
+from thrustwasher.shift.steady_points import efficiency_map
 
 HERE = Path(__file__).parent
+MEASURED = HERE.parent / "examples" / "measured"
 PAGES = [HERE.parent / "README.md", *sorted(HERE.rglob("*.md"))]
 BLOCK = re.compile(r"(?s)(<!-- table: ([\w-]+) -->\n)(.*?)(<!-- end -->)")
 MADE: dict[str, Callable[[], str]] = {}
@@ -85,6 +89,73 @@ def _losses() -> str:
         parts = [f"{x:.0f}, {100.0 * x / r.oil_heat:.0f} %" for x in powers]
         rows.append([words, *parts, f"{r.oil_heat:.0f}"])
     return table(["", "pump", "churning", "bearings", "seals", "sum"], rows)
+
+
+SOURCES = {
+    "pump": "pump_loss",
+    "teeth": "mesh_loss",
+    "open pack": "pack_loss",
+    "churning": "churning_loss",
+    "bearings": "rolling_loss",
+    "seals": "seal_loss",
+    "thrust bearings": "thrust_bearing_loss",
+    "washers": "washer_loss",
+}
+
+
+@cache
+def steady(
+    torque: float, rpm: float, gear: str = "first", scene: str = "planetary"
+) -> dict[str, float]:
+    """Return the row of a steady point, torque in N m."""
+    found = efficiency_map(load_scene(scene), [torque], [rpm * math.pi / 30.0], gear=gear)
+    return {name: float(values[0]) for name, values in found.columns.items()}
+
+
+@made("efficiency")
+def _efficiency() -> str:
+    rows = []
+    for torque, rpm in ((100.0, 1000.0), (100.0, 2000.0), (250.0, 2000.0), (250.0, 4000.0)):
+        row = steady(torque, rpm)
+        parts = [f"{row[name]:.0f}" for name in SOURCES.values()]
+        rows.append(
+            [f"{torque:.0f} N m, {rpm:.0f} rpm", f"{100.0 * row['efficiency']:.2f} %", *parts]
+        )
+    return table(["input", "efficiency", *SOURCES], rows)
+
+
+def vw_fit(torque: float, rpm: float, ratio: float) -> float:
+    """Return the loss [W] by the fit of ADVISOR's file TX_VW, at this torque of the input."""
+    w = rpm * math.pi / 30.0 / ratio  # of the output, as the torque that it takes
+    fixed = (0.614307976 * ratio + 5.530953616) * w - 92.07523029
+    slope = -0.861652506 / ratio + 0.229546756 + 0.023981187 * w
+    left = (torque * ratio * w - fixed) / (w + slope)
+    return fixed + slope * left
+
+
+@made("efficiency-vw")
+def _vw() -> str:
+    rows = []
+    for torque, rpm, ratio in (
+        (39.3, 2000, 5.01),
+        (39.8, 3000, 3.77),
+        (72.6, 2000, 7.57),
+        (72.8, 3000, 5.01),
+    ):
+        row = steady(torque, rpm)
+        numbers = [f"{x:.0f}" for x in (row["loss"], row["loss"] - row["pump_loss"])]
+        rows.append(
+            [f"{torque} N m, {rpm} rpm", f"{ratio}", f"{vw_fit(torque, rpm, ratio):.0f}", *numbers]
+        )
+    head = ["input", "overall ratio of the fit", "fit", "here", "here without oil pump"]
+    return table(head, rows)
+
+
+@made("efficiency-oh-58a")
+def _oh_58a() -> str:
+    row = steady(353.0, 6060.0, scene=str(MEASURED / "oh-58a" / "planetary-without-losses.toml"))
+    numbers = (f"{100.0 * row['efficiency']:.2f} %", f"{row['loss']:.0f} W")
+    return table(["", "efficiency", "loss"], [["353 N m, 6060 rpm, first gear", *numbers]])
 
 
 def blocks(page: Path) -> dict[str, str]:

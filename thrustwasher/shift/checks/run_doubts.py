@@ -7,6 +7,7 @@ import numpy as np
 
 from ...errors import ParameterError, Status
 from ...model.advice import outside_verified
+from ...model.registry import find_model
 from ...numerics.jit import Array
 from ...units import format_quantity as say
 from ..key_figures.figure_list import FILM_SPEED
@@ -63,9 +64,14 @@ def _of_solvers(scene: Scene, time: Array, signals: Signals) -> Iterator[str]:
                 part = name.partition(".")[0]
                 if status == Status.DISTRESS:  # the film's loss has an event of its own
                     continue
-                spec = scene.parts[part].spec
+                spec, params = scene.parts[part].spec, scene.parts[part].params
                 now = {s.name: float(signals[f"{part}.{s.name}"][i]) for s in spec.inputs}
-                found = outside_verified(spec, now) if status == Status.OUTSIDE_VERIFIED else []
+                found = []
+                if status == Status.OUTSIDE_VERIFIED:
+                    found = [
+                        *outside_verified(spec, now),
+                        *find_model(spec.key).doubts(params, now),
+                    ]
                 for text in found or [f"{status.advice} ({status.name})"]:
                     yield f"{part} from t = {time[i]:.4g} s: {text}"
 

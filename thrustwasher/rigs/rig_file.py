@@ -90,7 +90,8 @@ def load_rig(path: str | Path) -> Rig:
         named = str(table["scene"])
         target = load_scene(folder / named if named.endswith(".toml") else named)
         inputs = {name: unit for name, (unit, *_) in RANGES.items()}
-        outputs = {n: unit for n, (unit, _) in COLUMNS.items() if n not in inputs}
+        none = (*inputs, "warnings")
+        outputs = {n: unit for n, (unit, _) in COLUMNS.items() if n not in none}
     columns, origin = _points(folder / "points.csv", inputs, outputs)
     found = [name for name in columns if name in outputs]
     if len(found) != 1:

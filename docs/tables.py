@@ -13,13 +13,16 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from thrustwasher import solve_losses
 from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.losses.parameters import LossesParams
-from thrustwasher.shift import load_scene
+from thrustwasher.shift import load_scene, run_sequence, run_shift
+from thrustwasher.shift.scene.places import scene_scatter
+from thrustwasher.shift.scene.scene_file import known_bands
 from thrustwasher.shift.steady_points import _gearbox as steady_gearbox
 from thrustwasher.shift.steady_points import efficiency_map
 
@@ -199,6 +202,85 @@ def _needles() -> str:
         f"{shared['washer_load']:.1f} N, {shared['washer_load'] / (2.0 * force):.1%} of what the "
         "needles of a planet bear.\n"
     )
+
+
+@cache
+def shift(scene: str = "planetary", master: str | None = None) -> Any:
+    """Return the result of a shift, all parts in this process."""
+    asked = load_scene(scene).with_options(master=master)
+    parts = {
+        name: DirectInstance(part.spec, parameters=part.parameters())
+        for name, part in asked.parts.items()
+    }
+    return (run_sequence if asked.sequence else run_shift)(asked, parts)
+
+
+@made("jacobi")
+def _jacobi() -> str:
+    lock = shift(master="jacobi").figures["lock_time"]
+    return f"`thrustwasher shift --master jacobi` locks at {lock:.9f} s in this version.\n"
+
+
+@made("thrust")
+def _thrust() -> str:
+    scene, found = load_scene("planetary"), shift()
+    gearbox = scene.parts["transmission"].params
+    i = int(np.argmax(found.signals["transmission.sun_thrust"]))
+    at = {n: float(values[i]) for n, values in found.signals.items()}
+    thrust = at["transmission.sun_thrust"]
+    torques = [
+        getattr(gearbox, f"{gear}_bearing_coefficient")
+        * getattr(gearbox, f"{gear}_bearing_mean_radius")
+        * thrust
+        for gear in ("sun", "ring")
+    ]
+    return (
+        f"In first gear of the default scene {thrust:.0f} N make {torques[0]:.3f} N m at the sun "
+        f"(carrier {at['transmission.output_speed']:.0f} rad/s) and {torques[1]:.3f} N m at the "
+        f"ring ({at['transmission.engine_speed']:.0f} rad/s): "
+        f"{found.figures['peak_bearing_power']:.0f} W in all, "
+        f"{found.figures['bearing_loss']:.0f} J in the run.\n"
+    )
+
+
+@made("sump", slow=True)
+def _sump() -> str:
+    found = shift("duty-cycle")
+    oil = found.oil_temperature - CELSIUS
+    heat = sum(s.energy["clutch"] + s.energy["brake"] for s in found.shifts)
+    return (
+        f"In the scene `duty-cycle` {len(found.shifts)} shifts in eight minutes "
+        f"({heat / 1e3:.0f} kJ in both packs) warm the oil from {oil[0]:.0f} to {oil[-1]:.1f} "
+        "degC.\n"
+    )
+
+
+OF_A_BAND = {  # figure -> words, how many units in one shown
+    "washer_torque": ("washer, friction torque as the shift begins [N m]", 1.0),
+    "washer_film_ratio": ("washer, film ratio as the shift begins", 1.0),
+    "least_washer_film_ratio": ("washer, least film ratio while it turns", 1.0),
+    "lock_after_ramp_start": ("clutch locks after the shift began [s]", 1.0),
+    "slip_energy": ("heat in the clutch [kJ]", 1e-3),
+    "peak_jerk": ("greatest jerk of the vehicle [m/s3]", 1.0),
+    "least_scuffing_safety": ("least safety against scuffing", 1.0),
+}
+
+
+@made("bands")
+def _bands() -> str:
+    scene = load_scene("planetary")
+    known, sources = known_bands(scene), scene_scatter(scene).sources
+    words = (
+        f"By these values the washers rub with {known['washer_torque'].nominal:.4f} N m as the "
+        f"shift begins, on a film of {known['washer_film_ratio'].nominal:.1f} times the roughness. "
+        f"That looks sound. But {len(sources)} inputs scatter in that scene:\n\n"
+    )
+    rows = [
+        [what, *(f"{scale * x:.3g}" for x in (known[n].nominal, *known[n].quantiles.values()))]
+        for n, (what, scale) in OF_A_BAND.items()
+        if n in known
+    ]
+    return words + table(["", "nominal", "5 %", "50 %", "95 %"], rows)
 
 
 def blocks(page: Path) -> dict[str, str]:

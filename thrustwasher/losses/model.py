@@ -43,7 +43,7 @@ class DrivelineLosses(Model):
 
     def doubts(self, params: Any, inputs: Mapping[str, float]) -> Iterable[str]:
         """Return which laws a point is outside of."""
-        from .ranges import doubts_of_point
+        from .solve import doubts_of_point
 
         return doubts_of_point(params, inputs)
 

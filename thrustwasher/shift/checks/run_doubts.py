@@ -11,6 +11,7 @@ from ...model.registry import find_model
 from ...numerics.jit import Array
 from ...units import format_quantity as say
 from ..key_figures.figure_list import FILM_SPEED
+from ..scene.connections import PACKS
 from ..scene.doubts import idle_parameters
 from ..scene.scene import Scene
 
@@ -26,6 +27,7 @@ def doubts(scene: Scene, step: float, time: Array, signals: Signals) -> Iterator
     yield from _of_times(scene, step)
     yield from _of_solvers(scene, time, signals)
     yield from _of_boxes(scene, signals)
+    yield from _of_linings(scene, signals)
     yield from _of_maps(scene, signals)
     yield from _of_dry_friction(scene, time, signals)
 
@@ -93,6 +95,15 @@ def _of_boxes(scene: Scene, signals: Signals) -> Iterator[str]:
                     f"{name}: {key} of {seen} in this run leaves the {meant} that its part file is "
                     "meant for ([box]); widen the box or take another part"
                 )
+
+
+def _of_linings(scene: Scene, signals: Signals) -> Iterator[str]:
+    """Yield what a pack's lining does not bear, at the greatest load."""
+    for name in PACKS:
+        if (load := signals.get(f"{name}.load")) is not None:
+            part = scene.parts[name]
+            found = find_model(part.spec.key).doubts(part.params, {"load": float(load.max())})
+            yield from (f"{name}: {text}" for text in found)
 
 
 def _of_maps(scene: Scene, signals: Signals) -> Iterator[str]:

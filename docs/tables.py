@@ -19,6 +19,7 @@ import numpy as np
 
 from thrustwasher import solve_losses
 from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.losses.kernels.loss_laws import starved, thinned
 from thrustwasher.losses.parameters import LossesParams
 from thrustwasher.shift import load_scene, run_sequence, run_shift
 from thrustwasher.shift.scene.places import scene_scatter
@@ -71,14 +72,43 @@ def _churning() -> str:
 
 @made("churning-width")
 def _width() -> str:
-    points = ((41, 80), (70, 80), (100, 80), (150, -20), (240, -20), (30, 100))
     rows = []
-    for speed, oil in points:
+    for (speed, oil), _ in APART:
         torque = churned(speed, oil)
         gamma = speed**2 * (0.03 * 0.08**2) ** (1.0 / 3.0)
         wide = 2.0 ** (0.21 if gamma < 750.0 else 0.85)
         rows.append([f"{speed} rad/s, {oil} degC", f"{torque:.3f}", f"{wide * torque:.3f}"])
     return table(["", "b/D [N m]", "b/R [N m]"], rows)
+
+
+APART = (  # computed apart: rad/s, degC, N m
+    ((41, 80), 0.109),
+    ((70, 80), 0.168),
+    ((100, 80), 0.223),
+    ((150, -20), 0.948),
+    ((240, -20), 0.961),
+    ((30, 100), 0.085),
+)
+
+
+@made("losses-apart")
+def _losses_apart() -> str:
+    rows = [
+        [f"churning, default output gear, {w} rad/s, {t} degC [N m]", f"{x:.3f}", f"{y:.4f}"]
+        for (w, t), x in APART
+        for y in [churned(w, t)]
+    ]
+    w, nu, diameter = 3450.0 * math.pi / 30.0, 1170e-6, 0.05
+    heated, starvation = thinned(w, nu, diameter, 0.0)[0], []
+    for kind, section in ((3.1, 0.45), (5.1, 0.35)):
+        own = thinned(w, nu, diameter, starved(3e-8, kind, diameter, section))[0]
+        starvation.append(f"{own / heated:.3f}")
+    point = "1170 mm2/s, 3450 rpm, 50 mm"
+    rows.append([f"inlet shear heating, {point}", "0.54", f"{heated:.3f}"])
+    rows.append(
+        ["starvation, the same, K_rs 3e-8, K_Z 3.1 and 5.1", "0.09 .. 0.01", ", ".join(starvation)]
+    )
+    return table(["", "apart", "here"], rows)
 
 
 @made("losses")
@@ -205,9 +235,11 @@ def _needles() -> str:
 
 
 @cache
-def shift(scene: str = "planetary", master: str | None = None) -> Any:
+def shift(scene: str = "planetary", master: str | None = None, losses: bool = True) -> Any:
     """Return the result of a shift, all parts in this process."""
     asked = load_scene(scene).with_options(master=master)
+    if not losses:
+        asked = replace(asked, parts={n: p for n, p in asked.parts.items() if n != "losses"})
     parts = {
         name: DirectInstance(part.spec, parameters=part.parameters())
         for name, part in asked.parts.items()
@@ -219,6 +251,29 @@ def shift(scene: str = "planetary", master: str | None = None) -> Any:
 def _jacobi() -> str:
     lock = shift(master="jacobi").figures["lock_time"]
     return f"`thrustwasher shift --master jacobi` locks at {lock:.9f} s in this version.\n"
+
+
+@made("losses-shift")
+def _losses_shift() -> str:
+    found = shift()
+    lost, pump = found.figures["loss_heat"], found.figures["pump_loss"]
+    return (
+        f"In the default scene they make {lost / 1e3:.2f} kJ in {found.time[-1]:.1f} s, "
+        f"{pump / lost:.0%} of it the oil pump's; at start "
+        f"{found.signals['losses.oil_heat'][0] / 1e3:.1f} kW.\n"
+    )
+
+
+@made("losses-duty", slow=True)
+def _losses_duty() -> str:
+    rises = []
+    for there in (True, False):
+        oil = shift("duty-cycle", losses=there).oil_temperature
+        rises.append(f"{oil[-1] - oil[0]:.0f} K")
+    return (
+        f"In the scene `duty-cycle` the oil warms by {rises[0]} in eight minutes, by {rises[1]} "
+        "with `losses = false`.\n"
+    )
 
 
 @made("thrust")

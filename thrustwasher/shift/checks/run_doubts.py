@@ -7,7 +7,7 @@ import numpy as np
 
 from ...errors import ParameterError, Status
 from ...model.advice import outside_verified
-from ...model.registry import find_model
+from ...model.registry import outside_laws
 from ...numerics.jit import Array
 from ...units import format_quantity as say
 from ..key_figures.figure_list import FILM_SPEED
@@ -72,7 +72,7 @@ def _of_solvers(scene: Scene, time: Array, signals: Signals) -> Iterator[str]:
                 if status == Status.OUTSIDE_VERIFIED:
                     found = [
                         *outside_verified(spec, now),
-                        *find_model(spec.key).doubts(params, now),
+                        *outside_laws(spec.key, params, now),
                     ]
                 for text in found or [f"{status.advice} ({status.name})"]:
                     yield f"{part} from t = {time[i]:.4g} s: {text}"
@@ -102,7 +102,7 @@ def _of_linings(scene: Scene, signals: Signals) -> Iterator[str]:
     for name in PACKS:
         if (load := signals.get(f"{name}.load")) is not None:
             part = scene.parts[name]
-            found = find_model(part.spec.key).doubts(part.params, {"load": float(load.max())})
+            found = outside_laws(part.spec.key, part.params, {"load": float(load.max())})
             yield from (f"{name}: {text}" for text in found)
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from ...errors import Status
 from ...model.advice import warnings_of
-from ...model.registry import find_model
+from ...model.registry import MODELS, find_model, outside_laws
 from ...units import format_quantity as say
 from ..cosim.system import ConnectedPart, System
 from ..key_figures.figure_list import FILM_SPEED
@@ -21,6 +21,8 @@ NUMBER = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?")
 def capacity(scene: Scene, pack: str) -> float:
     """Return the torque [N m] that a pack can hold under the greatest load of its scene."""
     part, gearbox = scene.parts[pack], scene.parts["transmission"].params
+    if part.spec.key not in MODELS:  # a pack from elsewhere
+        return float("inf")
     load = float(getattr(gearbox, f"{pack}_force"))
     if gearbox.actuation == "pressure":
         own = [getattr(gearbox, f"{pack}_{n}") for n in ("return_spring", "piston_area")]
@@ -65,7 +67,7 @@ def _of_part(scene: Scene, name: str, part: ConnectedPart) -> Iterator[str]:
     if speed is not None and abs(speed) < FILM_SPEED and name not in PACKS:
         return  # it does not turn
     status = Status(int(outputs.get("solver_status", 0)))
-    more = find_model(part.spec.key).doubts(params, inputs)
+    more = outside_laws(part.spec.key, params, inputs)
     yield from warnings_of(part.spec, status, inputs, outputs, more)
     for key, value in outputs.items():
         if key in absent:

@@ -3,6 +3,8 @@
     nice python benchmarks/scatter_scene.py plain plain.npz     1024 independent draws, full runs
     python benchmarks/scatter_scene.py compare plain.npz        a study, figure beside figure
     python benchmarks/scatter_scene.py paired plain.npz         the shortcut at some of these draws
+    python benchmarks/scatter_scene.py bands thrustwasher/shift/scene/known_bands.toml
+                                                                what a page shows without a study
 
 ``plain`` takes some twenty minutes of one core and keeps what it has after every batch: the same
 command goes on. All parts of the default scene run at their rung ``field``; the washers of full
@@ -23,12 +25,18 @@ from thrustwasher.shift import load_scene
 
 LEVELS = (0.05, 0.5, 0.95)
 BATCH = 16
+TOLD = (  # on the first page of a report without a study, and in docs/how-sure.md
+    *("lock_after_ramp_start", "slip_energy", "slip_energy_per_area", "peak_jerk", "torque_hole"),
+    *("peak_clutch_temperature", "peak_clutch_heat_flux", "friction_lock", "lock_speed"),
+    *("washer_torque", "washer_film_ratio", "least_washer_film_ratio"),
+    *("peak_washer_temperature_max", "peak_flash_temperature", "least_scuffing_safety"),
+)
 
 
 def main() -> None:
     """Read the command line."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("what", choices=("plain", "compare", "paired"))
+    parser.add_argument("what", choices=("plain", "compare", "paired", "bands"))
     parser.add_argument("file", type=Path)
     parser.add_argument("--scene", default="planetary")
     parser.add_argument("--runs", type=int, default=1024, help="plain full runs")
@@ -38,10 +46,31 @@ def main() -> None:
     given = parser.parse_args()
     if given.what == "plain":
         plain(given.scene, given.file, given.runs, given.workers)
+    elif given.what == "bands":
+        given.file.write_text(bands(given.scene, given.base, given.workers), "utf-8")
     elif given.what == "paired":
         paired(given.scene, given.file, given.base)
     else:
         compare(given.scene, given.file, given.base, given.workers, given.indices)
+
+
+def bands(name: str, base: int, workers: int) -> str:
+    """Return the table of a scene's bands: of each figure nominal value and quantiles."""
+    found = propagate(load_scene(name), runs=base, workers=workers, indices=False)
+    lines = [
+        "# Figures of built-in scenes by their own [scatter], SI units: nominal value, then 5, 50",
+        f"# and 95 % quantiles. Written by benchmarks/scatter_scene.py bands, {base} base points.",
+        f"[{name}]",
+        f"runs = {found.runs}",
+        "",
+        f"[{name}.figures]",
+    ]
+    for figure in TOLD:
+        band = found.figures[figure]
+        numbers = [band.nominal, *(band.quantiles.get(level, np.nan) for level in LEVELS)]
+        if np.isfinite(numbers).all() and numbers[1] < numbers[3]:
+            lines.append(f"{figure} = [{', '.join(f'{x:.5g}' for x in numbers)}]")
+    return "\n".join([*lines, ""])
 
 
 class _Full:

@@ -122,3 +122,28 @@ def test_the_readmes_first_result_is_what_comes_out():
     with contextlib.redirect_stdout(io.StringIO()) as out:
         exec(blocks["python"], {})
     assert out.getvalue() == blocks["text"]
+
+
+def tables():
+    """Return the module that makes what the pages tell."""
+    spec = importlib.util.spec_from_file_location("docs_tables", DOCS / "tables.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+TABLES = tables()
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(n, marks=[pytest.mark.slow] if n in TABLES.SLOW else []) for n in TABLES.MADE],
+)
+def test_what_a_page_tells_is_what_comes_out(name):
+    """Else: python docs/tables.py NAME."""
+    told = [t for page in TABLES.PAGES for n, t in TABLES.blocks(page).items() if n == name]
+    assert told == [TABLES.MADE[name]()]
+
+
+def test_every_block_of_a_page_is_made():
+    assert {n for page in TABLES.PAGES for n in TABLES.blocks(page)} == set(TABLES.MADE)

@@ -111,3 +111,19 @@ def test_a_measured_curve_is_followed_and_held_beyond_its_end():
 def test_a_curve_that_cannot_be_used_is_refused_by_name(speed, friction, message):
     with pytest.raises(ParameterError, match=message):
         ClutchParams.with_table(speed, friction)
+
+
+@pytest.mark.parametrize(
+    ("changes", "load", "words"),
+    [
+        ({}, 5500.0, ""),
+        ({}, 1e5, "with 12.7 MPa; above 3 MPa an organic lining"),  # 0.18.0 said nothing
+        ({"friction_law": "wang"}, 3e4, ""),
+        ({"friction_law": "wang"}, 1e5, "above 6 MPa a lining of sintered bronze"),
+    ],
+)
+def test_a_lining_bears_so_much(changes, load, words):
+    params = ClutchParams(**changes)
+    solved = solve_clutch(params, load=load, speed=0.0, oil_temperature=350.0).warnings
+    told = " ".join(solved)
+    assert ("does not last" in told) == bool(words) and words in told

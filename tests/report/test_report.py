@@ -188,6 +188,13 @@ def test_the_share_of_oil_shear_is_told_with_what_it_rests_on(record):
     assert "65% of the heat in the clutch" in told and "no measurement" in told
 
 
+def test_what_decides_the_washers_load_is_told(record):
+    """The share does, a guess beside a model of needles that leaves the washers nothing."""
+    figures = [*record.key_figures, KeyFigure("peak_washer_load", "", "N", 49.6)]
+    told = " ".join(trust_texts(replace(record, key_figures=figures)))
+    assert "(thrust_share = 0.1), which decides here" in told and "leaves them none" in told
+
+
 def test_every_plot_becomes_a_file(record, tmp_path):
     page = shift_report.shift_page(record)
     text = render(page)

@@ -1,6 +1,7 @@
 """Measured beside computed: a rig made of the model agrees, a shifted one is fitted back."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
 from thrustwasher.cli import main
 from thrustwasher.rigs.rig_comparison import compare
 from thrustwasher.rigs.rig_file import load_rig
+from thrustwasher.rigs.shelf_page import shelf_page
 
 TEXTS = ("title", "source", "measured", "conditions", "rights", "read", "reason")
 HEAD = "power [kW], speed [rad/s], friction_torque, friction_torque_error, origin"
@@ -68,6 +70,37 @@ def test_the_band_holds_the_scatter_and_the_reading_error(tmp_path):
     assert wide == pytest.approx(2.0 * 1.645 * 0.2, rel=0.2)
 
 
+def test_deviations_keep_their_signs_everywhere(tmp_path):
+    thick = tmp_path / "thick"  # the model's oil is thinner than what was measured
+    thick.mkdir()
+    found = compare(load_rig(rig(thick, lines(thicker=1.4))), draws=8)
+    told, d = found.to_dict(), found.deviations
+    assert told["mean_deviation"] == pytest.approx(np.mean(d)) and abs(np.mean(d)) > 1e-3
+    assert abs(told["largest_deviation"]) == np.abs(d).max()
+    assert told["largest_deviation"] in d.tolist()
+    page = shelf_page([found], [], tmp_path / "none.toml")
+    assert f"| {100.0 * np.mean(d):+.1f} % | {100.0 * told['largest_deviation']:+.1f} %" in page
+
+
+def test_only_what_was_measured_blind_on_the_same_machine_is_called_measured(tmp_path):
+    kinds = {"measured": True, "other machine": False, "calculated": False, "used": False}
+    for kind, ours in kinds.items():
+        folder = tmp_path / kind.replace(" ", "-")
+        folder.mkdir()
+        made = load_rig(rig(folder, lines(), extra=f'kind = "{kind}"\n'))
+        page = shelf_page([compare(made, draws=8)], [], tmp_path / "none.toml")
+        measured = page.partition("## Measured")[2].partition("## Compared")[0]
+        assert ("1 rig, 6 points" in measured) == ours and (made.name in measured) == ours
+
+
+def test_the_shelf_says_what_each_rig_is():
+    names = [path.name for path in Path("examples/measured").iterdir() if path.is_dir()]
+    found = {name: load_rig(f"examples/measured/{name}").kind for name in names}
+    assert "not said" not in found.values()
+    assert found["vw-transaxle"] == found["oh-58a"] == "other machine"
+    assert found["jackson-green-2006"] == "calculated" and found["wang-2012"] == "used"
+
+
 GOOD = "2.0, 180, 0.5, 0.01, table"
 
 
@@ -83,6 +116,7 @@ GOOD = "2.0, 180, 0.5, 0.01, table"
         ({"source": ""}, "source = None, a text is required"),
         ({"extra": "vary = 'tilt'\n"}, "vary = 'tilt', allowed: an input that is a column"),
         ({"extra": "sorce = 'x'\n"}, "there is no 'sorce' here"),
+        ({"extra": 'kind = "seen"\n'}, "kind = 'seen', allowed: measured, other machine"),
         ({"extra": 'scene = "planetary"\n'}, "part or scene, allowed: the name of one"),
     ],
 )

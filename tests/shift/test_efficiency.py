@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 from scene_runs import changed, slow_without_jit
 
-from thrustwasher import ParameterError, solve_gearmesh, solve_losses
+from thrustwasher import ParameterError, solve_clutch, solve_gearmesh, solve_losses
+from thrustwasher.report.model_plots.efficiency_plot import efficiency_figure
 from thrustwasher.shift import load_scene
+from thrustwasher.shift.checks.steady_doubts import capacity
 from thrustwasher.shift.steady_points import SOURCES, efficiency_map
 
 BARE = "[transmission]\nwashers = 0\n"
@@ -76,6 +78,54 @@ def test_sources_are_what_their_models_lose_there(scene):
 def test_a_locked_set_has_no_losses_in_its_teeth(scene):
     c = efficiency_map(scene, [100.0], [200.0], gear="second").columns
     assert c["mesh_loss"] == 0.0 and c["output_speed"] == 200.0 and c["pump_loss"] > 500.0
+
+
+@slow_without_jit
+def test_the_usual_map_has_nothing_to_warn_of(scene):
+    found = efficiency_map(scene, [25.0, 250.0], [105.0, 420.0])
+    assert found.doubts == ((), (), (), ()) and not found.columns["warnings"].any()
+    assert not [text for text in found.warnings if text.startswith("at ")]
+
+
+@slow_without_jit
+def test_each_point_has_its_warnings():
+    """0.18.0 never warned: not of 5000 N m, which the brake cannot hold and no tooth endures."""
+    scene = load_scene("planetary")
+    found = efficiency_map(scene, [100.0, 1000.0, 5000.0], [300.0])
+    assert found.doubts[0] == ()
+    held, teeth = found.doubts[1], "; ".join(found.doubts[2])
+    assert "brake: 496.3 N·m to hold, its capacity" in held[0]
+    assert len(held) == 2 and "washer: temperature_max = 161.6 °C" in held[1]
+    for words in ("would slip", "mesh: pitting_safety", "mesh: scuffing_safety", "washer: "):
+        assert words in teeth
+    assert found.columns["warnings"].tolist() == [0.0, 2.0, len(found.doubts[2])]
+    lines = [text for text in found.warnings if "mesh: pitting_safety" in text]
+    assert any(
+        text.startswith("at 1 of 3 points, first at 5000 N·m and 300 rad/s") for text in lines
+    )
+
+
+@slow_without_jit
+def test_bodies_too_warm_for_the_oil_are_said():
+    """Washers at 204 degC are within what their model was verified for, the oil does not last."""
+    found = efficiency_map(load_scene("planetary"), [2700.0], [150.0])
+    assert any("washer: temperature_max" in t and "ages fast" in t for t in found.doubts[0])
+
+
+@slow_without_jit
+def test_the_capacity_is_that_of_the_pack_under_the_greatest_pressure():
+    scene = load_scene("planetary")
+    part = scene.parts["brake"]
+    found = solve_clutch(part.params, load=(760e3 - 30e3) * 8e-3, speed=0.0, oil_temperature=358.15)
+    assert capacity(scene, "brake") == pytest.approx(found.torque_capacity, rel=1e-12)
+
+
+@slow_without_jit
+def test_points_with_warnings_are_hatched():
+    found = efficiency_map(load_scene("planetary"), [100.0, 1000.0, 2000.0], [200.0, 300.0])
+    axis = efficiency_figure(found).axes[0]
+    hatched = [p.get_xy() for p in axis.patches if p.get_hatch() == "///"]
+    assert len(hatched) == 4 and min(y for _, y in hatched) == 550.0
 
 
 def test_without_losses_the_map_says_what_is_left_out(tmp_path):

@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from scene_runs import slow_without_jit, with_all_parts
+from scene_runs import changed, instances, slow_without_jit, with_all_parts
 
 from thrustwasher.shift import load_scene, run_shift
 
@@ -50,3 +50,9 @@ def test_four_planets_have_their_meshes_with_sun_and_ring():
     power = 4 * (1 + (1 / 18 - 1 / 66) / (1 / 18 + 1 / 30)) * r.signals["mesh.friction_power"]
     assert r.energy["meshes"] == pytest.approx(np.trapezoid(power, r.time), rel=5e-3)
     assert r.figures["mesh_loss"] == r.energy["meshes"]
+
+
+def test_the_lining_of_a_shift_is_looked_at(tmp_path):
+    scene = changed(tmp_path, "[pressure.clutch]\npiston_area = 0.06\n")
+    found = run_shift(scene, instances(scene)).found
+    assert any("clutch: load = " in text and "an organic lining" in text for text in found)

@@ -67,9 +67,12 @@ def _count(option: str, text: str | None, low: int, high: int, usual: int) -> in
 
 def _say(found: Any, told: dict[str, Any]) -> None:
     """Print every point and what they come to."""
+    from ..rigs.rig_file import KINDS
+
     rig = found.rig
     print(f"{rig.texts['title']}: {rig.output} of {rig.target_name}")
     print(f"  {rig.texts['source']}")
+    print(f"  {KINDS[rig.kind]}")
     for i in range(len(rig.measured)):
         given = ", ".join(f"{n} {_output.text_of(float(x[i]), '1')}" for n, x in rig.inputs.items())
         mark = "" if found.judged[i] else " (used for the fit)"
@@ -81,8 +84,8 @@ def _say(found: Any, told: dict[str, Any]) -> None:
         print(f"  fitted: {name} = {value:.4g}")
     low, high = told["inside_band_interval"]
     print(
-        f"{told['points']} points judged: mean deviation {100.0 * told['mean_deviation']:.1f} %, "
-        f"largest {100.0 * told['largest_deviation']:.1f} %, inside the band "
+        f"{told['points']} points judged: mean deviation {100.0 * told['mean_deviation']:+.1f} %, "
+        f"largest {100.0 * told['largest_deviation']:+.1f} %, inside the band "
         f"{100.0 * told['inside_band']:.0f} % ({100.0 * low:.0f} .. {100.0 * high:.0f} %)"
     )
     print(f"Likely reason of what deviates: {rig.texts['reason']}")

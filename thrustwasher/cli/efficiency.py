@@ -61,19 +61,23 @@ def run(arguments: argparse.Namespace) -> int:
     _output.warn(found.warnings)
     units = {name: unit for name, (unit, _) in COLUMNS.items()}
     columns = {name: series.tolist() for name, series in found.columns.items()}
-    targets.write(units, columns)
+    texts = ["; ".join(lines) for lines in found.doubts]
+    targets.write({**units, "doubts": ""}, {**columns, "doubts": texts})
     if targets.plot:
         from ..report.model_plots.efficiency_plot import efficiency_figure
 
         targets.draw(efficiency_figure(found))
     if arguments.json:
-        points = [dict(zip(COLUMNS, row, strict=True)) for row in _rows(found)]
+        points = [
+            {**dict(zip(COLUMNS, row, strict=True)), "doubts": lines}
+            for row, lines in zip(_rows(found), found.doubts, strict=True)
+        ]
         told: dict[str, Any] = {"scene": scene.name, "gear": found.gear, "points": points}
         told |= {"balance": found.balance, "wall_time": wall_time, "warnings": found.warnings}
         _output.print_json(told)
         return 0
     if not any(targets):
-        shown = {n: units[n] for n in ("torque", "speed", "efficiency", "loss")}
+        shown = {n: units[n] for n in ("torque", "speed", "efficiency", "loss", "warnings")}
         _output.print_table(shown, columns, 16)
     for line in _largest(found):
         print(line)

@@ -256,10 +256,13 @@ def _say(result: Any, folder: Path | None) -> None:
     """Print what happened in the shift, and where its report is."""
     from ..report.shift import summary
     from ..report.shift.shift_record import record_of
+    from ..report.shift.what_happened import known_texts
 
     record = record_of(result)
     chosen = result.selection.words() if result.selection else []
     for text in [*chosen, *result.messages, *summary.sentences(record)]:
+        print(text)
+    for text in known_texts(record):
         print(text)
     missing = f"{record.energy['residual_share']:.1e} of {record.whole_name}"
     errs = f" Error of the step: {record.step_error.words()}." if record.step_error else ""

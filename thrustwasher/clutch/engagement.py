@@ -17,7 +17,7 @@ from .kernels import advance as clutch_advance
 from .kernels import layout as k
 from .kernels import pack_friction, pack_outputs, rates
 from .parameters import DRUM, LOAD, OIL, SPEC, SPEED, ClutchParams
-from .solve import doubts_of_pack, pack_warnings, prepare
+from .solve import doubts_of_lining, doubts_of_pack, pack_warnings, prepare
 
 
 def outputs_over(
@@ -152,6 +152,7 @@ def engage_clutch(
         status=status,
         warnings=(
             *doubts_of_pack(params, fidelity),
+            *doubts_of_lining(params, float(forces.max())),
             *pack_warnings(status, float(columns["film_ratio"].min()), hottest, hottest),
         ),
     )

@@ -1,7 +1,7 @@
 """The record of the wet clutch."""
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any
 
 from ..model.record import Command, Fits, Ladder, Model, Sweep
 from ..model.spec import ModelSpec, Signal
@@ -74,6 +74,12 @@ class Clutch(Model):
         from .solve import solve_clutch
 
         return solve_clutch
+
+    def doubts(self, params: Any, inputs: Mapping[str, float]) -> Iterable[str]:
+        """Return what the lining does not bear."""
+        from .solve import doubts_of_lining
+
+        return doubts_of_lining(params, inputs["load"])
 
     @property
     def sweep(self) -> Sweep:

@@ -1,5 +1,6 @@
 """Wet clutch: coefficient of boundary friction, and a pack that slips at a constant speed."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -27,6 +28,10 @@ BEYOND_LAW = (
     "lining's modulus"
 )
 PRESSED = "film_ratio = {:.3g}: " + BEYOND_LAW
+LININGS = {  # law of friction -> lining that it stands for, Pa on the land that it bears
+    "table": ("an organic lining", 3e6),
+    "wang": ("a lining of sintered bronze", 6e6),
+}
 LEAST_PRESSURE = 2e4  # Pa, an estimate: lightest pressure that friction over slip is measured at
 __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
 
@@ -260,6 +265,7 @@ def solve_clutch(
         warnings=(
             *doubts_of_pack(params, fidelity),
             *_light(params, load, fidelity),
+            *doubts_of_lining(params, load),
             *pack_warnings(status, ratio, s.temperature, s.hottest),
         ),
     )
@@ -297,6 +303,17 @@ def _light(params: ClutchParams, load: float, fidelity: str) -> list[str]:
         f"measured above some {LEAST_PRESSURE:g} Pa; shear of the oil beside it is left out, with "
         "friction_data = 'boundary' it counts"
     ]
+
+
+def doubts_of_lining(params: ClutchParams, load: float) -> Iterator[str]:
+    """Yield a line if a load presses the land of the faces more than their lining bears."""
+    kind, most = LININGS.get(params.friction_law, LININGS["table"])
+    pressure = load * params.faces / params.lining_area / params.land_share
+    if pressure > most:
+        yield (
+            f"load = {load:g} N presses the land of the faces with {pressure / 1e6:.3g} MPa; above "
+            f"{most / 1e6:g} MPa {kind} does not last (a rule of thumb; its maker's limit decides)"
+        )
 
 
 def pack_warnings(

@@ -9,7 +9,7 @@ from ..model.oil import named_oils, oil
 from ..model.part_file import PartFile
 from ..model.record import Model
 from ..model.rungs import rung_named
-from ..model.spec import REGIMES, Signal
+from ..model.spec import NAMED, Signal
 from ..units import UNITS, readable_units
 from .draws import draws_of
 from .view import View
@@ -37,8 +37,8 @@ def outputs_of(model: Model, view: View) -> dict[str, dict[str, Any]]:
     for s in (s for s in model.spec.outputs if hasattr(result, s.name)):
         keys = ("unit", "help", "kind", "relative")
         found[s.name] = {**{key: getattr(s, key) for key in keys}, "scale": s.nominal}
-        if s.type == "Regime":
-            found[s.name]["options"] = list(REGIMES)
+        if s.type in NAMED:
+            found[s.name]["options"] = list(NAMED[s.type])
     for name, (unit, words) in model.command.extra.items():
         before = found.get(name, {"relative": False})
         found[name] = {"kind": "real", **before, "unit": unit, "help": words}

@@ -1,7 +1,7 @@
 """The record of the driveline losses."""
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any
 
 from ..model.record import Command, Model, Sweep
 from ..model.spec import ModelSpec
@@ -40,6 +40,12 @@ class DrivelineLosses(Model):
         from .solve import solve_losses
 
         return solve_losses
+
+    def doubts(self, params: Any, inputs: Mapping[str, float]) -> Iterable[str]:
+        """Return which laws a point is outside of."""
+        from .solve import doubts_of_point
+
+        return doubts_of_point(params, inputs)
 
 
 MODEL = DrivelineLosses()

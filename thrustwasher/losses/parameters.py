@@ -95,7 +95,38 @@ def _of_shaft(name: str) -> dict[str, Any]:
     return {f"{name}_{key}": field for key, field in fields.items()}
 
 
+_MORE = {
+    "starvation_constant": quantity(
+        3e-8,
+        "1",
+        0.0,
+        1e-6,
+        "SKF's K_rs, all bearings: 3e-8 low oil bath or jet, 6e-8 oil and air (0: never starved)",
+    ),
+    "bearing_section": quantity(
+        0.45, "1", 0.05, 1.5, "outer less inner diameter over the mean one, main bearings"
+    ),
+    "bearing_type_constant": quantity(
+        3.1,
+        "1",
+        1.0,
+        10.0,
+        "SKF's K_Z of the main bearings: 3.1 deep groove ball, 5.1 cylindrical roller",
+    ),
+    "planet_bearing_section": quantity(
+        0.35, "1", 0.05, 1.5, "outer less inner diameter over the mean one, planets' bearings"
+    ),
+    "planet_bearing_type_constant": quantity(
+        5.1,
+        "1",
+        1.0,
+        10.0,
+        "SKF's K_Z of the planets' bearings: 5.1 with cage, 6.2 without",
+    ),
+}
 LossesParams = extended(
-    _LossesParams, "LossesParams", {k: v for name in SHAFTS for k, v in _of_shaft(name).items()}
+    _LossesParams,
+    "LossesParams",
+    {k: v for name in SHAFTS for k, v in _of_shaft(name).items()} | _MORE,
 )
 SPEC = spec_beside(__file__, LossesParams)

@@ -1,5 +1,10 @@
-"""Losses of bearings, dipping gears, oil pump and shaft seals at one operating point."""
+"""Losses of bearings, dipping gears, oil pump and shaft seals at one operating point.
 
+And which laws it is outside the range of.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,10 +18,18 @@ from ..model.prepare import filled
 from ..model.rungs import rung_named
 from ..model.sensitivity import Differentiable
 from ..model.solutions import Asked
+from ..model.spec import CHURNING_REGIMES
+from ..tribology.viscosity import viscosity
+from ..units import format_quantity
+from .kernels import loss_laws as laws
 from .kernels import step as k
-from .parameters import SPEC, LossesParams
+from .parameters import SHAFTS, SPEC, LossesParams
 
 __all__ = ["LossesParams", "LossesResult", "solve_losses"]
+GEARS = {"input": "input gear", "output": "output gear", "drum": "drum"}
+LEAST_DEPTH, MOST_DEPTH = 0.1, 0.5  # over diameter
+LEAST_LEFT = 0.1  # of a bearing's viscous torque, from which on it is no longer most of its drag
+FREEZING, WARM = 273.15, 313.15  # K; WARM: temperature of the viscosity in the formula of seals
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +45,9 @@ class LossesResult(Differentiable):
     pump_power: float
     seal_power: float
     oil_heat: float  # [W] the sum
+    input_churning_regime: str  # "none", "viscous", "inertial", "between", "centrifugal_viscous"
+    output_churning_regime: str  # or "centrifugal_inertial"
+    drum_churning_regime: str
     status: Status
     fidelity: str
     _asked: Asked = field(repr=False, compare=False)
@@ -65,7 +81,8 @@ def solve_losses(
 
     Returns
     -------
-    LossesResult; status OUTSIDE_VERIFIED with oil below -20 or above 150 degC
+    LossesResult; status OUTSIDE_VERIFIED with oil below -20 or above 150 degC, or where a gear
+    churns outside the range of the laws
 
     Raises
     ------
@@ -74,8 +91,9 @@ def solve_losses(
 
     Notes
     -----
-    Source: docs/theory/losses.md: Palmgren's bearing friction, Changenet & Velex (2007) churning,
-    ISO/TR 14179-2 seals, all as publicly quoted.
+    Source: docs/theory/losses.md: Palmgren's bearing friction with SKF's factors for thick oil,
+    churning after Changenet, Leprince, Ville & Velex (2011), ISO/TR 14179-2 seals, all as publicly
+    quoted.
 
     Examples
     --------
@@ -96,8 +114,10 @@ def solve_losses(
     if status.is_failure and throw:
         words = ", ".join(f"{name} = {value:g}" for name, value in point.items())
         raise SolveError(f"{words}: {status.advice}")
-    shown = dict(zip(SPEC.real_outputs, out.tolist(), strict=True))
+    shown: dict[str, Any] = dict(zip(SPEC.real_outputs, out.tolist(), strict=True))
     del shown["oil_energy"]  # of a step, not of a point
+    names = ["none", *CHURNING_REGIMES]  # 0: no solution
+    shown |= {f"{n}_churning_regime": names[i] for n, i in zip(SHAFTS, flags, strict=False)}
     return LossesResult(
         **shown,
         status=status,
@@ -105,6 +125,70 @@ def solve_losses(
         _asked=Asked(SPEC.key, params, {**point, "fidelity": fidelity}),
         warnings=(
             *idle_warnings(SPEC.key, params, fidelity),
-            *warnings_of(SPEC, status, point, shown),
+            *warnings_of(SPEC, status, point, shown, doubts_of_point(params, point)),
         ),
     )
+
+
+def doubts_of_point(params: Any, point: Mapping[str, float]) -> Iterator[str]:
+    """Yield what lies outside the ranges of the laws at a point, inputs by their names."""
+    for shaft in SHAFTS:
+        speed = abs(point[f"{shaft}_speed"])
+        if getattr(params, f"{shaft}_immersion") > 0.0 and speed > params.speed_smoothing:
+            yield from _of_gear(params, shaft, speed, point["oil_temperature"])
+    yield from _of_bearings(params, point)
+    yield from _of_seals(params, point["oil_temperature"])
+
+
+def _of_gear(params: Any, shaft: str, speed: float, oil: float) -> Iterator[str]:
+    radius = 0.5 * getattr(params, f"{shaft}_gear_diameter")
+    reynolds = speed * radius * getattr(params, f"{shaft}_gear_width") / _thickness(params, oil)
+    froude = speed * speed * radius / laws.GRAVITY
+    numbers = [
+        ("Froude number", froude, laws.LEAST_FR, laws.MOST_FR),
+        ("depth over diameter", getattr(params, f"{shaft}_immersion"), LEAST_DEPTH, MOST_DEPTH),
+    ]
+    if froude >= laws.LEAST_FR:  # a slower one has a small one of Reynolds too
+        numbers.append(("Reynolds number", reynolds, laws.LEAST_RE, laws.MOST_RE))
+    for name, value, low, high in numbers:
+        if not low <= value <= high:
+            side, limit = ("below", low) if value < low else ("above", high)
+            yield (
+                f"{GEARS[shaft]}: {name} {value:.3g} is {side} {limit:g}, the range of the laws of "
+                "churning; its loss is extrapolated"
+            )
+
+
+def _of_bearings(params: Any, point: Mapping[str, float]) -> Iterator[str]:
+    nu = _thickness(params, point["oil_temperature"])
+    for name in (*SHAFTS, "planet"):
+        of = "planet_bearing" if name == "planet" else "bearing"
+        own = "planet_bearing" if name == "planet" else f"{name}_bearing"
+        speed, diameter = abs(point[f"{name}_speed"]), getattr(params, f"{own}_diameter")
+        if speed <= params.speed_smoothing or not getattr(params, f"{own}_count"):
+            continue
+        kind, section = getattr(params, f"{of}_type_constant"), getattr(params, f"{of}_section")
+        starving = laws.starved(params.starvation_constant, kind, diameter, section)
+        left = laws.thinned(speed, nu, diameter, starving)[0]
+        if left < LEAST_LEFT:
+            yield (
+                f"{name} bearings: heated and starved, {100.0 * left:.2g} % of their viscous "
+                "torque is left; drag of the oil around them, which is not in the law, may be more"
+            )
+
+
+def _of_seals(params: Any, oil: float) -> Iterator[str]:
+    bracket = 145.0 - 1.6 * (oil - FREEZING)
+    bracket += 350.0 * math.log10(math.log10(max(1e6 * _thickness(params, WARM), 0.5) + 0.8))
+    if bracket < laws.LEAST_SEAL and any(getattr(params, f"{s}_seal_diameter") for s in SHAFTS):
+        yield (
+            f"seals: at {format_quantity(oil, 'K')} their formula falls below {laws.LEAST_SEAL:g}, "
+            "its least value here; their loss is an estimate"
+        )
+
+
+def _thickness(params: Any, oil: float) -> float:
+    """Return the kinematic viscosity [m2/s]."""
+    law = params.viscosity_scale, params.viscosity_constant, params.viscosity_exponent
+    mu: float = viscosity(oil, *law)[0]
+    return mu / float(params.oil_density)

@@ -42,7 +42,7 @@ def warnings_of(
     looked at. ``more`` is what the model says beside that.
     """
     found = [f"{status.name}: {status.advice}"] if status.is_failure else []
-    outside = outside_verified(spec, inputs)
+    outside, more = outside_verified(spec, inputs), [*more]
     hot = [
         f"{quantity_text(s, outputs[s.name])}: {Status.HOT.advice}"
         for s in spec.outputs

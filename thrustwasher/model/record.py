@@ -9,7 +9,7 @@ values lies above it, in one list each: ``report.model_plots``, ``explore.page``
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -156,6 +156,10 @@ class Model(ABC):
     def back(self, inputs: Values) -> Values:
         """Return the point of its command with these inputs of the model."""
         return dict(inputs)
+
+    def doubts(self, _params: Any, _inputs: Mapping[str, float]) -> Iterable[str]:
+        """Return what lies outside the range of a law at inputs of the model, a line each."""
+        return ()
 
     def doubt(self, _result: Any) -> str:
         """Return a warning that takes a solve of its own, "" if nothing."""

@@ -5,6 +5,7 @@ the package ``kernels``, whose head says what of it Python calls (``CALLED``). N
 before it is asked for.
 """
 
+from collections.abc import Iterable, Mapping
 from importlib import import_module
 from typing import Any
 
@@ -60,6 +61,11 @@ def find_model(name: str) -> Model:
         if model.name == name:
             return model
     raise _unknown(name)
+
+
+def outside_laws(key: str, params: Any, inputs: Mapping[str, float]) -> Iterable[str]:
+    """Return which laws of a model inputs are outside of; of one from elsewhere nothing."""
+    return find_model(key).doubts(params, inputs) if key in MODELS else ()
 
 
 def _unknown(name: str, why: str = "") -> ParameterError:

@@ -15,6 +15,16 @@ REGIMES = {
     "boundary": "film ratio below 1: the asperities carry",
     "adhesive": "the surfaces stick: static friction",
 }
+CHURNING_REGIMES = {
+    "none": "the gear runs above the oil, or stands",
+    "viscous": "centrifugal acceleration below 750 m/s2, Re below 4000: the more viscous, the more",
+    "inertial": "centrifugal acceleration below 750 m/s2, Re from 4000 on",
+    "between": "centrifugal acceleration of 750 to 1250 m/s2, from one law to the other",
+    "centrifugal_viscous": "centrifugal acceleration above 1250 m/s2, Re below 4000",
+    "centrifugal_inertial": "centrifugal acceleration above 1250 m/s2, Re from 4000 on",
+}
+NAMED = {"Regime": REGIMES, "ChurningRegime": CHURNING_REGIMES}
+"""Enumerations of outputs: type -> name -> meaning, numbered from 1."""
 
 
 @dataclass(frozen=True, kw_only=True)

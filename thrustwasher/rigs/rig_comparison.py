@@ -17,7 +17,7 @@ from ..shift.scene.scene import Scene
 from ..shift.scene.variation import varied_scene
 from ..shift.steady_points import efficiency_map
 from ..shown import Card, Line, Tabled
-from .rig_file import Rig
+from .rig_file import KINDS, Rig
 
 Array = NDArray[np.float64]
 DRAWS, NOISE, SEED = 64, 256, 1
@@ -65,8 +65,9 @@ class Comparison(Tabled):
         found = self.to_dict()
         lines = [
             Line("points", str(found["points"]), "that are judged"),
-            Line("mean_deviation", f"{100.0 * found['mean_deviation']:.3g} %", "without its sign"),
-            Line("largest_deviation", f"{100.0 * found['largest_deviation']:.3g} %", ""),
+            Line("kind", self.rig.kind, KINDS[self.rig.kind]),
+            Line("mean_deviation", f"{100.0 * found['mean_deviation']:+.3g} %", "with its sign"),
+            Line("largest_deviation", f"{100.0 * found['largest_deviation']:+.3g} %", ""),
             Line("inside_band", f"{100.0 * found['inside_band']:.3g} %", "of the points"),
             *(Line(name, f"{value:.4g}", "fitted") for name, value in self.fitted.items()),
         ]
@@ -74,13 +75,15 @@ class Comparison(Tabled):
         return Card(title, lines, (), self.warnings)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what JSON has of it."""
+        """Return what JSON has of it; deviations have their signs, as on the page."""
+        d = self.deviations
         return {
             "rig": self.rig.name,
+            "kind": self.rig.kind,
             "points": int(self.judged.sum()),
-            "mean_deviation": float(np.mean(np.abs(self.deviations))),
-            "largest_deviation": float(np.max(np.abs(self.deviations))),
-            "mean_signed_deviation": float(np.mean(self.deviations)),
+            "mean_deviation": float(np.mean(d)),
+            "largest_deviation": float(d[np.argmax(np.abs(d))]),
+            "mean_absolute_deviation": float(np.mean(np.abs(d))),
             "inside_band": float(self.inside.mean()),
             "inside_band_interval": self.interval,
             "fitted": dict(self.fitted),

@@ -21,7 +21,14 @@ from ..units import parse_quantity
 
 ORIGINS = ("table", "figure", "text", "fit")
 TEXTS = ("title", "source", "measured", "conditions", "rights", "read", "reason")
-OTHERS = ("part", "scene", "gear", "vary", "fit", "coefficients")
+KINDS = {
+    "measured": "measured, on what is modelled, and compared blind",
+    "other machine": "measured, on another machine than what is modelled",
+    "calculated": "calculated by those who published it",
+    "used": "measured, and used to choose a constant here",
+    "not said": "the rig does not say what it is",
+}
+OTHERS = ("kind", "part", "scene", "gear", "vary", "fit", "coefficients")
 ERROR = "_error"
 
 
@@ -45,6 +52,8 @@ class Rig:
     error: NDArray[np.float64]
     """Standard deviation of the reading."""
     origin: tuple[str, ...]
+    kind: str = "not said"
+    """One of ``KINDS``; only "measured" is a test of the model."""
 
     @property
     def name(self) -> str:
@@ -81,6 +90,9 @@ def load_rig(path: str | Path) -> Rig:
             raise ParameterError(f"{where}: {key} = {table.get(key)!r}, a text is required")
     if ("part" in table) == ("scene" in table):
         raise ParameterError(f"{where}: part or scene, allowed: the name of one of them")
+    kind = str(table.get("kind", "not said"))
+    if kind not in KINDS:
+        raise ParameterError(f"{where}: kind = {kind!r}, allowed: {', '.join(KINDS)}")
     target: PartFile | Scene
     if "part" in table:
         target = _part(folder, str(table["part"]))
@@ -90,7 +102,8 @@ def load_rig(path: str | Path) -> Rig:
         named = str(table["scene"])
         target = load_scene(folder / named if named.endswith(".toml") else named)
         inputs = {name: unit for name, (unit, *_) in RANGES.items()}
-        outputs = {n: unit for n, (unit, _) in COLUMNS.items() if n not in inputs}
+        none = (*inputs, "warnings")
+        outputs = {n: unit for n, (unit, _) in COLUMNS.items() if n not in none}
     columns, origin = _points(folder / "points.csv", inputs, outputs)
     found = [name for name in columns if name in outputs]
     if len(found) != 1:
@@ -122,6 +135,7 @@ def load_rig(path: str | Path) -> Rig:
         measured=columns[output],
         error=columns.get(output + ERROR, np.zeros(len(origin))),
         origin=origin,
+        kind=kind,
     )
 
 

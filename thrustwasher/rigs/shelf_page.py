@@ -3,25 +3,27 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
-
 from ..model.toml_tables import read_file
 from .rig_comparison import Comparison
+from .rig_file import KINDS
 
 HEAD = """# Measured
 
-Measurements that others made, beside what the models say. Nothing is fitted first: part and oil
-are as published, what is not published is as a part's defaults. The band holds 5 to 95 % of the
-scatter of the inputs and the reading error together; "inside" is the share of points in it, with
-its interval of 95 %. Deviation is computed over measured less 1. What disagrees is shown as it
-is.
+Numbers of others beside what the models say. **Measured** is what was measured on the machine that
+is modelled and is compared blind: these points test a model. All others are only **compared**: of
+another machine, calculated by those who published them, or used to choose a constant. Nothing is
+fitted first: part and oil are as published, what is not published is as a part's defaults. The
+band holds 5 to 95 % of the scatter of the inputs and the reading error together; "inside" is the
+share of points in it, with its interval of 95 %. Deviation is computed over measured less 1, with
+its sign here and with `--json`. What disagrees is shown as it is.
 
 `thrustwasher compare examples/measured --page docs/measured.md` writes this page.
 """
 OWN = """## Your own rig
 
 A folder with two files: `rig.toml` (title, source, what was measured, conditions, rights, how the
-numbers were read, likely reason of a deviation; `part = "my-part.toml"` or
+numbers were read, likely reason of a deviation; `kind`: measured, other machine, calculated, used;
+`part = "my-part.toml"` or
 `scene = "my-scene.toml"`) and `points.csv`, a line per point: inputs, one measured output,
 `<output>_error` (standard deviation), `origin` (table, figure, text or fit).
 `thrustwasher compare FOLDER` does the rest; `--fit N` fits the first N parameters of the list
@@ -32,23 +34,12 @@ many as it has coefficients. We are glad to put rigs with a source on this shelf
 
 def shelf_page(blind: Sequence[Comparison], fits: Sequence[Comparison], wanted: Path) -> str:
     """Return the page as Markdown; ``wanted``: the list of what could not be had."""
-    count = sum(len(c.rig.measured) for c in blind)
-    inside = sum(int(c.inside.sum()) for c in blind)
-    lines = [HEAD, f"{len(blind)} rigs, {count} points, {inside} of them inside the band.\n"]
-    lines += [
-        "| rig | compared | points | mean deviation | largest | inside | interval |",
-        "|---|---|---|---|---|---|---|",
-    ]
-    for c in [*blind, *fits]:
-        d = c.deviations
-        how = f", after a fit of {', '.join(c.fitted)}" if c.fitted else ""
-        low, high = c.interval
-        lines.append(
-            f"| [{c.rig.name}](#{c.rig.name}){how} | {c.rig.output} of {c.rig.target_name} "
-            f"| {len(d)} "
-            f"| {100.0 * np.mean(d):+.1f} % | {100.0 * d[np.argmax(np.abs(d))]:+.1f} % "
-            f"| {int(c.inside.sum())} of {len(d)} | {low:.2f} .. {high:.2f} |"
-        )
+    lines = [HEAD]
+    for title, ours in (("Measured", True), ("Compared", False)):
+        chosen = [c for c in blind if (c.rig.kind == "measured") == ours]
+        later = [c for c in fits if (c.rig.kind == "measured") == ours]
+        lines += [f"## {title}", "", _counted(chosen), "", *_table([*chosen, *later]), ""]
+    lines.pop()
     for c in blind:
         lines += [
             "",
@@ -57,6 +48,7 @@ def shelf_page(blind: Sequence[Comparison], fits: Sequence[Comparison], wanted: 
             f"**{c.rig.texts['title']}.** {c.rig.texts['measured']}",
             "",
         ]
+        lines += [f"- Kind: {KINDS[c.rig.kind]}"]
         lines += [f"- {key.capitalize()}: {c.rig.texts[key]}" for key in ("source", "conditions")]
         lines += [f"- Read: {c.rig.texts['read']}. Rights: {c.rig.texts['rights']}."]
         lines += [f"- Likely reason: {c.rig.texts['reason']}", ""]
@@ -80,3 +72,29 @@ def shelf_page(blind: Sequence[Comparison], fits: Sequence[Comparison], wanted: 
     table = read_file("wanted", wanted) if wanted.is_file() else {}
     lines += [f"- {row['source']}: {row['what']}" for row in table.get("wanted", [])]
     return "\n".join([*lines, "", OWN])
+
+
+def _counted(rigs: Sequence[Comparison]) -> str:
+    points, inside = sum(len(c.deviations) for c in rigs), sum(int(c.inside.sum()) for c in rigs)
+    words = [
+        f"{n} {what}{'' if n == 1 else 's'}" for n, what in ((len(rigs), "rig"), (points, "point"))
+    ]
+    return f"{', '.join(words)}, {inside} of them inside the band."
+
+
+def _table(rigs: Sequence[Comparison]) -> list[str]:
+    lines = [
+        "| rig | of | kind | points | mean deviation | largest | inside | interval |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
+    for c in rigs:
+        told = c.to_dict()
+        how = f", after a fit of {', '.join(c.fitted)}" if c.fitted else ""
+        low, high = c.interval
+        lines.append(
+            f"| [{c.rig.name}](#{c.rig.name}){how} | {c.rig.output} of {c.rig.target_name} "
+            f"| {c.rig.kind} | {told['points']} | {100.0 * told['mean_deviation']:+.1f} % "
+            f"| {100.0 * told['largest_deviation']:+.1f} % "
+            f"| {int(c.inside.sum())} of {told['points']} | {low:.2f} .. {high:.2f} |"
+        )
+    return lines

@@ -18,6 +18,7 @@ from .oscillation.chatter import Chatter
 from .oscillation.judder import Judder
 from .scene.connections import PARTS
 from .scene.scene import Scene
+from .scene.scene_file import KnownBand, known_bands
 from .tolerance.selection_record import CheckRecord, Selection
 
 # Of a scene, in the JSON of its run.
@@ -87,6 +88,11 @@ class ShiftResult(Tabled):
         return {figure.name: figure.value for figure in self.key_figures}
 
     @property
+    def known_bands(self) -> dict[str, KnownBand]:
+        """Bands of figures by a study made beforehand; only of a built-in scene as it comes."""
+        return known_bands(self.scene)
+
+    @property
     def warnings(self) -> tuple[str, ...]:
         """What must not be missed, a line each: doubts about the figures, then faults they show."""
         from ..report.shift.summary import warnings_of
@@ -139,6 +145,7 @@ class ShiftResult(Tabled):
             "wall_time": self.wall_time,
             "master_overhead": self.overhead,
             "real_time_factor": self.real_time_factor,
+            "known_bands": {n: b.as_dict() for n, b in self.known_bands.items()},
             "warnings": list(self.warnings),
             "step_error": self.step_error.relative if self.step_error else None,
             "step_errors": self.step_error._asdict() if self.step_error else None,

@@ -11,6 +11,7 @@ from ..errors import ParameterError, SolveError
 from ..fmu.running.direct_instance import DirectInstance
 from ..model.parameters import check_number
 from ..shown import Card, Tabled, Words, column_lines, plain_dict
+from .checks.steady_doubts import capacity, doubts_of_point, of_whole_map
 from .cosim.system import System
 from .run import connected, remarks
 from .scene.connections import PACKS
@@ -33,6 +34,7 @@ COLUMNS = {
     "churning_loss": ("W", "gears that dip into the oil"),
     "rolling_loss": ("W", "main bearings and the planets' needles"),
     "seal_loss": ("W", "shaft seals"),
+    "warnings": ("1", "how many there are at this point; `doubts` has their words"),
 }
 SOURCES = tuple(name for name in COLUMNS if name.endswith("_loss"))
 OF_LOSSES = {"pump": "pump", "churning": "churning", "rolling": "bearing", "seal": "seal"}
@@ -48,6 +50,8 @@ class EfficiencyMap(Tabled):
     scene: Scene
     gear: str
     columns: Mapping[str, NDArray[np.float64]]
+    doubts: tuple[tuple[str, ...], ...]
+    """What a reader must not miss at each point, a line each."""
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -56,11 +60,14 @@ class EfficiencyMap(Tabled):
         none = (
             "there is no [losses] in this scene: oil pump, churning, bearings, seals are left out"
         )
-        return (*self.scene.warnings, *remarks(self.scene), *(() if lost else (none,)))
+        places = list(zip(self.columns["torque"], self.columns["speed"], strict=True))
+        found = of_whole_map(places, self.doubts)
+        return (*self.scene.warnings, *remarks(self.scene), *(() if lost else (none,)), *found)
 
     def to_dict(self) -> dict[str, Any]:
         """Return scene, gear, columns, balance and warnings as JSON can hold them, SI units."""
-        own = {name: getattr(self, name) for name in ("gear", "columns", "balance", "warnings")}
+        names = ("gear", "columns", "doubts", "balance", "warnings")
+        own = {name: getattr(self, name) for name in names}
         return plain_dict({"scene": self.scene.name, **own})
 
     def _columns(self) -> Mapping[str, NDArray[np.float64]]:
@@ -109,7 +116,9 @@ def efficiency_map(
     -----
     Nothing accelerates: the load at the output is what the balance of the shafts leaves. Bodies of
     washers and teeth are as warm as the point keeps them, oil has the scene's temperature, the pack
-    that is open has its start's film.
+    that is open has its start's film. ``doubts`` says of each point what must not be missed:
+    torque beyond the capacity of the pack that holds, safeties below 1, bodies above 150 degC,
+    laws outside their ranges.
     """
     if gear not in GEARS:
         raise ParameterError(f"gear = {gear!r}, allowed: {', '.join(map(repr, GEARS))}")
@@ -117,7 +126,8 @@ def efficiency_map(
     speeds = [check_number("speed", x, *RANGES["speed"]) for x in speed]
     if not torques or not speeds:
         raise ParameterError("torque, speed: one value of each is required")
-    rows = []
+    rows, doubts, holding = [], [], GEARS[gear]
+    most = capacity(scene, holding)
     parts = {
         name: _steady(name, part, GEARS[gear])
         for name, part in scene.parts.items()
@@ -141,11 +151,16 @@ def efficiency_map(
                 part.initialize(0.0)
         begun = True
         for t in torques:
-            rows.append(_point(system, gearbox.params, GEARS[gear], t, w))
+            rows.append(_point(system, gearbox.params, holding, t, w))
+            shafts = system.transmission
+            reaction = shafts.outputs[shafts.output_names.index(f"{holding}_reaction")]
+            found = dict.fromkeys(doubts_of_point(own, system, holding, most, reaction))
+            doubts.append(tuple(found))
+            rows[-1]["warnings"] = len(found)
             if progress:
                 progress(len(rows), len(torques) * len(speeds))
-    columns = {name: np.array([row[name] for row in rows]) for name in COLUMNS}
-    return EfficiencyMap(scene, gear, columns)
+    columns = {name: np.array([row[name] for row in rows], float) for name in COLUMNS}
+    return EfficiencyMap(scene, gear, columns, tuple(doubts))
 
 
 def _steady(name: str, part: Part, holding: str) -> Part:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..errors import FIRST_FAILURE, EnvironmentProblem, ParameterError, Status
 from ..model.registry import find_model
 from ..model.solutions import without_idle, words_at_points
-from ..model.spec import REGIMES
+from ..model.spec import NAMED
 from ..shown import Card, Tabled, Words, column_lines, plain_dict
 from ..storage.journal import Block
 from ..storage.whole_files import whole_file
@@ -120,8 +120,8 @@ def make_table(
     failed = flags[:, -1] >= FIRST_FAILURE
     for i, signal in enumerate(whole[:-1]):
         column = flags[:, i]
-        if signal.type == "Regime":
-            names = np.array(["", *REGIMES], object)
+        if signal.type in NAMED:
+            names = np.array(["", *NAMED[signal.type]], object)
             columns[signal.name] = names[np.where(failed, 0, column)]
         else:
             columns[signal.name] = (column != 0) & ~failed

@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import Any
 
 from ...errors import Status
-from ...model.spec import REGIMES, ModelSpec, Signal
+from ...model.spec import NAMED, ModelSpec, Signal
 
 LOG_CATEGORIES = {  # in the order of the enum in the shell's tables.h
     "logStatusWarning": "Results that need care, such as distress or too hot",
@@ -192,7 +192,7 @@ def _enumerations(spec: ModelSpec) -> dict[str, tuple[Item, ...]]:
         if f.metadata["kind"] == "enumeration":
             found[f.metadata["type"]] = _counted(f.metadata["options"])
     statuses = tuple(Item(name=s.name, value=int(s), help=s.advice) for s in sorted(Status))
-    shared = {"Regime": _counted(REGIMES), "SolverStatus": statuses}
+    shared = {name: _counted(names) for name, names in NAMED.items()} | {"SolverStatus": statuses}
     used = {signal.type for signal in (*spec.inputs, *spec.outputs)}
     return found | {name: items for name, items in shared.items() if name in used}
 

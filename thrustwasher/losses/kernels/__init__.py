@@ -2,7 +2,7 @@
 
 =============  ===========================================================================
 ``loss_laws``  size of the torque of a rolling bearing, of a dipping gear, of a shaft seal
-``step``       torques of all shafts, their powers and heat, and how they change: exact
+``step``       torques of all shafts, their powers and heat, how they change: exact; regimes
 =============  ===========================================================================
 """
 
@@ -10,7 +10,7 @@
 CALLED = {
     "thrustwasher.losses.kernels.step": (
         "thrustwasher.losses.kernels.loss_laws: bearing_drag churning_constants churning_drag",
-        "thrustwasher.losses.kernels.loss_laws: seal_drag",
+        "thrustwasher.losses.kernels.loss_laws: seal_drag starved thinned",
         "thrustwasher.losses.kernels.step: derive sens step",
     ),
 }

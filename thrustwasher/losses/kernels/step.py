@@ -14,7 +14,14 @@ from ...numerics.smoothing import soft_size, soft_size_slope
 from ...numerics.status import BAD_INPUT, NOT_FINITE, OK, OUTSIDE_VERIFIED
 from ...tribology.viscosity import viscosity
 from .loss_laws import bearing_drag as bearing_drag
-from .loss_laws import churning_constants, churning_drag, seal_drag
+from .loss_laws import (
+    churning_constants,
+    churning_drag,
+    churning_is_outside,
+    churning_regime,
+    seal_drag,
+    starved,
+)
 
 (
     P_PLANETS,
@@ -38,9 +45,20 @@ from .loss_laws import churning_constants, churning_drag, seal_drag
 # of each shaft, input, output, drum; places behind P_SHAFT + ROW times its number
 A_COUNT, A_DIAMETER, A_LOAD, A_GEAR, A_WIDTH, A_IMMERSION, A_SEAL, ROW = range(8)
 SHAFTS, PLANET, SPEEDS = 3, 3, 4  # the planet's speed comes behind those of the shafts
-P_FIDELITY = P_SHAFT + SHAFTS * ROW
-N_PARAM = P_FIDELITY + 1
-D_SLOW, D_FAST, D_PUMP = N_PARAM, N_PARAM + SHAFTS, N_PARAM + 2 * SHAFTS
+(
+    P_STARVATION,
+    P_BEARING_SECTION,
+    P_BEARING_KIND,
+    P_PLANET_SECTION,
+    P_PLANET_KIND,
+    P_FIDELITY,
+    N_PARAM,
+) = range(P_SHAFT + SHAFTS * ROW, P_SHAFT + SHAFTS * ROW + 7)
+# of each shaft: churning by both sets, radius times width of the gear, cube root of that times the
+# radius; of each speed: starvation of its bearings
+D_SLOW, D_FAST, D_AREA, D_CUBE = (N_PARAM + i * SHAFTS for i in range(4))
+D_STARVING = N_PARAM + 4 * SHAFTS
+D_PUMP = D_STARVING + SPEEDS
 D_NU_40 = D_PUMP + 1
 NPAR = D_NU_40 + 1
 I_FORCE, I_OIL, NINP = SPEEDS, SPEEDS + 1, SPEEDS + 2
@@ -58,7 +76,7 @@ NSTATE = 1  # the heat since the start [J]
     O_ENERGY,
     NOUT,
 ) = range(11)
-NIOUT = 1
+NIOUT = SHAFTS + 1  # the regime of each shaft's gear, the status
 SOURCES = 4  # of torque: bearing, churning, pump, seal; the order of their powers in the outputs
 # `work`: torques by speed and source, then their slopes over speed and over temperature; that of
 # the planet's torque over the tooth force
@@ -75,13 +93,24 @@ def derive(par: Array) -> int:
     density = par[P_OIL_DENSITY]
     for i in range(SHAFTS):
         row = P_SHAFT + i * ROW
+        gear, width = par[np.uintp(row + A_GEAR)], par[np.uintp(row + A_WIDTH)]
         par[np.uintp(D_SLOW + i)], par[np.uintp(D_FAST + i)] = churning_constants(
-            par[np.uintp(row + A_GEAR)],
-            par[np.uintp(row + A_WIDTH)],
-            par[np.uintp(row + A_IMMERSION)],
-            par[P_OIL_VOLUME],
-            density,
+            gear, width, par[np.uintp(row + A_IMMERSION)], par[P_OIL_VOLUME], density
         )
+        par[np.uintp(D_AREA + i)] = 0.5 * gear * width
+        par[np.uintp(D_CUBE + i)] = (0.25 * gear * gear * width) ** (1.0 / 3.0)
+        par[np.uintp(D_STARVING + i)] = starved(
+            par[P_STARVATION],
+            par[P_BEARING_KIND],
+            par[np.uintp(row + A_DIAMETER)],
+            par[P_BEARING_SECTION],
+        )
+    par[D_STARVING + PLANET] = starved(
+        par[P_STARVATION],
+        par[P_PLANET_KIND],
+        par[P_PLANET_BEARING_DIAMETER],
+        par[P_PLANET_SECTION],
+    )
     work = par[P_PUMP_DISPLACEMENT] * par[P_LINE_PRESSURE]
     par[D_PUMP] = work / (2.0 * math.pi * par[P_PUMP_EFFICIENCY])
     thick, _ = oil_viscosity(par, 313.15)
@@ -121,12 +150,12 @@ def resist(par: Array, inp: Array, work: Array) -> None:
         speed, at = inp[np.uintp(i)], i * SOURCES
         turning = math.sqrt(speed * speed + smooth * smooth)
         more, sign = speed / turning, math.tanh(speed / smooth)
-        steep = (1.0 - sign) * (1.0 + sign) / smooth
+        steep, starving = (1.0 - sign) * (1.0 + sign) / smooth, par[np.uintp(D_STARVING + i)]
         if i == PLANET:
             load = 2.0 * soft_size(force, LIGHT)
             n, diameter = par[P_PLANET_BEARING_COUNT], par[P_PLANET_BEARING_DIAMETER]
             f0, f1 = par[P_PLANET_VISCOUS_FACTOR], par[P_PLANET_LOAD_FACTOR]
-            drag, a, b = bearing_drag(turning, nu, load / n, diameter, f0, f1)
+            drag, a, b = bearing_drag(turning, nu, load / n, diameter, f0, f1, starving)
             put(work, at, sign, (n * drag, n * a * more, n * b * nu_slope), steep)
             slope = 2.0 * soft_size_slope(force, LIGHT)
             work[W_BY_FORCE] = slope * f1 * diameter * sign
@@ -134,16 +163,31 @@ def resist(par: Array, inp: Array, work: Array) -> None:
         row = P_SHAFT + i * ROW
         n, diameter = par[np.uintp(row + A_COUNT)], par[np.uintp(row + A_DIAMETER)]
         f0, f1 = par[P_BEARING_VISCOUS_FACTOR], par[P_BEARING_LOAD_FACTOR]
-        drag, a, b = bearing_drag(turning, nu, par[np.uintp(row + A_LOAD)], diameter, f0, f1)
+        load = par[np.uintp(row + A_LOAD)]
+        drag, a, b = bearing_drag(turning, nu, load, diameter, f0, f1, starving)
         put(work, at, sign, (n * drag, n * a * more, n * b * nu_slope), steep)
-        area = 0.5 * par[np.uintp(row + A_GEAR)] * par[np.uintp(row + A_WIDTH)]
         slow, fast = par[np.uintp(D_SLOW + i)], par[np.uintp(D_FAST + i)]
-        drag, a, b = churning_drag(turning, nu, slow, fast, area)
+        area, cube = par[np.uintp(D_AREA + i)], par[np.uintp(D_CUBE + i)]
+        drag, a, b = churning_drag(turning, nu, slow, fast, area, cube)
         put(work, at + 1, sign, (drag, a * more, b * nu_slope), steep)
         if i == O_INPUT:
             put(work, at + 2, sign, (par[D_PUMP], 0.0, 0.0), steep)
         drag, b = seal_drag(oil, par[D_NU_40], par[np.uintp(row + A_SEAL)])
         put(work, at + 3, sign, (drag, 0.0, b), steep)
+
+
+@kernel
+def classed(par: Array, inp: Array, iout: Ints) -> bool:
+    """Fill in the regime of each shaft's gear; tell if one churns outside the range of the laws."""
+    nu, _ = oil_viscosity(par, inp[I_OIL])
+    outside = False
+    for i in range(SHAFTS):
+        speed, depth = inp[np.uintp(i)], par[np.uintp(P_SHAFT + i * ROW + A_IMMERSION)]
+        area, cube = par[np.uintp(D_AREA + i)], par[np.uintp(D_CUBE + i)]
+        radius = 0.5 * par[np.uintp(P_SHAFT + i * ROW + A_GEAR)]
+        iout[np.uintp(i)] = churning_regime(speed, nu, depth, area, cube)
+        outside = outside or churning_is_outside(speed, nu, depth, radius, area)
+    return outside
 
 
 @kernel
@@ -156,7 +200,7 @@ def step(
     """
     oil = inp[I_OIL]
     if not (are_finite(inp) and oil > 0.0 and math.isfinite(dt) and dt >= 0.0):
-        iout[0] = BAD_INPUT
+        iout[SHAFTS] = BAD_INPUT
         return BAD_INPUT
     resist(par, inp, work)
     clear(out)
@@ -171,11 +215,13 @@ def step(
     out[O_HEAT] = out[O_BEARING] + out[O_CHURNING] + out[O_PUMP] + out[O_SEAL]
     out[O_ENERGY] = state[0] + out[O_HEAT] * dt
     status = OK if COLDEST <= oil <= HOTTEST else OUTSIDE_VERIFIED
+    if classed(par, inp, iout):
+        status = OUTSIDE_VERIFIED
     if not are_finite(out):
         status = NOT_FINITE
     elif dt > 0.0:
         state[0] = out[O_ENERGY]
-    iout[0] = status
+    iout[SHAFTS] = status
     return status if status >= 10 else 0
 
 

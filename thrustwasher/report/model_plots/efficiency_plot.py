@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
 from ...units import format_quantity
 from ..palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, RPM, SKY
@@ -33,14 +34,17 @@ def efficiency_figure(found: Any) -> Figure:
     if min(percent.shape) > 1 and np.isfinite(percent).sum() > 2:
         lines = axes[0].contour(rpm, torque, percent.T, levels=_levels(percent), colors=BLACK)
         axes[0].clabel(lines, fmt="%g")
+        _hatch(axes[0], rpm, torque, grid["warnings"])
     else:
         along = (torque, "torque [N m]") if len(torque) > 1 else (rpm, "speed [rpm]")
         axes[0].plot(along[0], percent.ravel(), "o-", color=BLACK)
+        bad = grid["warnings"].ravel() > 0.0
+        axes[0].plot(along[0][bad], percent.ravel()[bad], "x", color=RED)
         axes[0].set_xlabel(along[1])
     flat = min(percent.shape) > 1
     label(
         axes[0],
-        "Efficiency [%]",
+        f"Efficiency [%]{_warned(flat) if (c['warnings'] > 0.0).any() else ''}",
         "speed [rpm]" if flat else "",
         "torque [N m]" if flat else "efficiency [%]",
     )
@@ -65,6 +69,20 @@ def efficiency_figure(found: Any) -> Figure:
     oil = format_quantity(found.scene.oil_temperature, "K")
     heading(figure, f"{found.scene.title}, {found.gear} gear, oil {oil}")
     return figure
+
+
+def _warned(flat: bool) -> str:
+    return f", {'hatched' if flat else 'crossed'}: warnings"
+
+
+def _hatch(axis: Any, rpm: Any, torque: Any, warnings: Any) -> None:
+    """Hatch around each point that has warnings, half way to its neighbours."""
+    if not (warnings > 0.0).any():
+        return
+    x, y = (np.concatenate([[v[0]], 0.5 * (v[1:] + v[:-1]), [v[-1]]]) for v in (rpm, torque))
+    look: dict[str, Any] = {"fill": False, "hatch": "///", "edgecolor": RED, "linewidth": 0.0}
+    for j, i in np.argwhere(warnings > 0.0):
+        axis.add_patch(Rectangle((x[j], y[i]), x[j + 1] - x[j], y[i + 1] - y[i], **look))
 
 
 def _levels(percent: Any) -> list[float]:

@@ -115,6 +115,8 @@ class Record:
     """Way of the vehicle per angle of the output [m/rad]; None: there is no vehicle."""
     scatter: Any = None
     """What the scatter of inputs makes of it (``scatter.result.ScatterResult``), if studied."""
+    known: Mapping[str, Any] = field(default_factory=dict)
+    """Bands of figures that are known of a built-in scene (``ShiftResult.known_bands``)."""
 
     @property
     def figures(self) -> dict[str, float | None]:
@@ -196,5 +198,6 @@ def record_of(result: Any, scatter: Any = None) -> Record:
         parts=[Part(n, part.spec, part.parameters()) for n, part in scene.parts.items()],
         reach=scene.vehicle.reach if scene.vehicle else None,
         scatter=scatter,
+        known={} if scatter else result.known_bands,
         **{name: getattr(result, name) for name in OF_THE_RESULT},
     )

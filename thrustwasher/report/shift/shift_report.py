@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from markupsafe import Markup
@@ -161,7 +162,7 @@ def _cards(record: Record) -> list[Card]:
     def band(name: str) -> list[str]:
         found = record.band(name)
         if not found or not varies(found):
-            return []
+            return known(name)
         words = usual[name][0].study_words(found) if name in usual else band_words(found)
         doubt = "washer_temperature" in name and steady_is_doubted(record)
         return [
@@ -169,6 +170,15 @@ def _cards(record: Record) -> list[Card]:
             *loose_words(found),
             *(["steady, which the check in time doubts"] if doubt else []),
         ]
+
+    def known(name: str) -> list[str]:
+        found, figure = record.known.get(name), record.figure(name)
+        if not found or figure is None:
+            return []
+        given = usual[name][0].value_words if name in usual else partial(figure.words, digits=3)
+        low, middle, high = (given(x) for x in found.quantiles.values())
+        words = (f"{BAND}: {low} .. {high}", f"median {middle}")
+        return [", ".join(text.replace(" ", "\N{NO-BREAK SPACE}") for text in words)]
 
     cards = [
         Card(

@@ -161,7 +161,9 @@ def _washers(r: Record) -> Iterator[str]:
     else:
         yield (
             f"The washers' load, up to {say(most, 'N')}, is a share of a planet's tilting couple "
-            f"(thrust_share = {p.thrust_share:g}), a guess: sound needles would leave them none."
+            f"(thrust_share = {p.thrust_share:g}), which decides here: an estimate of what needles "
+            "that run askew bring. The model of a planet on its needles (needle_count above 0), if "
+            "its play is usual, leaves them none."
         )
 
 

@@ -37,7 +37,23 @@ def headline(r: Record) -> str:
     text = f"{locked}; slipping made {say(f['slip_energy'] or 0.0, 'J')} of heat in it"
     if jerk := f.get("peak_jerk"):
         text += f", and the greatest jerk of the vehicle was {say(jerk, 'm/s3')}"
+        if known := r.known.get("peak_jerk"):
+            low, middle, high = (say(x, "m/s3") for x in known.quantiles.values())
+            text += f" (by the scatter of this scene {low} to {high}, median {middle})"
     return f"{text}."
+
+
+def known_texts(r: Record) -> list[str]:
+    """Return where the jerk lies in the band that is known of its scene."""
+    jerk, known = r.figures.get("peak_jerk"), r.known.get("peak_jerk")
+    if jerk is None or known is None:
+        return []
+    low, middle, high = (say(x, "m/s3") for x in known.quantiles.values())
+    return [
+        f"The greatest jerk of {say(jerk, 'm/s3')} is that of the nominal values: by the scatter "
+        f"of this scene it lies between {low} and {high} (5 and 95 % of {known.runs} runs), median "
+        f"{middle}."
+    ]
 
 
 def rpm(speed: float) -> str:

@@ -7,9 +7,11 @@ import numpy as np
 
 from ...errors import ParameterError, Status
 from ...model.advice import outside_verified
+from ...model.registry import outside_laws
 from ...numerics.jit import Array
 from ...units import format_quantity as say
 from ..key_figures.figure_list import FILM_SPEED
+from ..scene.connections import PACKS
 from ..scene.doubts import idle_parameters
 from ..scene.scene import Scene
 
@@ -25,6 +27,7 @@ def doubts(scene: Scene, step: float, time: Array, signals: Signals) -> Iterator
     yield from _of_times(scene, step)
     yield from _of_solvers(scene, time, signals)
     yield from _of_boxes(scene, signals)
+    yield from _of_linings(scene, signals)
     yield from _of_maps(scene, signals)
     yield from _of_dry_friction(scene, time, signals)
 
@@ -63,9 +66,14 @@ def _of_solvers(scene: Scene, time: Array, signals: Signals) -> Iterator[str]:
                 part = name.partition(".")[0]
                 if status == Status.DISTRESS:  # the film's loss has an event of its own
                     continue
-                spec = scene.parts[part].spec
+                spec, params = scene.parts[part].spec, scene.parts[part].params
                 now = {s.name: float(signals[f"{part}.{s.name}"][i]) for s in spec.inputs}
-                found = outside_verified(spec, now) if status == Status.OUTSIDE_VERIFIED else []
+                found = []
+                if status == Status.OUTSIDE_VERIFIED:
+                    found = [
+                        *outside_verified(spec, now),
+                        *outside_laws(spec.key, params, now),
+                    ]
                 for text in found or [f"{status.advice} ({status.name})"]:
                     yield f"{part} from t = {time[i]:.4g} s: {text}"
 
@@ -87,6 +95,15 @@ def _of_boxes(scene: Scene, signals: Signals) -> Iterator[str]:
                     f"{name}: {key} of {seen} in this run leaves the {meant} that its part file is "
                     "meant for ([box]); widen the box or take another part"
                 )
+
+
+def _of_linings(scene: Scene, signals: Signals) -> Iterator[str]:
+    """Yield what a pack's lining does not bear, at the greatest load."""
+    for name in PACKS:
+        if (load := signals.get(f"{name}.load")) is not None:
+            part = scene.parts[name]
+            found = outside_laws(part.spec.key, part.params, {"load": float(load.max())})
+            yield from (f"{name}: {text}" for text in found)
 
 
 def _of_maps(scene: Scene, signals: Signals) -> Iterator[str]:

@@ -2,6 +2,9 @@
 
 A number may carry its unit, "24 degC" or "3000 rpm"; a bare number is SI. A scene with a ``base``
 takes everything from that scene and changes what it names.
+
+Beside a built-in scene stand the bands of its figures, from a study made beforehand: a nominal run
+takes seconds and says nothing of its luck, a study takes minutes.
 """
 
 from collections.abc import Mapping
@@ -9,7 +12,7 @@ from dataclasses import fields, replace
 from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from ...errors import ParameterError, suggestion, within
 from ...model.oil import (
@@ -27,7 +30,15 @@ from ...model.parameters import earlier_of, other_names_of, plainly_named
 from ...model.part_file import PartFile, load_part, preset_part
 from ...model.scatter import CORRELATION
 from ...model.spec import ModelSpec
-from ...model.toml_tables import nothing_else, number, parse, quantity, read_file, read_value
+from ...model.toml_tables import (
+    nothing_else,
+    number,
+    parse,
+    quantity,
+    read_file,
+    read_value,
+    table_beside,
+)
 from ..key_figures.figure_list import FIGURES
 from ..masters.master import FIXED_STEPS
 from .connections import MESHES, PARTS, REQUIRED
@@ -45,6 +56,8 @@ from .scene_tables import (
 )
 from .sequence import checked_sequence, read_sequence
 
+LEVELS = (0.05, 0.5, 0.95)  # of the bands in known_bands.toml
+NO_MATTER = ("fidelity", "torque_age")  # parameters of how a run goes
 TEXTS = ("title", "description", "base", "master", "fidelity")
 ONE_OIL = 1.2  # ratio of viscosities up to which parts count as having one oil
 LEAST_TEETH = 5  # of sun and planet: fewer make no gear
@@ -429,3 +442,39 @@ def _own_scatter(own: PartFile, free: set[str]) -> dict[str, Any]:
     lines = {k: x for k, x in own.scatter.items() if k in free}
     pairs = [p for p in own.scatter.get(CORRELATION, ()) if {*p[:2]} <= {*lines}]
     return lines | ({CORRELATION: pairs} if pairs else {})
+
+
+class KnownBand(NamedTuple):
+    """A figure by a study of its scene [SI]: its nominal value and quantiles by level."""
+
+    nominal: float
+    quantiles: Mapping[float, float]
+    runs: int
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return it as JSON can hold it."""
+        quantiles = {str(level): x for level, x in self.quantiles.items()}
+        return {"nominal": self.nominal, "quantiles": quantiles, "runs": self.runs}
+
+
+def known_bands(scene: Scene) -> dict[str, KnownBand]:
+    """Return the bands of a built-in scene's figures by name, {} if anything of it was changed."""
+    table = table_beside(__file__, "known_bands.toml").get(scene.name)
+    if table is None or scene.name not in builtin_scenes() or not _as_it_comes(scene):
+        return {}
+    return {
+        name: KnownBand(nominal, dict(zip(LEVELS, quantiles, strict=True)), table["runs"])
+        for name, (nominal, *quantiles) in table["figures"].items()
+    }
+
+
+def _as_it_comes(scene: Scene) -> bool:
+    """Tell if a scene has the numbers of the built-in one of its name."""
+    own = load_scene(scene.name).with_options(step=scene.step, master=scene.master)
+    return all(_numbers(scene, part) == _numbers(own, part) for part in {*scene.parts, *own.parts})
+
+
+def _numbers(scene: Scene, name: str) -> dict[str, Any]:
+    part = scene.parts.get(name)
+    given = part.parameters() if part else {}
+    return {key: value for key, value in given.items() if key not in NO_MATTER}

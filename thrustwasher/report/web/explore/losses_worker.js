@@ -2,6 +2,7 @@
 /* The driveline losses: a point, and the what comes when all speeds change together, or the oil. */
 
 const FACTORS = Array.from({ length: 61 }, (_, i) => i / 40); // of the speeds: 0 to 1.5
+const SHAFTS = ["input", "output", "drum"];
 const OILS = Array.from({ length: 69 }, (_, i) => 253.15 + 2.5 * i); // K
 
 class Model extends PointModel {
@@ -21,7 +22,8 @@ class Model extends PointModel {
       this.state.view.fill(0);
       this.inputs.view.set([...point.slice(0, L.SPEEDS).map((speed) => factor * speed), point[L.I_FORCE], oil]);
       const code = kernel.call("step", this.par, this.inputs, this.state, this.work, this.out, this.flags, 0, 0);
-      return { code: code || this.flags.view[0], outputs: Object.fromEntries(about.real_outputs.map((name, i) => [name, this.out.view[i]])) };
+      const regimes = SHAFTS.map((name, i) => [`${name}_churning_regime`, this.flags.view[i]]);
+      return { code: code || this.flags.view.at(-1), outputs: Object.fromEntries([...about.real_outputs.map((name, i) => [name, this.out.view[i]]), ...regimes]) };
     };
     const curve = FACTORS.map((factor) => ({ factor, ...at(factor).outputs })), warm = OILS.map((oil) => ({ oil, ...at(1, oil).outputs })), here = at(1);
     delete here.outputs.oil_energy; // of a step, not of a point

@@ -10,7 +10,8 @@ are told by second differences, which smooth outside torques hardly touch:
 
 1/J comes by least squares for d = 0, 1, 2 side by side. A sample counts where the torque moves at
 all, and is forgotten only by others. No sample counts more than one of a tenth of the capacity: a
-larger jump of the torque tends to come with one of the outside torque. Derived in docs/theory/holding.md.
+larger jump of the torque tends to come with one of the outside torque. Derived in
+docs/theory/holding.md.
 """
 
 import math

@@ -9,6 +9,7 @@
 ``contact``                 line contact: Hertz, oil film, friction, thermal stress, endurance
 ``flank_temperature``       rises at a sliding line contact: friction, shear of the oil film
 ``path_friction``           friction along the path of contact, and how it changes
+``micropitting``            film along the path by the standard against micropitting
 ``loss_heat``               the mesh heated by all of its loss
 ``mesh_point``              the mesh at one operating point with the paper's heat
 ``line_of_action``          rung `fine` with the paper's heat: resolved along the line of action

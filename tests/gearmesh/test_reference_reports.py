@@ -8,6 +8,7 @@ import pytest
 from reference_pairs import FZG_C, of_viscosity, stage_3
 
 from thrustwasher import GearMeshParams, ParameterError, oil, solve_gearmesh
+from thrustwasher.cli import main
 from thrustwasher.gearmesh.kernels import constants, micropitting
 from thrustwasher.gearmesh.kernels import layout as L
 from thrustwasher.gearmesh.kernels.path_of_contact import flanks_at
@@ -280,3 +281,8 @@ def test_a_root_that_pairs_share_says_so():
     )  # fmt: skip
     said = solve_gearmesh(high, power=2e4, speed=100.0).warnings
     assert any("all of the load on one pair" in line and "Y_DT" in line for line in said)
+
+
+def test_a_friction_factor_is_told_to_be_the_friction_scale(capsys):
+    assert main(["gearmesh", "--set", "friction_factor=1.2"]) == 2
+    assert "did you mean friction_scale" in capsys.readouterr().err

@@ -206,7 +206,7 @@ def solve_gearmesh(
     --------
     >>> r = solve_gearmesh(GearMeshParams(), power=7500.0, speed=180.0)
     >>> round(r.start_of_contact, 5), round(r.mean_friction, 4), round(r.friction_power, 1)
-    (0.08683, 0.0281, 34.9)
+    (0.08683, 0.0192, 23.9)
     """
     power = check_number("power", power, "W", -1e9, 1e9)
     speed = check_number("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0)

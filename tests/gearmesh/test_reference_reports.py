@@ -131,6 +131,7 @@ def test_load_factors_bear_on_pitting_scuffing_micropitting_and_root(name):
         **{"load_factor": 1.0, "root_limit": 430e6, "permissible_film_ratio": 0.1, name: 1.3}
     )
     assert plain.pitting_safety / more.pitting_safety == pytest.approx(math.sqrt(1.3), rel=1e-12)
+    assert "at A, below 1" in " ".join(of_planet(permissible_film_ratio=1.0).warnings)
     assert plain.scuffing_safety / more.scuffing_safety == pytest.approx(1.3**0.75, rel=1e-12)
     assert plain.root_safety / more.root_safety == pytest.approx(1.3, rel=1e-12)
     assert 1.02 < plain.micropitting_safety / more.micropitting_safety < 1.2

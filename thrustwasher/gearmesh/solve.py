@@ -310,4 +310,5 @@ def _failures(result: GearMeshResult) -> Iterator[str]:
     for name, fails in SAFETIES.items():
         safety = getattr(result, name)
         if safety is not None and safety < 1.0:
-            yield f"{name} = {safety:.3g}, below 1: {fails}"
+            at = f" at {result.micropitting_at}" if name.startswith("micropitting") else ""
+            yield f"{name} = {safety:.3g}{at}, below 1: {fails}"

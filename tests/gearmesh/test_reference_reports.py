@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 from itertools import pairwise
 
+import numpy as np
 import pytest
 from reference_pairs import FZG_C, of_viscosity, stage_3
 
@@ -11,6 +12,7 @@ from thrustwasher import GearMeshParams, ParameterError, oil, solve_gearmesh
 from thrustwasher.cli import main
 from thrustwasher.gearmesh.kernels import constants, micropitting
 from thrustwasher.gearmesh.kernels import layout as L
+from thrustwasher.gearmesh.kernels.load_sharing import shared
 from thrustwasher.gearmesh.kernels.path_of_contact import flanks_at
 from thrustwasher.gearmesh.solve import prepare
 
@@ -73,34 +75,14 @@ def test_the_least_film_is_that_of_all_places():
     for changes in ({}, {"helix_angle": 0.0}, {"face_width": 8e-3}, {"load_sharing": "elastic"}):
         params = replace(PLANET, **changes)
         found = solve_gearmesh(params, power=7140.0, speed=510.0, oil_temperature=358.15)
-        par, work = prepare(params, "field"), [0.0] * L.NWORK
-        torque = 14.0
-        if "load_sharing" in changes:
-            import numpy as np
-
-            from thrustwasher.gearmesh.kernels.load_sharing import shared
-
-            par = shared(par, torque, np.array(work))
-        line, eta = torque * par[L.D_LINE], params.viscosity_scale
-        eta *= math.exp(params.viscosity_b / (85.0 + params.viscosity_c))
-        friction = math.exp(
-            par[L.D_GF_FRICTION] + 0.2 * math.log(line / 510.0) - 0.05 * math.log(eta)
+        par = shared(prepare(params, "field"), 14.0, np.zeros(L.NWORK))
+        viscosity = params.viscosity_scale * math.exp(
+            params.viscosity_b / (85.0 + params.viscosity_c)
         )
-        rise = math.exp(par[L.D_GF_RISE] + 0.72 * math.log(line * 510.0 * friction))
-        films = []
-        for k in range(int(par[L.D_PLACES])):
-            position, share = par[L.D_POSITION + k], par[L.D_PATH_SHARE + k]
-            more = micropitting.buttress(par, position) * par[L.D_FACTOR]
-            radius, v1, v2 = flanks_at(par, position)
-            stiff = 2.0 / par[L.D_THETA]
-            constant = micropitting.film_constant(radius, v1 + v2, more * share, stiff)
-            flash = friction * par[L.D_PATH_FLASH + k] * (more * line) ** 0.75 * 510.0**0.5
-            pressed = 0.7 * math.log(510.0) - 0.13 * math.log(line)
-            pressed += 0.6 * math.log(params.pressure_viscosity)
-            law = params.viscosity_scale, params.viscosity_b, params.viscosity_c
-            film = micropitting.local_film(constant, pressed, 358.15 + rise, flash, law)
-            films.append(math.exp(film) / params.mean_roughness)
+        at = 14.0 * par[L.D_LINE], 510.0, 358.15, viscosity
+        films = [micropitting.film_ratio_at(par, k, *at) for k in range(int(par[L.D_PLACES]))]
         assert found.film_ratio_gf == pytest.approx(min(films), rel=1e-12)
+        assert max(films) > 1.1 * min(films)
 
 
 def test_pitting_counts_where_a_pair_is_alone_whatever_the_tips():

@@ -31,6 +31,8 @@ CALLED = {
         "thrustwasher.gearmesh.kernels.load_sharing: pitch_of share_load single_stiffness",
         "thrustwasher.gearmesh.kernels.path_of_contact: derive_path",
         "thrustwasher.gearmesh.kernels.mesh_point: mesh_point",
+        "thrustwasher.gearmesh.kernels.micropitting: buttress film_constant film_ratio_at",
+        "thrustwasher.gearmesh.kernels.micropitting: local_film",
         "thrustwasher.gearmesh.kernels.operating_point: solve_point",
         "thrustwasher.gearmesh.kernels.step: sens step",
         "thrustwasher.gearmesh.kernels.tooth_root: corner_left root_factors root_section",

@@ -103,13 +103,9 @@ def thinnest_films(par: Array) -> None:
     have the least film: it is left out. Should more than there is room for be left, the last ones
     are dropped; neighbours differ little.
     """
-    count, stiff = 0, 2.0 / par[L.D_THETA]
+    count = 0
     for k in range(int(par[L.D_PLACES])):
-        radius, v1, v2 = flanks_at(par, par[L.D_POSITION + k])
-        more = buttress(par, par[L.D_POSITION + k])
-        share = par[L.D_FACTOR] * more * par[L.D_PATH_SHARE + k]
-        film = film_constant(radius, v1 + v2, share, stiff)
-        flash = par[L.D_PATH_FLASH + k] * math.exp(0.75 * math.log(par[L.D_FACTOR] * more))
+        film, flash = _place_film(par, k)
         kept, beaten = 0, False
         for i in range(count):
             other, hot = par[L.D_GF_FILM + i], par[L.D_GF_FLASH + i]
@@ -154,6 +150,41 @@ def derive_micropitting(par: Array, lubricant: float) -> None:
 
 
 @kernel
+def _scales(
+    par: Array, line: float, turning: float, viscosity: float
+) -> tuple[float, float, float]:
+    """Return rise of the bodies [K], flash [K] and ln of the film that all places share."""
+    load, speed = math.log(line), math.log(turning)
+    rolling = floored(par[L.D_ROLLING] * turning, LEAST_ROLLING) / par[L.D_ROLLING]
+    friction = par[L.D_GF_FRICTION] + 0.2 * (load - math.log(rolling))
+    friction -= 0.05 * math.log(viscosity)
+    rise = math.exp(par[L.D_GF_RISE] + 0.72 * (load + speed + friction))
+    heat = math.exp(friction + 0.75 * load + 0.5 * speed)
+    pressed = 0.7 * speed - 0.13 * load + 0.6 * math.log(par[L.P_PRESSURE_VISCOSITY])
+    return rise, heat, pressed
+
+
+@kernel
+def _place_film(par: Array, k: int) -> tuple[float, float]:
+    """Return ln of the film's constant and the flash of a friction of 1 at place ``k``."""
+    radius, v1, v2 = flanks_at(par, par[L.D_POSITION + k])
+    more = par[L.D_FACTOR] * buttress(par, par[L.D_POSITION + k])
+    film = film_constant(radius, v1 + v2, more * par[L.D_PATH_SHARE + k], 2.0 / par[L.D_THETA])
+    return film, par[L.D_PATH_FLASH + k] * math.exp(0.75 * math.log(more))
+
+
+@kernel
+def film_ratio_at(
+    par: Array, k: int, line: float, turning: float, oil: float, viscosity: float
+) -> float:
+    """Return the film over Ra against micropitting [-] at place ``k``; as ``fill_micropitting``."""
+    rise, heat, pressed = _scales(par, line, turning, viscosity)
+    law = (par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C])
+    film, flash = _place_film(par, k)
+    return math.exp(local_film(film, pressed, oil + rise, heat * flash, law)) / par[L.D_MEAN]
+
+
+@kernel
 def fill_micropitting(
     par: Array, line: float, turning: float, oil: float, viscosity: float, work: Array
 ) -> None:
@@ -161,14 +192,8 @@ def fill_micropitting(
 
     ``viscosity`` [Pa s] at the oil's temperature ``oil`` [K]; ``line`` [N/m] the nominal load.
     """
-    load, speed = math.log(line), math.log(turning)
-    rolling = floored(par[L.D_ROLLING] * turning, LEAST_ROLLING) / par[L.D_ROLLING]
-    friction = par[L.D_GF_FRICTION] + 0.2 * (load - math.log(rolling))
-    friction -= 0.05 * math.log(viscosity)
-    rise = math.exp(par[L.D_GF_RISE] + 0.72 * (load + speed + friction))
-    heat = math.exp(friction + 0.75 * load + 0.5 * speed)
+    rise, heat, pressed = _scales(par, line, turning, viscosity)
     law = (par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C])
-    pressed = 0.7 * speed - 0.13 * load + 0.6 * math.log(par[L.P_PRESSURE_VISCOSITY])
     least, place, most = math.inf, 0, 0.0
     for i in range(int(par[L.D_GF_PLACES])):
         flash = heat * par[np.uintp(L.D_GF_FLASH + i)]

@@ -150,9 +150,10 @@
     D_LOSS_SPUR,
     D_GF_FRICTION,
     D_GF_RISE,
+    D_BUTTRESS,
     D_GF_PLACES,
     D_PLACES,
-) = range(N_PARAM, N_PARAM + 55)
+) = range(N_PARAM, N_PARAM + 56)
 # The line of action: positions from the pitch point in base pitches, shares of the load that the
 # pair there bears, shares of the loss; D_PLACES is the number of positions. Where the loss heats,
 # also lengths and, per root of load and speed, flash of a friction of 1, film, mean pressure; then

@@ -16,7 +16,7 @@ from ...numerics.smoothing import floored, floored_slope
 from . import layout as L
 from .flank_temperature import LOWEST_OIL
 from .mesh_point import thinning
-from .path_of_contact import base_pitch, flanks_at
+from .path_of_contact import base_pitch
 
 LEAST_ROLLING = 0.1  # m/s, sum of the speeds at the pitch point; as of the other mean frictions
 BUTTRESS = 0.3  # more load at both ends of the path with an overlap of 1 and more
@@ -24,6 +24,7 @@ BUTTRESS_LENGTH = 0.2e-3  # m along the path, times the sine of the base helix a
 REFERENCE = 311.0  # K, 38 degC, at which the pressure coefficient of the viscosity is given
 FALL = 516.0  # K; alpha = alpha_38 (1 + 516 (1/T - 1/311))
 LEAST_ALPHA = 0.01  # of alpha_38; the formula ends at some 780 K
+OF_UNITS = math.log(1.6) - 0.7 * math.log(2.0)
 SLIDING = 0.22  # power of the sliding parameter
 
 
@@ -39,15 +40,11 @@ def pressure_coefficient(temperature: float) -> tuple[float, float]:
 @kernel
 def buttress(par: Array, position: float) -> float:
     """Return X_but [-]: what helical teeth bear more at both ends of the path."""
-    more = BUTTRESS * min(par[L.D_OVERLAP], 1.0)
-    cos_base = par[L.D_COS_BASE]
-    sine = math.sqrt(max(1.0 - cos_base * cos_base, 0.0))
-    if not sine > 0.0:
+    length = par[L.D_BUTTRESS]
+    off = min(position + par[L.D_APPROACH], par[L.D_RECESS] - position)
+    if off >= length:
         return 1.0
-    ratio, teeth, angle = par[L.P_GEAR_RATIO], par[L.P_PINION_TEETH], par[L.D_ANGLE]
-    pitch = base_pitch(ratio, teeth, angle, par[L.D_SIDE]) * par[L.D_CENTRE] * math.sin(angle)
-    off = min(position + par[L.D_APPROACH], par[L.D_RECESS] - position) * pitch
-    return 1.0 + more * max(0.0, 1.0 - max(off, 0.0) / (BUTTRESS_LENGTH * sine))
+    return 1.0 + BUTTRESS * min(par[L.D_OVERLAP], 1.0) * (1.0 - max(off, 0.0) / length)
 
 
 @kernel
@@ -61,11 +58,11 @@ def film_constant(radius: float, rolling: float, load: float, stiff: float) -> f
     stiff    E_r, reduced modulus                                         Pa
 
     h = 1600 rho G^0.6 U^0.7 W^-0.13 S^0.22 (um; rho in mm): G = alpha E_r, U = eta (v1 + v2)/
-    (2 E_r rho), W = 2 pi p_dyn^2/E_r^2 = w/(E_r rho). The sliding parameter S is 1 here.
+    (2 E_r rho), W = 2 pi p_dyn^2/E_r^2 = w/(E_r rho); the powers of rho and E_r are put together.
+    The sliding parameter S is 1 here.
     """
-    speed, weight = rolling / (2.0 * stiff * radius), load / (stiff * radius)
-    film = math.log(1.6 * radius) + 0.6 * math.log(stiff)
-    return film + 0.7 * math.log(speed) - 0.13 * math.log(weight)
+    film = OF_UNITS + 0.43 * math.log(radius) + 0.03 * math.log(stiff)
+    return film + 0.7 * math.log(rolling) - 0.13 * math.log(load)
 
 
 @kernel
@@ -103,9 +100,10 @@ def thinnest_films(par: Array) -> None:
     have the least film: it is left out. Should more than there is room for be left, the last ones
     are dropped; neighbours differ little.
     """
+    line, apart = _line(par)
     count = 0
     for k in range(int(par[L.D_PLACES])):
-        film, flash = _place_film(par, k)
+        film, flash = _place_film(par, k, line, apart)
         kept, beaten = 0, False
         for i in range(count):
             other, hot = par[L.D_GF_FILM + i], par[L.D_GF_FLASH + i]
@@ -132,7 +130,7 @@ def thinnest_films(par: Array) -> None:
 def derive_micropitting(par: Array, lubricant: float) -> None:
     """Fill ln of the standard's mean friction and of the bodies' rise, at load and speed of 1.
 
-    ``lubricant``: X_L of the base oil against micropitting.
+    With them the length of the buttresses in base pitches. ``lubricant``: X_L of the base oil.
 
     mu = 0.045 (K K_Bgamma F_bt/(b v_SigmaC rho_nC))^0.2 eta^-0.05 2.2 (Ra/rho_nC)^0.25 X_L in N/mm,
     m/s, mm, mPa s, um; rise = 7400 (P mu H_v/(a b))^0.72 X_S/1.2 in kW, mm. H_v is that of spur
@@ -147,6 +145,10 @@ def derive_micropitting(par: Array, lubricant: float) -> None:
     power /= 1e6 * par[L.D_CENTRE] * par[L.P_FACE_WIDTH]
     rise = math.log(7400.0 * par[L.P_LUBRICATION_FACTOR] / 1.2)
     par[L.D_GF_RISE] = rise + 0.72 * math.log(power)
+    sine = math.sqrt(max(1.0 - par[L.D_COS_BASE] * par[L.D_COS_BASE], 0.0))
+    ratio, teeth, angle = par[L.P_GEAR_RATIO], par[L.P_PINION_TEETH], par[L.D_ANGLE]
+    pitch = base_pitch(ratio, teeth, angle, par[L.D_SIDE]) * par[L.D_CENTRE] * math.sin(angle)
+    par[L.D_BUTTRESS] = BUTTRESS_LENGTH * sine / pitch
 
 
 @kernel
@@ -165,12 +167,27 @@ def _scales(
 
 
 @kernel
-def _place_film(par: Array, k: int) -> tuple[float, float]:
-    """Return ln of the film's constant and the flash of a friction of 1 at place ``k``."""
-    radius, v1, v2 = flanks_at(par, par[L.D_POSITION + k])
-    more = par[L.D_FACTOR] * buttress(par, par[L.D_POSITION + k])
-    film = film_constant(radius, v1 + v2, more * par[L.D_PATH_SHARE + k], 2.0 / par[L.D_THETA])
-    return film, par[L.D_PATH_FLASH + k] * math.exp(0.75 * math.log(more))
+def _line(par: Array) -> tuple[float, float]:
+    """Return the length of the line of action [m], the base pitch over it."""
+    ratio, angle, side = par[L.P_GEAR_RATIO], par[L.D_ANGLE], par[L.D_SIDE]
+    apart = base_pitch(ratio, par[L.P_PINION_TEETH], angle, side)
+    return par[L.D_CENTRE] * math.sin(angle), apart
+
+
+@kernel
+def _place_film(par: Array, k: int, line: float, apart: float) -> tuple[float, float]:
+    """Return ln of the film's constant and the flash of a friction of 1 at place ``k``.
+
+    ``line``, ``apart`` as ``_line`` returns them.
+    """
+    ratio, side, position = par[L.P_GEAR_RATIO], par[L.D_SIDE], par[np.uintp(L.D_POSITION + k)]
+    x = 1.0 / (ratio + side) + position * apart
+    radius = x * (1.0 - side * x) * line / par[L.D_COS_BASE]
+    rolling = (x + (1.0 - side * x) / ratio) * line
+    more = par[L.D_FACTOR] * buttress(par, position)
+    load, root = more * par[np.uintp(L.D_PATH_SHARE + k)], math.sqrt(more)
+    film = film_constant(radius, rolling, load, 2.0 / par[L.D_THETA])
+    return film, par[np.uintp(L.D_PATH_FLASH + k)] * root * math.sqrt(root)
 
 
 @kernel
@@ -180,7 +197,8 @@ def film_ratio_at(
     """Return the film over Ra against micropitting [-] at place ``k``; as ``fill_micropitting``."""
     rise, heat, pressed = _scales(par, line, turning, viscosity)
     law = (par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C])
-    film, flash = _place_film(par, k)
+    line_of, apart = _line(par)
+    film, flash = _place_film(par, k, line_of, apart)
     return math.exp(local_film(film, pressed, oil + rise, heat * flash, law)) / par[L.D_MEAN]
 
 

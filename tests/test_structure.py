@@ -19,8 +19,8 @@ sys.path.insert(0, str(ROOT / "benchmarks"))
 import structure
 
 # All counts of lines are of files as ``ruff format`` leaves them with every "fmt: skip" ignored.
-SOURCE_LINES = 75_100  # of the package and fmu_src, all languages
-TEST_LINES = 39_900
+SOURCE_LINES = 77_500  # of the package and fmu_src, all languages
+TEST_LINES = 42_200
 FILE_LINES, FUNCTION_LINES, FOLDER_FILES = 600, 110, 20
 FORMAT_MARKS = {"sources": 40, "tests": 40}  # tables of numbers
 # Counts that may only fall: one that has fallen by more than the slack is to be lowered here.

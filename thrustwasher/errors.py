@@ -28,7 +28,10 @@ def suggestion(
     """Return words with the known name in them that was probably meant, else the other ones."""
     from difflib import get_close_matches  # late: it is for mistakes alone
 
-    near = get_close_matches(name, list(known), 1, likeness)
+    names = list(known)
+    if (same := name.replace("factor", "scale")) != name and same in names:
+        return words.format(same)
+    near = get_close_matches(name, names, 1, likeness)
     return words.format(near[0]) if near else otherwise
 
 

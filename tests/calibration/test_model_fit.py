@@ -115,6 +115,13 @@ def test_differences_of_solutions_are_the_derivatives():
     assert edge == pytest.approx(TORQUE / 0.05, rel=1e-9)  # one-sided at the bound
 
 
+def test_a_loss_test_fits_the_scale_of_the_law_of_friction():
+    p = GearMeshParams()
+    torque = run_sweep("gearmesh", points=POINTS, params=p)["friction_torque"]
+    found = calibrate(p, {**POINTS, "friction_torque": 1.17 * torque}, fit="friction_scale")
+    assert found.params.friction_scale == pytest.approx(1.17, rel=1e-6)
+
+
 def test_the_estimate_of_a_factor_is_the_weighted_mean():
     """One factor on all values: least squares has a closed form."""
     shift, error = np.array([0.01, -0.02, 0.03, 0.01]), np.array([0.01, 0.02, 0.01, 0.03])

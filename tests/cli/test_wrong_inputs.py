@@ -64,7 +64,7 @@ TABLE = [
     ("curve --out page.txt", "allowed: a file name ending in .csv"),
     ("clutch --set inner_radius=64", "did you mean 0.064 m (64 mm)?"),
     ("clutch --set faces=2.5", "faces = 2.5, allowed: 1 .. 100, a whole number"),
-    ("gearmesh --speed 0", "speed = 0.0 rad/s, allowed: from 0.075 rad/s on"),
+    ("gearmesh --speed 0", "speed = 0.0 rad/s, allowed: from 0.00075 rad/s on"),
     ("engage --duration 0", "duration = 0.0 s, allowed: 1e-06 .. 3600 s"),
     ("engage --step 2", "step = 2.0 s, allowed: duration/200000 .. duration"),
     ("sweep washr --over load=50:500:50", "did you mean 'washer'?"),

@@ -103,6 +103,23 @@ def loss_factor(pair: Pair, even: float) -> float:
     return math.pi * both / math.cos(pair.base_helix) * shape
 
 
+def single_contact_factors(pair: Pair, width: float) -> tuple[float, float]:
+    """Return Z_B and Z_D [-]: where a pair is alone over the pitch point, none of it from 1 on."""
+    start, pole, end = path_of_contact(pair)
+    even = even_part(pair, width)
+    alone = (end - pair.base_pitch, start + pair.base_pitch)
+    found = (math.sqrt(normal_radius(pair, pole) / normal_radius(pair, rho)) for rho in alone)
+    first, second = (max(1.0, z) - even * (max(1.0, z) - 1.0) for z in found)
+    return first, second
+
+
+def helical_factor(pair: Pair, width: float) -> float:
+    """Return K_Bgamma [-] of ISO/TR 13989-1, over the total contact ratio."""
+    overlap = width * math.sin(pair.helix) / (math.pi * pair.normal_module)
+    total = min(max(sum(contact_ratios(pair)) + overlap, 2.0), 3.5)
+    return 1.0 + 0.2 * math.sqrt((total - 2.0) * (5.0 - total))
+
+
 def pitting_stress(
     pair: Pair, force: float, width: float, youngs_modulus: float, poisson: float
 ) -> float:
@@ -117,4 +134,5 @@ def pitting_stress(
     shared = (4.0 - contact) / 3.0 * (1.0 - even) + even / contact
     u = pair.teeth_gear / pair.teeth
     load = force / (2.0 * pair.radius * width) * (u + pair.side) / u
-    return math.sqrt(zone * elastic * shared / math.cos(pair.helix) * load)
+    most = max(single_contact_factors(pair, width))
+    return most * math.sqrt(zone * elastic * shared / math.cos(pair.helix) * load)

@@ -120,6 +120,7 @@ def test_loss_and_flash_are_those_of_the_closed_forms(name, fidelity):
     closed = 0.05 * helical_pair.loss_factor(pair, 1.0) * torque * SPEED
     assert r.friction_power == pytest.approx(closed, rel=1e-12)
     most = max(flash_at(params, pair, rho, 0.05) for rho in np.linspace(start, end, 301))
+    most *= helical_pair.helical_factor(pair, FACE) ** 0.75
     assert r.flash_max == pytest.approx(most, rel=1e-12)
 
 
@@ -155,7 +156,9 @@ def test_steady_bodies_are_047_of_the_mean_flash_above_the_oil(name):
         quad(lambda rho: flash_at(params, pair, rho), *ends, epsrel=1e-10)[0]
         for ends in ((start, pole), (pole, end))
     ) / (end - start)
-    assert r.bulk_temperature - OIL == pytest.approx(0.47 * r.mean_friction * mean, rel=1e-4)
+    mean *= helical_pair.helical_factor(pair, FACE) ** 0.75
+    wanted = 0.47 * r.scuffing_friction * mean  # of the standard's friction, whatever the loss
+    assert r.bulk_temperature - OIL == pytest.approx(wanted, rel=1e-4)
     sprayed = at(params, lubrication_factor=1.2).bulk_temperature - OIL
     assert sprayed / (r.bulk_temperature - OIL) == pytest.approx(1.2, rel=1e-12)
     assert r.oil_heat == pytest.approx(r.friction_power, rel=1e-13)
@@ -244,8 +247,8 @@ def test_the_bodies_cool_at_rest_and_store_by_their_masses():
 
 def test_load_factor_raises_temperatures_and_stresses_but_no_heat():
     one, more = at(SUN), at(SUN, load_factor=1.5)
-    for name in ("friction_power", "mean_friction", "oil_heat"):
-        assert getattr(more, name) == getattr(one, name)
+    for name in ("friction_power", "mean_friction", "scuffing_friction", "oil_heat"):
+        assert getattr(more, name) == pytest.approx(getattr(one, name), rel=1e-14)
     assert more.flash_max / one.flash_max == pytest.approx(1.5**0.75, rel=1e-13)
     assert more.contact_pressure_max / one.contact_pressure_max == pytest.approx(1.5**0.5)
 
@@ -257,12 +260,11 @@ def test_scuffing_and_micropitting_by_hand():
     assert r.scuffing_margin == pytest.approx(scuffs - touching, rel=1e-12)
     assert r.scuffing_safety == pytest.approx((scuffs - 85.0) / (touching - 85.0), rel=1e-10)
     assert r.micropitting_safety == pytest.approx(r.film_ratio_gf / 0.4, rel=1e-14)
-    assert r.film_ratio_gf == pytest.approx(r.film_thickness / 0.3e-6, rel=1e-12)  # A is hottest
 
 
-def test_mixed_friction_has_the_standards_mean_until_its_film_is_full():
+def test_mixed_friction_has_the_mean_of_the_loss_law_until_its_film_is_full():
     mean = at(SUN).mean_friction
-    some = at(SUN, friction_law="mixed", sigma_rms=0.1e-6)
+    some = at(SUN, friction_law="mixed", sigma_rms=0.5e-6)
     assert some.mean_friction == pytest.approx(mean, rel=1e-9)
     assert some.friction_coefficient != pytest.approx(mean, rel=1e-2)
     dry = at(SUN, friction_law="mixed", sigma_rms=2e-5)
@@ -272,9 +274,9 @@ def test_mixed_friction_has_the_standards_mean_until_its_film_is_full():
     # without asperities nothing is left to calibrate: what shears is the film
     thinner = at(SUN, friction_law="mixed", sigma_rms=1e-9, eyring_stress=2.5e6)
     assert thinner.mean_friction < full.mean_friction
-    slow, standard = (at(SUN, friction_law=law, speed=1e-3) for law in ("mixed", "iso"))
+    slow, standard = (at(SUN, friction_law=law, speed=1e-3) for law in ("mixed", "schlenk"))
     assert slow.friction_coefficient == pytest.approx(standard.mean_friction, rel=1e-2)
-    assert standard.mean_friction < 0.12  # the least rolling speed bounds it
+    assert standard.mean_friction <= 0.065  # boundary friction bounds it
 
 
 def test_li_seireg_and_mixed_follow_the_bodies_temperature():
@@ -294,7 +296,7 @@ def test_twice_as_many_positions_hardly_change_the_loss():
                 at(params, fidelity=f, friction_law=law, sigma_rms=0.1e-6).friction_power
                 for f in ("field", "fine")
             )
-            assert field == pytest.approx(fine, rel=5e-4), (name, law)
+            assert field == pytest.approx(fine, rel=1e-3), (name, law)
 
 
 @pytest.mark.parametrize("ratio", [1.0, 2.0])
@@ -320,7 +322,7 @@ def test_a_film_is_no_hotter_than_its_shear_makes_it(celsius):
     sheared = math.log1p(beta * free) / beta
     mean = r.sliding_speed / r.slide_roll_ratio
     line = 0.25 * math.pi * r.hertz_pressure * r.hertz_width
-    heat = r.friction_coefficient * line * r.sliding_speed
+    heat = r.scuffing_friction * line * r.sliding_speed
     carried = heat / (880.0 * 2010.0 * r.film_thickness * mean)
     assert 0.0 < rise < min(sheared, carried)
     assert rise == pytest.approx(1.0 / (1.0 / sheared + 1.0 / carried), rel=1e-6)

@@ -166,14 +166,15 @@ def test_the_zone_factor_of_a_shifted_pair_is_the_standards():
         a = r.working_pressure_angle
         zone.append(2.0 * math.cos(a) / (math.cos(angle) ** 2 * math.sin(a)))
     shares = [(4.0 - r.contact_ratio) / 3.0 for r in (plain, shifted)]
-    # The pair of other than standard tips is judged where one pair alone is most curved: B or D.
-    pair = drawn(
-        0.3, 0.5, (shifted.pinion_tip_diameter, shifted.gear_tip_diameter), shifted.centre_distance
-    )
-    one, two = (base * math.tan(pair.angle) for base in pair.base)
-    alone = (pair.after - pair.pitch, pair.pitch - pair.before)
-    curved = min((one + s) * (two - s) / (one * two) for s in alone)
-    stress = math.sqrt(zone[1] * shares[1] / (zone[0] * shares[0]) / min(curved, 1.0))
+    # Both are judged where one pair alone is most curved: B or D.
+    curved = []
+    for r in (plain, shifted):
+        tips = (r.pinion_tip_diameter, r.gear_tip_diameter)
+        pair = drawn(0.0, 0.0, tips, r.centre_distance)
+        one, two = (base * math.tan(pair.angle) for base in pair.base)
+        alone = (pair.after - pair.pitch, pair.pitch - pair.before)
+        curved.append(min(1.0, *((one + s) * (two - s) / (one * two) for s in alone)))
+    stress = math.sqrt(zone[1] * shares[1] / (zone[0] * shares[0]) * curved[0] / curved[1])
     assert shifted.pitting_stress / plain.pitting_stress == pytest.approx(stress, rel=1e-12)
 
 

@@ -250,3 +250,23 @@ def test_fmus_are_built_with_an_oil():
     assert len(asked(None, "ISO VG 46")) == len(asked(None))
     with pytest.raises(ParameterError, match="CommandSource knows no oil"):
         asked(["CommandSource"], "ISO VG 46")
+
+
+@pytest.mark.parametrize(
+    ("given", "base"),
+    [
+        ("ISO VG 320 PAO", "pao"),
+        ("Polyglycol ISO VG 220", "polyglycol"),
+        ({"name": "ISO VG 320", "base": "ester"}, "ester"),
+        ("name=VG 320, base=mineral", "mineral"),
+        ("ISO VG 320", ""),
+    ],
+)
+def test_the_base_of_an_oil_reaches_the_friction_of_the_gears(given, base):
+    """Schlenk's law has an X_L of its own for each base; a class of viscosity says none."""
+    found = oil(given)
+    assert found.base == base and oil(found.as_toml()).base == base
+    assert found.parameters_for("gearmesh").get("base_oil", "") == base
+    assert "base_oil" not in found.parameters_for("washer")
+    with pytest.raises(ParameterError, match="base = 'tar', allowed: mineral"):
+        oil({"name": "ISO VG 320", "base": "tar"})

@@ -81,6 +81,8 @@ BROKEN = {
             "pressure_angle": 0.25,
         },
         {"load_sharing": "elastic", "tip_relief_pinion": 1e-5},
+        {"youngs_modulus_gear": 1e6},
+        {"density_gear": 1.0},
     ),
     "transmission": (
         {"ring_teeth": 30, "planet_teeth": 0},

@@ -57,8 +57,8 @@ WRONG = [
     ("washer", {"branch": "middle"}, "branch = 'middle', allowed: 'film' or 'contact'"),
     ("curve", {"load_min": 0.0}, "load_min"),
     ("curve", {"load_min": 500.0, "load_max": 400.0}, "load_max"),
-    ("gearmesh", {"power": 1.0, "speed": 0.0}, "speed = 0.0 rad/s, allowed: from 1e-05"),
-    ("gearmesh", {"power": 1e9, "speed": 1.0}, "speed = 1.0 rad/s, allowed: from 10000"),
+    ("gearmesh", {"power": 1.0, "speed": 0.0}, "speed = 0.0 rad/s, allowed: from 1e-07"),
+    ("gearmesh", {"power": 1e9, "speed": 1.0}, "speed = 1.0 rad/s, allowed: from 100 "),
 ]
 
 

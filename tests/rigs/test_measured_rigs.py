@@ -140,6 +140,27 @@ def test_the_command_says_the_figures_and_writes_them(tmp_path, capsys):
     assert "6 of 6" in text and "after a fit of viscosity_scale" in text
 
 
+def test_a_report_has_several_results_of_a_point(tmp_path):
+    """A line with two measured columns is two points, each with its own error."""
+    r = solve_gearmesh(GearMeshParams(film_heat="loss"), power=4e3, speed=180.0)
+    head = HEAD.replace("origin", "contact_ratio, origin")
+    line = f"4.0, 180, {r.friction_torque!r}, 0.01, {1.1 * r.contact_ratio!r}, table"
+    made = load_rig(rig(tmp_path, [line], head))
+    assert made.outputs == ("friction_torque", "contact_ratio") and made.units == ("N.m", "1")
+    assert made.error.tolist() == [0.01, 0.0] and made.origin == ("table", "table")
+    found = compare(made, draws=8)
+    assert found.deviations == pytest.approx([0.0, 1.0 / 1.1 - 1.0], rel=1e-9, abs=1e-12)
+    assert found.to_dict()["points"] == 2 and "2 results" in made.output
+
+
+@pytest.mark.parametrize("name", ["wind-stage-3", "gearpie-c14", "gearpie-c40"])
+def test_reports_of_others_are_met_but_for_what_their_rigs_explain(name):
+    made = load_rig(Path(__file__).parents[2] / "examples" / "measured" / name)
+    off = dict(zip(made.outputs, compare(made, draws=2).deviations, strict=True))
+    assert abs(off.pop("friction_power")) < 0.16
+    assert max(map(abs, off.values())) < 0.03
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [

@@ -77,8 +77,9 @@ def _say(found: Any, told: dict[str, Any]) -> None:
         given = ", ".join(f"{n} {_output.text_of(float(x[i]), '1')}" for n, x in rig.inputs.items())
         mark = "" if found.judged[i] else " (used for the fit)"
         print(
-            f"  {given}: measured {rig.measured[i]:.4g}, computed {found.computed[i]:.4g} "
-            f"({found.low[i]:.4g} .. {found.high[i]:.4g}) {rig.unit}{mark}"
+            f"  {given}: {rig.outputs[i]} measured {rig.measured[i]:.4g}, computed "
+            f"{found.computed[i]:.4g} ({found.low[i]:.4g} .. {found.high[i]:.4g}) "
+            f"{rig.units[i]}{mark}"
         )
     for name, value in found.fitted.items():
         print(f"  fitted: {name} = {value:.4g}")

@@ -25,7 +25,7 @@ VIEW = View(
     worker=WebWorker(
         script="gearmesh_worker",
         calls="broken_rule derive step solve_point place_mesh tips tip_thickness pitch_of "
-        "gear_shift".split(),
+        "gear_shift film_ratio_at".split(),
         layout=numbers_of(layout),
         rungs={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.rungs},
     ),

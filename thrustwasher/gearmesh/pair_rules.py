@@ -81,8 +81,8 @@ def _distances(p: Any) -> str:
     return (
         f"working_centre_distance = {given!r} m, allowed: {found:.9g} m, that of "
         f"profile_shift_pinion = {p.profile_shift_pinion!r} and profile_shift_gear = "
-        f"{p.profile_shift_gear!r}, within 1e-06 m; give profile_shift_gear_from_distance = True "
-        "to have it decide the gear's shift"
+        f"{p.profile_shift_gear!r}, within 1e-06 m and their digits; give "
+        "profile_shift_gear_from_distance = True to have it decide the gear's shift"
     )
 
 
@@ -144,10 +144,13 @@ RULES = (
     ),
     Rule(
         "film_heat = 'atan', allowed: without helix_angle ({helix_angle} rad), internal "
-        "({internal}), addendum_gear ({addendum_gear}) and friction_law = 'mixed': the paper has "
-        "a spur pair; use film_heat = 'loss'"
+        "({internal}), addendum_gear ({addendum_gear}), a gear of another material and "
+        "friction_law = 'mixed': the paper has a spur pair; use film_heat = 'loss'"
     ),
-    Rule("contact_limit = {contact_limit} Pa, allowed: 0 (that of the steel) or 1e+08 .. 3e+09 Pa"),
+    Rule(
+        "contact_limit = {contact_limit} Pa, contact_limit_gear = {contact_limit_gear} Pa, "
+        "allowed: 0 (that of the material) or 2e+07 .. 3e+09 Pa"
+    ),
     Rule("addendum_gear = {addendum_gear}, allowed: 0 (as addendum) or 0.3 .. 1.5"),
     Rule("normal_module = {normal_module} m, allowed: 0 (from centre_distance) or 1e-4 .. 0.1 m"),
     Rule(
@@ -173,8 +176,8 @@ RULES = (
     Rule(
         "working_centre_distance = {working_centre_distance} m, allowed: that of "
         "profile_shift_pinion = {profile_shift_pinion} and profile_shift_gear = "
-        "{profile_shift_gear} within 1e-06 m; give profile_shift_gear_from_distance to have it "
-        "decide the gear's shift",
+        "{profile_shift_gear} within 1e-06 m and their digits; give "
+        "profile_shift_gear_from_distance to have it decide the gear's shift",
         _distances,
     ),
     Rule(
@@ -205,5 +208,14 @@ RULES = (
         "{tip_relief_pinion} m and tip_relief_gear = {tip_relief_gear} m, together at most the "
         "path of contact",
         _reliefs,
+    ),
+    Rule(
+        "youngs_modulus_gear = {youngs_modulus_gear} Pa, root_limit_gear = {root_limit_gear} Pa, "
+        "allowed: 0 (not given) or from 1e+09 Pa and from 1e+07 Pa on"
+    ),
+    Rule(
+        "conductivity_gear = {conductivity_gear} W/(m.K), heat_capacity_gear = "
+        "{heat_capacity_gear} J/(kg.K), density_gear = {density_gear} kg/m3, allowed: 0 (not "
+        "given) or from 0.1, 50 and 500 on"
     ),
 )

@@ -21,9 +21,24 @@ LOAD_SHARING = {
 }
 FRICTION_LAWS = {
     "li-seireg": "falls with film over radius (Atan Eq 4); slide/roll ratio above 0.27 only",
-    "iso": "mean coefficient of ISO/TS 6336-20, at most f0",
+    "iso": "mean coefficient of the scuffing standard (ISO/TS 6336-20), at most f0",
     "constant": "the constant coefficient constant_friction",
-    "mixed": "film and asperities share the load; their mean is that of iso (film_heat loss only)",
+    "mixed": "film and asperities share the load; their mean is that of schlenk (film_heat loss "
+    "only)",
+    "schlenk": "mean coefficient fitted to loss tests of gears; below 1 m/s no more than "
+    "boundary_friction",
+}
+BASE_OILS = {
+    "mineral": "mineral oil; also where the base is not known",
+    "pao": "polyalphaolefin",
+    "ester": "ester",
+    "polyglycol": "polyglycol, not soluble in water",
+}
+MATERIALS_GEAR = {
+    "as-pinion": "the gear is of what the pinion is of",
+    "nodular-iron": "nodular cast iron, 173 GPa, contact limit 498 MPa (200 HB)",
+    "grey-iron": "grey cast iron, 118 GPa, contact limit 339 MPa (200 HB)",
+    "bronze": "cast tin bronze, 103 GPa, contact limit 300 MPa, an estimate",
 }
 FILM_HEAT = {
     "loss": "all of the loss heats the flanks, along the whole path of contact",
@@ -114,7 +129,9 @@ def _tip(gear: int) -> Callable[[Any], float]:
 
 OF_ATAN = (("film_heat", "atan"),)
 OF_LOSS = (("film_heat", "loss"),)
-BY_FILM = tuple(("friction_law", law) for law in ("li-seireg", "iso", "mixed"))
+BY_FILM = tuple(("friction_law", law) for law in ("li-seireg", "iso", "mixed", "schlenk"))
+BY_SPEED = tuple(("friction_law", law) for law in ("mixed", "schlenk"))
+BY_SCALE = tuple(("friction_law", law) for law in ("iso", "mixed", "schlenk"))
 BY_STIFFNESS = (("load_sharing", "elastic"),)
 SIZE = ("gear_ratio", "pinion_teeth", "centre_distance", "normal_module", "face_width")
 FROM_DISTANCE = (("profile_shift_gear_from_distance", True),)
@@ -131,7 +148,9 @@ class GearMeshParams:
     face width, "iso" is "paper" with the standard's friction.
     """
 
-    gear_ratio: float = quantity(2.0, "1", 1.0, 20.0, "teeth of the gear over those of the pinion")
+    gear_ratio: float = quantity(
+        2.0, "1", 0.05, 20.0, "teeth of the gear over those of the pinion, of a ring above 1"
+    )
     pinion_teeth: int = count(20, 5, 500, "number of teeth of the pinion")
     centre_distance: float = quantity(0.254, "m", 5e-3, 10.0, "distance of the two gear axes")
     normal_module: float = quantity(
@@ -156,7 +175,7 @@ class GearMeshParams:
     )
     face_width: float = quantity(0.05, "m", 1e-3, 5.0, "width of the teeth in contact")
     load_factor: float = quantity(
-        1.0, "1", 0.5, 5.0, "load factor K of pressure, flash, body temperature and pitting stress"
+        1.0, "1", 0.5, 5.0, "load factor K of pressures, temperatures and all stresses"
     )
     load_share: float = quantity(
         1.0,
@@ -191,13 +210,20 @@ class GearMeshParams:
         "m",
         0.0,
         2e-5,
-        "Ra for the ISO law (0: composite RMS over sqrt 2)",
+        "mean Ra of both flanks (0: composite RMS over sqrt 2)",
         overrides=("surface", "sigma_rms"),
         at_zero=_constant("D_MEAN"),
     )
-    friction_law: str = choice("iso", FRICTION_LAWS, "GearFrictionLaw", "law of the friction")
+    friction_law: str = choice(
+        "schlenk", FRICTION_LAWS, "GearFrictionLaw", "law of the friction that makes loss and heat"
+    )
     f0: float = quantity(
-        0.12, "1", 0.0, 1.0, "coefficient of friction without any film", read_by=BY_FILM
+        0.12,
+        "1",
+        0.0,
+        1.0,
+        "coefficient of friction without any film; against scuffing at most that",
+        read_by=BY_FILM,
     )
     constant_friction: float = quantity(
         0.05,
@@ -273,11 +299,21 @@ class GearMeshParams:
     permissible_film_ratio: float = quantity(
         0.0, "1", 0.0, 10.0, "film over Ra that micropitting takes (0: not given, no safety)"
     )
-    youngs_modulus: float = quantity(205e9, "Pa", 2e10, 1e12, "Young's modulus of both gears")
-    poisson_ratio: float = quantity(0.3, "1", 0.0, 0.49, "Poisson's ratio of both gears")
-    conductivity: float = quantity(50.2, "W/(m.K)", 1.0, 500.0, "heat conductivity of both gears")
-    heat_capacity: float = quantity(475.0, "J/(kg.K)", 50.0, 5e3, "heat capacity of both gears")
-    density: float = quantity(7850.0, "kg/m3", 500.0, 2e4, "density of both gears")
+    youngs_modulus: float = quantity(
+        205e9, "Pa", 1e9, 1e12, "Young's modulus, of the gear too if it is not given"
+    )
+    poisson_ratio: float = quantity(
+        0.3, "1", 0.0, 0.49, "Poisson's ratio, of the gear too if it is not given"
+    )
+    conductivity: float = quantity(
+        50.2, "W/(m.K)", 0.1, 500.0, "heat conductivity, of the gear too if it is not given"
+    )
+    heat_capacity: float = quantity(
+        475.0, "J/(kg.K)", 50.0, 5e3, "heat capacity, of the gear too if it is not given"
+    )
+    density: float = quantity(
+        7850.0, "kg/m3", 500.0, 2e4, "density, of the gear too if it is not given"
+    )
     thermal_expansion: float = quantity(12e-6, "1/K", 0.0, 1e-4, "thermal expansion of the steel")
     oil_conductivity: float = quantity(0.13, "W/(m.K)", 0.01, 1.0, "heat conductivity of the oil")
     oil_heat_capacity: float = quantity(2010.0, "J/(kg.K)", 500.0, 5e3, "heat capacity of the oil")
@@ -300,7 +336,7 @@ class GearMeshParams:
         read_by=OF_ATAN,
     )
     pressure_viscosity: float = quantity(
-        2.2e-8, "1/Pa", 1e-9, 1e-7, "pressure coefficient of the viscosity"
+        2.2e-8, "1/Pa", 1e-9, 1e-7, "pressure coefficient of the viscosity, at 38 degC"
     )
     heat_partition: str = choice(
         "constant",
@@ -396,10 +432,10 @@ class GearMeshParams:
         "share of root_limit for the pinion; 0.7 where its teeth bend both ways, as a planet's",
     )
     face_load_factor: float = quantity(
-        1.0, "1", 1.0, 5.0, "face load factor of the root stress, beside load_factor"
+        1.0, "1", 1.0, 5.0, "face load factor of flanks and root, beside load_factor"
     )
     mesh_load_factor: float = quantity(
-        1.0, "1", 1.0, 2.0, "mesh load factor of the root stress: uneven load of the planets"
+        1.0, "1", 1.0, 2.0, "mesh load factor of flanks and root: uneven load of the planets"
     )
     load_sharing: str = choice(
         "rigid", LOAD_SHARING, "LoadSharing", "how the pairs in contact share the load"
@@ -433,6 +469,64 @@ class GearMeshParams:
         1.0,
         "length of the gear's relief along the path of contact",
         read_by=BY_STIFFNESS,
+    )
+    base_oil: str = choice("mineral", BASE_OILS, "BaseOil", "base of the oil, for its friction")
+    friction_scale: float = quantity(
+        1.0,
+        "1",
+        0.1,
+        5.0,
+        "multiplies the friction that the law gives for loss and heat, as a loss test asks for",
+        read_by=BY_SCALE,
+    )
+    boundary_friction: float = quantity(
+        0.065,
+        "1",
+        0.01,
+        0.3,
+        "boundary friction: below 1 m/s at the pitch line the law grows to it at most",
+        read_by=BY_SPEED,
+    )
+    material_gear: str = choice(
+        "as-pinion", MATERIALS_GEAR, "GearMaterial", "material of the gear where it has its own"
+    )
+    youngs_modulus_gear: float = quantity(
+        0.0,
+        "Pa",
+        0.0,
+        1e12,
+        "Young's modulus of the gear (0: that of its material)",
+        overrides=("material_gear",),
+        at_zero=_constant("D_MODULUS_GEAR"),
+    )
+    poisson_ratio_gear: float = quantity(
+        0.0,
+        "1",
+        0.0,
+        0.49,
+        "Poisson's ratio of the gear (0: that of its material)",
+        overrides=("material_gear",),
+        at_zero=_constant("D_POISSON_GEAR"),
+    )
+    conductivity_gear: float = quantity(
+        0.0, "W/(m.K)", 0.0, 500.0, "heat conductivity of the gear (0: that of its material)"
+    )
+    heat_capacity_gear: float = quantity(
+        0.0, "J/(kg.K)", 0.0, 5e3, "heat capacity of the gear (0: that of its material)"
+    )
+    density_gear: float = quantity(
+        0.0, "kg/m3", 0.0, 2e4, "density of the gear (0: that of its material)"
+    )
+    contact_limit_gear: float = quantity(
+        0.0,
+        "Pa",
+        0.0,
+        3e9,
+        "allowable contact stress of the gear (0: that of its material)",
+        at_zero=_constant("D_LIMIT_GEAR"),
+    )
+    root_limit_gear: float = quantity(
+        0.0, "Pa", 0.0, 3e9, "nominal stress number of the gear's root (0: as root_limit)"
     )
 
     def __post_init__(self) -> None:

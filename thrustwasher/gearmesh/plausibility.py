@@ -6,12 +6,12 @@ from typing import Any
 from ..units import format_quantity
 from .kernels import constants
 from .kernels import layout as k
+from .kernels.contact import BOUNDARY_SPEED
 from .kernels.mesh_point import LEAST_LINE_LOAD, LEAST_SPEED
 from .kernels.operating_point import LEAST_RISE
 from .kernels.path_friction import LEAST_ROLLING
 from .kernels.working_pair import (
     gear_shift,
-    is_standard,
     section,
     tip_thickness,
     tips,
@@ -25,12 +25,15 @@ WHOLE = 1e-6  # of a tooth, that a number of teeth may be off
 AGREE = 1e-3  # between a centre distance and that of module and teeth
 THIN = 0.2  # modules; the least thickness of a tip that is usual
 RACK = 1.0  # modules: straight part of a rack of addendum 1.25, tip radius 0.38
+SOFTEST = 2e10  # Pa; below it a gear is no metal
+SHARED = 2.05  # contact ratio from which ISO 6336-3 shares the load of a root between pairs
 FASTEST = 100.0  # m/s at the pitch line; faster gears have losses that are not in the model
 
 
 def doubts_of_parameters(p: GearMeshParams) -> list[str]:
     """Return what contradicts itself in parameters."""
-    return [*_teeth(p), *_flanks(p), *_roughness(p), *_fouling(p), *_load_factor(p)]
+    found = [*_teeth(p), *_flanks(p), *_roughness(p), *_fouling(p), *_load_factor(p)]
+    return [*found, *_materials(p), *_root(p)]
 
 
 def doubts_of_point(
@@ -45,12 +48,7 @@ def doubts_of_point(
     if abs(speed) < 2.0 * LEAST_SPEED:
         return [f"speed = {speed:g} rad/s: the film is that of {LEAST_SPEED:g} rad/s"]
     found = _stretched(p, par, field, speed)
-    rolling, by_iso = par[k.D_ROLLING] * abs(speed), p.friction_law in ("iso", "mixed")
-    if p.film_heat == "loss" and by_iso and rolling < LEAST_ROLLING:
-        found.append(
-            f"speed = {speed:g} rad/s: the flanks roll with {rolling:.2g} m/s, mean_friction takes "
-            f"{LEAST_ROLLING:g} m/s: the standard's formula has no bound towards standstill"
-        )
+    found += _slow(p, par, speed)
     rise = float(field[k.F_BULK] + field[k.F_FLASH_MAX]) - oil
     if field[k.F_SCUFFING_SAFETY] <= 0.0:
         found.append(
@@ -62,6 +60,26 @@ def doubts_of_point(
         found.append(
             f"scuffing_safety counts a rise of {LEAST_RISE:g} K, the contact is {rise:.2g} K above "
             "the oil; read scuffing_margin instead"
+        )
+    return found
+
+
+def _slow(p: GearMeshParams, par: Any, speed: float) -> list[str]:
+    """Return lines on speeds below those that the laws of friction were fitted to."""
+    if p.film_heat != "loss" or p.friction_law not in ("iso", "mixed", "schlenk"):
+        return []
+    rolling = par[k.D_ROLLING] * abs(speed)
+    pitch_line, found = rolling / (2.0 * math.sin(par[k.D_ANGLE])), []
+    if p.friction_law != "iso" and pitch_line < BOUNDARY_SPEED:
+        found.append(
+            f"speed = {speed:g} rad/s: {pitch_line:.2g} m/s at the pitch line, below "
+            f"{BOUNDARY_SPEED:g} m/s: mean_friction is that of a law for faster gears, at most "
+            f"boundary_friction = {p.boundary_friction:g}"
+        )
+    if rolling < LEAST_ROLLING:
+        found.append(
+            f"speed = {speed:g} rad/s: the flanks roll with {rolling:.2g} m/s, the friction "
+            f"takes {LEAST_ROLLING:g} m/s: the formulas have no bound towards standstill"
         )
     return found
 
@@ -108,8 +126,6 @@ def _teeth(p: GearMeshParams) -> list[str]:
 def _flanks(p: GearMeshParams) -> list[str]:
     """Return lines on teeth that are thin at their tips, or undercut by a rack."""
     par = as_array(p)
-    if is_standard(par):
-        return []
     found, slant = [], math.cos(p.helix_angle)
     for gear, thickness in zip(("pinion", "gear"), tip_thickness(par), strict=True):
         if thickness < THIN:
@@ -196,4 +212,40 @@ def _load_factor(p: GearMeshParams) -> list[str]:
     return [
         f"load_factor = {p.load_factor:g} moves pitting_stress and pitting_safety alone: with "
         "film_heat = 'atan' pressures, film and temperatures are those of 1; raise power instead"
+    ]
+
+
+def _materials(p: GearMeshParams) -> list[str]:
+    """Return lines on gears for which flash, scuffing and limits were not made."""
+    gear = p.youngs_modulus_gear or (p.youngs_modulus if p.material_gear == "as-pinion" else 1e11)
+    soft = [
+        name
+        for name, modulus in (("pinion", p.youngs_modulus), ("gear", gear))
+        if modulus < SOFTEST
+    ]
+    if soft:
+        return [
+            f"the {' and '.join(soft)} of less than {1e-9 * SOFTEST:g} GPa: a polymer; flash, "
+            "scuffing and micropitting are not its own, nor are limits that are not given: "
+            "polymers fail by temperature, wear and their own endurance"
+        ]
+    if p.material_gear != "as-pinion":
+        return [
+            f"material_gear = {p.material_gear!r}: scuffing_safety, micropitting_safety and the "
+            "friction are those of steel on steel"
+        ]
+    return []
+
+
+def _root(p: GearMeshParams) -> list[str]:
+    """Return a line on a root that several pairs share."""
+    contact = sum(constants.path_of(as_array(p))[1:])
+    helix = math.asin(math.sin(p.helix_angle) * math.cos(p.pressure_angle))
+    contact /= math.cos(helix) ** 2
+    if p.root_limit == 0.0 or contact < SHARED:
+        return []
+    share = min(1.0, max(0.7, 2.366 - 0.666 * contact))
+    return [
+        f"contact ratio {contact:.3g} in the normal section: root_stress has all of the load on "
+        f"one pair; for accuracy grades up to 4 ISO 6336-3 takes {share:.2g} of it (Y_DT)"
     ]

@@ -53,7 +53,8 @@ class GearMeshResult(Differentiable):
     friction_torque: float
     """[N m] mean loss of the whole mesh as a torque on the pinion, sign of the speed; 0 at rest."""
     friction_power: float  # [W] heat made by the mesh
-    friction_coefficient: float  # [-] there; ``mean_friction`` is what the loss feels
+    friction_coefficient: float
+    """[-] there, of the loss; ``mean_friction`` is what the loss feels along the path."""
     contact_stress: float
     """[Pa] greatest along the path; "atan": sigma_m of Eq 9 with its rounded factor 0.591."""
     hertz_pressure: float  # [Pa] peak of the contact there, 4/pi of its mean
@@ -94,10 +95,16 @@ class GearMeshResult(Differentiable):
     """[-] scuffing temperature over that of the contact, both above the oil's; the latter counts at
     least 1 K, which bounds it."""
     scuffing_margin: float  # [K] scuffing temperature less that of the contact
-    film_ratio_gf: float  # [-] least film along the path over the mean Ra; "atan": at its start
+    film_ratio_gf: float
+    """[-] least film along the path over the mean Ra, of the micropitting standard; "atan": at its
+    start, of Dowson and Higginson."""
+    micropitting_at: str
+    """Where along the path that film is: "A" start of contact, "E" end, else base pitches from the
+    pitch point."""
     micropitting_safety: float | None
     root_stress: float  # [Pa] at the root of the teeth, of the gear with more of it
     root_safety: float | None  # [-] twice root_limit over it, the smaller of both gears
+    scuffing_friction: float  # [-] that the flash temperature feels
     normal_module: float  # [m] of the teeth, as given or by centre distance and teeth
     centre_distance: float  # [m] of the axes as they work
     pinion_diameter: float  # [m] of the pitch circle
@@ -173,7 +180,7 @@ def solve_gearmesh(
     params : the pair, its surfaces, oil, steel and laws
     power : transmitted [W], -1e9 .. 1e9; only its size counts
     speed : of the pinion [rad/s], -5000 .. 5000; the loss torque takes its sign. 0 is allowed
-        without power only: the torque power/speed would have no bound (1e5 N m is the largest)
+        without power only: the torque power/speed would have no bound (1e7 N m is the largest)
     oil_temperature : of the oil [K], 233.15 .. 473.15; the gears' bodies are as warm as they get
     fidelity : "field"; "fine": twice as many positions, the paper's heat at every one of them
     start : an earlier result; taken for the sake of one call for all models, not needed: there is
@@ -199,7 +206,7 @@ def solve_gearmesh(
     --------
     >>> r = solve_gearmesh(GearMeshParams(), power=7500.0, speed=180.0)
     >>> round(r.start_of_contact, 5), round(r.mean_friction, 4), round(r.friction_power, 1)
-    (0.08683, 0.0281, 34.9)
+    (0.08683, 0.0192, 23.9)
     """
     power = check_number("power", power, "W", -1e9, 1e9)
     speed = check_number("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0)
@@ -272,6 +279,7 @@ def _result(
     return GearMeshResult(
         **(shown | more),
         asperity_temperature=asperity,
+        micropitting_at=_place_of_thinnest(par, f),
         hertz_pressure=4.0 / math.pi * f[k.F_PRESSURE],
         hertz_width=f[k.F_WIDTH],
         viscosity=f[k.F_VISCOSITY],
@@ -286,9 +294,21 @@ def _result(
     )
 
 
+def _place_of_thinnest(par: Any, f: list[float]) -> str:
+    """Return in words where along the path the film against micropitting is thinnest."""
+    if f[k.F_GF_PLACE] < 0.0:
+        return "A"
+    found = float(par[k.D_POSITION + int(f[k.F_GF_PLACE])])
+    for name, end in (("A", -par[k.D_APPROACH]), ("E", par[k.D_RECESS])):
+        if abs(found - end) < 1e-9:
+            return name
+    return f"{found:.4g}"
+
+
 def _failures(result: GearMeshResult) -> Iterator[str]:
     """Yield a line for each safety below 1."""
     for name, fails in SAFETIES.items():
         safety = getattr(result, name)
         if safety is not None and safety < 1.0:
-            yield f"{name} = {safety:.3g}, below 1: {fails}"
+            at = f" at {result.micropitting_at}" if name.startswith("micropitting") else ""
+            yield f"{name} = {safety:.3g}{at}, below 1: {fails}"

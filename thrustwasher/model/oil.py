@@ -7,7 +7,7 @@ It is given by a name, by a data sheet (kinematic viscosity at 40 and at 100 deg
 import json
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -48,7 +48,17 @@ POINTS = {"viscosity": "Pa.s", "kinematic_viscosity": "m2/s"}
 # What gives a viscosity and a density, all but the first key of points: one of these ways.
 WAYS = (("name",), tuple(SHEET), ("viscosity",), ("kinematic_viscosity",))
 VISCOSITY = tuple(key for way in WAYS for key in way)
-KEYS = (*VISCOSITY, *NUMBERS)
+KEYS = (*VISCOSITY, *NUMBERS, "base")
+# Words in a name, or of ``base``, and the base of the oil that they mean; parameter of the parts.
+BASES = {
+    "mineral": "mineral",
+    "pao": "pao",
+    "polyalphaolefin": "pao",
+    "ester": "ester",
+    "polyglycol": "polyglycol",
+    "pag": "polyglycol",
+}
+BASE = "base_oil"
 USUAL_DENSITY = 850.0  # kg/m3 of an oil that does not say it
 AT = 313.15  # K, at which the density is that of the parts
 FAR_OFF = 0.10  # relative error of a law that is worth a warning
@@ -89,13 +99,15 @@ class Oil:
     """Other numbers [SI] by their key: heat_capacity, conductivity, pressure_viscosity, density."""
     doubts: tuple[str, ...] = ()
     """What was assumed of it."""
+    base: str = ""
+    """What it is based on: "mineral", "pao", "ester" or "polyglycol"; "" if that is not said."""
 
     def viscosity(self, temperature: float) -> float:
         """Return the dynamic viscosity [Pa s] by ASTM D341; of an oil of a name or a sheet."""
         nu = kinematic_viscosity(self.viscosity_40, self.viscosity_100, temperature)
         return nu * density(self.density_15, temperature)
 
-    def parameters_for(self, model: str | ModelSpec) -> dict[str, float]:
+    def parameters_for(self, model: str | ModelSpec) -> dict[str, Any]:
         """Return the parameters of a model ("washer", "clutch", "gearmesh", ...) that it sets.
 
         ParameterError: the model knows no oil, or the viscosity has no law.
@@ -107,7 +119,11 @@ class Oil:
         names, found = _names(spec), dict(self.rest)
         if self.density_15:
             found["density"] = density(self.density_15, AT)
-        known = {p: found[k] for k, (*_, p) in NUMBERS.items() if k in found and p in names}
+        known: dict[str, Any] = {
+            p: found[k] for k, (*_, p) in NUMBERS.items() if k in found and p in names
+        }
+        if self.base and BASE in names:
+            known[BASE] = self.base
         if law := law_of(spec):
             if self.density_15:
                 constants = fitted(law, self.viscosity_40, self.viscosity_100, self.density_15)
@@ -182,6 +198,8 @@ class Oil:
             f"{1e6 * self.viscosity_40:.4g} mm2/s at 40 degC, {1e6 * self.viscosity_100:.4g}"
             f" at 100 degC, {self.density_15:.4g} kg/m3 at 15 degC"
         )
+        if self.base:
+            numbers += f", base {self.base}"
         if not self.name:
             return numbers
         standard = named_oils()[self.name].standard
@@ -195,12 +213,15 @@ class Oil:
             "kinematic_viscosity_100": self.viscosity_100,
             "density_15": self.density_15,
             "worst_difference": {s.key: self.worst_error(s) for s in specs if law_of(s)},
+            **({"base": self.base} if self.base else {}),
             **self.rest,
         }
 
     def as_toml(self) -> str:
         """Return the value of ``oil`` in a file; read back it is the same oil."""
         table: dict[str, Any] = dict(self.rest)
+        if self.base:
+            table["base"] = f'"{self.base}"'
         if self.name:
             table = {"name": f'"{self.name}"'} | table
         else:
@@ -220,7 +241,8 @@ def oil(given: str | Mapping[str, Any]) -> Oil:
     given : a name such as "ISO VG 46" (``named_oils``, in capitals or not, with blanks or not), or
         a data sheet, a mapping or the same as text: kinematic_viscosity_40 and
         kinematic_viscosity_100 [m2/s, or with unit: "46 cSt"], density_15 [kg/m3]; beside either
-        heat_capacity [J/(kg K)], conductivity [W/(m K)], pressure_viscosity [1/Pa]
+        heat_capacity [J/(kg K)], conductivity [W/(m K)], pressure_viscosity [1/Pa], base
+        (mineral, pao, ester, polyglycol), which may end a name: "ISO VG 320 PAO"
 
     Raises
     ------
@@ -255,17 +277,24 @@ def read_oil(where: str, given: Any) -> Oil | None:
         raise ParameterError(f"{where}: {first} beside {other}, allowed: one way to give an oil")
     rest = {k: number(where, k, table[k], NUMBERS[k][:3]) for k in NUMBERS if k in table}
     way = ways[0] if ways else ()
+    base = _base(where, table["base"]) if "base" in table else ""
     if "density" in rest and way in WAYS[:2]:
         raise ParameterError(f"{where}: density beside {way[0]}, which gives it, allowed: one")
     if way == WAYS[0]:
-        name = _found_name(where, table["name"])
+        name, said = _name_and_base(table["name"])
+        name, base = _found_name(where, name), base or said
         row = named_oils()[name]
         cold, warm = (float(f"{x}e-6") for x in row[:2])
         return Oil(
-            name=name, viscosity_40=cold, viscosity_100=warm, density_15=row.density_15, rest=rest
+            name=name,
+            viscosity_40=cold,
+            viscosity_100=warm,
+            density_15=row.density_15,
+            rest=rest,
+            base=base,
         )
     if way == WAYS[1]:
-        return _of_sheet(where, table, rest)
+        return replace(_of_sheet(where, table, rest), base=base)
     if way:
         key = way[0]
         doubts: tuple[str, ...] = ()
@@ -274,10 +303,29 @@ def read_oil(where: str, given: Any) -> Oil | None:
         factor = 1.0 if key == "viscosity" else rest.setdefault("density", USUAL_DENSITY)
         return Oil(
             rest=rest,
+            base=base,
             doubts=doubts,
             points=tuple((t, factor * x) for t, x in _pairs(where, key, table)),
         )
-    return Oil(rest=rest) if rest else None
+    return Oil(rest=rest, base=base) if rest or base else None
+
+
+def _base(where: str, given: Any) -> str:
+    """Return the base of an oil that a word means."""
+    word = given.strip().lower() if isinstance(given, str) else ""
+    if word not in BASES:
+        raise ParameterError(f"{where}: base = {given!r}, allowed: {', '.join(BASES)}")
+    return BASES[word]
+
+
+def _name_and_base(given: Any) -> tuple[Any, str]:
+    """Return a name without the word of its base that begins or ends it, and that base."""
+    words = given.split() if isinstance(given, str) else []
+    for place in (0, -1):
+        if len(words) > 1 and (base := BASES.get(words[place].lower())):
+            del words[place]
+            return " ".join(words), base
+    return given, ""
 
 
 def _of_sheet(where: str, table: Mapping[str, Any], rest: dict[str, float]) -> Oil:

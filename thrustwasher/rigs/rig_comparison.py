@@ -154,13 +154,14 @@ def _of_part(rig: Rig, part: PartFile, changes: Mapping[str, Any]) -> Array:
         return np.full(len(rig.measured), np.nan)
     for i in range(len(rig.measured)):
         point = {name: float(column[i]) for name, column in rig.inputs.items()}
-        if rig.output in model.fits.units and model.fits.computed:
+        output = rig.outputs[i]
+        if output in model.fits.units and model.fits.computed:
             whole = {**part.starts, **point}
-            value = model.fits.computed(params, whole, part.fidelity).get(rig.output, np.nan)
+            value = model.fits.computed(params, whole, part.fidelity).get(output, np.nan)
         else:
             result = model.solve(params, **point, fidelity=part.fidelity, throw=False)
             failed = result.status.is_failure
-            value = np.nan if failed else float(getattr(result, rig.output))
+            value = np.nan if failed else float(getattr(result, output))
         found.append(value)
     return np.array(found)
 

@@ -45,7 +45,11 @@ class Rig:
     fit: tuple[str, ...]
     """Parameters worth a fit, the first before the others."""
     output: str
+    """What was measured, in words if there is more than one of it."""
     unit: str
+    outputs: tuple[str, ...]
+    """What was measured, of every point."""
+    units: tuple[str, ...]
     inputs: dict[str, NDArray[np.float64]]
     """Columns [SI], of one length."""
     measured: NDArray[np.float64]
@@ -106,12 +110,13 @@ def load_rig(path: str | Path) -> Rig:
         outputs = {n: unit for n, (unit, _) in COLUMNS.items() if n not in none}
     columns, origin = _points(folder / "points.csv", inputs, outputs)
     found = [name for name in columns if name in outputs]
-    if len(found) != 1:
+    if not found or (len(found) > 1 and not isinstance(target, PartFile)):
         raise ParameterError(
             f"{where}: points.csv has the measured columns {', '.join(found) or 'none'}, allowed: "
             f"one of {', '.join(outputs)}"
         )
-    output = found[0]
+    rows = len(origin)
+    origin = origin * len(found)  # a point for every measured column of a line
     vary = str(table.get("vary", next((n for n in columns if n in inputs), "")))
     if vary not in columns or vary not in inputs:
         raise ParameterError(f"{where}: vary = {vary!r}, allowed: an input that is a column")
@@ -122,6 +127,7 @@ def load_rig(path: str | Path) -> Rig:
             f"{where}: {fitted} points are of a published fit with coefficients = {most!r}, "
             "allowed: at most as many points as the fit has coefficients"
         )
+    several = len(found) > 1
     return Rig(
         folder=folder,
         texts={key: " ".join(table[key].split()) for key in TEXTS},
@@ -129,11 +135,13 @@ def load_rig(path: str | Path) -> Rig:
         gear=str(table.get("gear", "first")),
         vary=vary,
         fit=tuple(table.get("fit", ())),
-        output=output,
-        unit=outputs[output],
-        inputs={name: columns[name] for name in columns if name in inputs},
-        measured=columns[output],
-        error=columns.get(output + ERROR, np.zeros(len(origin))),
+        output=f"{len(found)} results" if several else found[0],
+        unit="SI" if several else outputs[found[0]],
+        outputs=tuple(name for name in found for _ in range(rows)),
+        units=tuple(outputs[name] for name in found for _ in range(rows)),
+        inputs={name: np.tile(columns[name], len(found)) for name in columns if name in inputs},
+        measured=np.concatenate([columns[name] for name in found]),
+        error=np.concatenate([columns.get(name + ERROR, np.zeros(rows)) for name in found]),
         origin=origin,
         kind=kind,
     )
@@ -157,7 +165,8 @@ def _outputs(part: PartFile) -> dict[str, str]:
     """Return what a part can be compared by: fields of its result, and loads of its folds."""
     model = find_model(part.spec.key)
     units = {s.name: s.unit for s in part.spec.outputs if s.kind == "real"}
-    return units | {"loss_factor": "1"} | dict(model.fits.units)
+    more = {name: unit for name, (unit, _) in model.command.extra.items()} if model.command else {}
+    return units | {"loss_factor": "1"} | more | dict(model.fits.units)
 
 
 def _points(

@@ -24,8 +24,8 @@ OWN = """## Your own rig
 A folder with two files: `rig.toml` (title, source, what was measured, conditions, rights, how the
 numbers were read, likely reason of a deviation; `kind`: measured, other machine, calculated, used;
 `part = "my-part.toml"` or
-`scene = "my-scene.toml"`) and `points.csv`, a line per point: inputs, one measured output,
-`<output>_error` (standard deviation), `origin` (table, figure, text or fit).
+`scene = "my-scene.toml"`) and `points.csv`, a line per point: inputs, one measured output or, of a
+part, several, `<output>_error` (standard deviation), `origin` (table, figure, text or fit).
 `thrustwasher compare FOLDER` does the rest; `--fit N` fits the first N parameters of the list
 `fit` to every second point and judges by the others. Points of a published fit count at most as
 many as it has coefficients. We are glad to put rigs with a source on this shelf.
@@ -53,10 +53,13 @@ def shelf_page(blind: Sequence[Comparison], fits: Sequence[Comparison], wanted: 
         lines += [f"- Read: {c.rig.texts['read']}. Rights: {c.rig.texts['rights']}."]
         lines += [f"- Likely reason: {c.rig.texts['reason']}", ""]
         units = [f"{n} [SI]" for n in c.rig.inputs]
+        several = len({*c.rig.outputs}) > 1
+        units += ["result"] if several else []
         lines += [f"| {' | '.join(units)} | measured [{c.rig.unit}] | computed | band | origin |"]
         lines += ["|---" * (len(units) + 4) + "|"]
         for i in range(len(c.rig.measured)):
             given = " | ".join(f"{x[i]:.5g}" for x in c.rig.inputs.values())
+            given += f" | {c.rig.outputs[i]} [{c.rig.units[i]}]" if several else ""
             lines.append(
                 f"| {given} | {c.rig.measured[i]:.4g} | {c.computed[i]:.4g} "
                 f"| {c.low[i]:.4g} .. {c.high[i]:.4g} | {c.rig.origin[i]} |"

@@ -35,7 +35,7 @@ def random_mesh(rng):
         changes |= {"helix_angle": float(rng.choice([0.0, 0.2, 0.35])), "load_factor": 1.3}
         changes["bulk_conductance"] = float(rng.choice([0.0, 10.0]))
     else:
-        changes["load_sharing"] = "rigid"
+        changes |= {"load_sharing": "rigid", "material_gear": "as-pinion"}
         if changes["friction_law"] == "mixed":
             changes["friction_law"] = "iso"
     changes["permissible_film_ratio"] = float(rng.choice([0.0, 0.3]))

@@ -8,7 +8,7 @@ from closed_forms import line_contact, thermal_fatigue
 from thrustwasher.gearmesh.kernels import contact
 
 E, NU = 205e9, 0.3
-THETA = contact.compliance(E, NU)
+THETA = contact.compliance(E, NU, E, NU)
 W, R = 9423.0, 6.89e-3
 
 

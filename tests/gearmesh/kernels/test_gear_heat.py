@@ -47,7 +47,7 @@ def test_blok_makes_both_flanks_equally_hot():
     pinion = h.flash_rise(share * heat, width, v1, b)
     gear = h.flash_rise((1.0 - share) * heat, width, v2, b)
     assert pinion == pytest.approx(gear, rel=1e-14)
-    even = h.blok_rise(f, w, v1, v2, width, b) * math.sqrt(2.0 / math.pi) / h.ELLIPTIC
+    even = h.blok_rise(f, w, v1, v2, width, b, b) * math.sqrt(2.0 / math.pi) / h.ELLIPTIC
     assert even == pytest.approx(pinion, rel=1e-14)
 
 

@@ -34,7 +34,8 @@ def test_predicted_errors_are_within_a_factor_of_two_of_the_true_ones(name, step
     run, true = at(name, step), at(name, 2e-4 if name == "planetary" else 2.5e-4)
     said, known = step_error(run, made, run_shift).errors(), errors_between(run, true, 1.0)
     for figure in ("lock_time", "heat"):
-        assert 0.5 * known[figure] < said[figure] < 2.0 * known[figure]
+        least = 0.5 * known[figure] - 1e-5  # of errors that are hardly there
+        assert least < said[figure] < 2.0 * known[figure]
 
 
 def test_a_step_that_is_too_long_is_told_with_one_that_does():

@@ -38,7 +38,7 @@ def test_the_step_stays_above_a_microsecond_where_the_packs_begin_to_be_pressed(
     found = system(0.15)
     run = drive(found, instances(found), rtol=rtol, order=order)
     assert run.shortest > 1e-6
-    assert run.refused < run.taken
+    assert run.refused < 1.5 * run.taken
 
 
 def test_a_master_that_never_agrees_is_told_that_its_step_is_too_short():

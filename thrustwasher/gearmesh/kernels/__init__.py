@@ -9,6 +9,7 @@
 ``contact``                 line contact: Hertz, oil film, friction, thermal stress, endurance
 ``flank_temperature``       rises at a sliding line contact: friction, shear of the oil film
 ``path_friction``           friction along the path of contact, and how it changes
+``micropitting``            film along the path by the standard against micropitting
 ``loss_heat``               the mesh heated by all of its loss
 ``mesh_point``              the mesh at one operating point with the paper's heat
 ``line_of_action``          rung `fine` with the paper's heat: resolved along the line of action
@@ -30,6 +31,8 @@ CALLED = {
         "thrustwasher.gearmesh.kernels.load_sharing: pitch_of share_load single_stiffness",
         "thrustwasher.gearmesh.kernels.path_of_contact: derive_path",
         "thrustwasher.gearmesh.kernels.mesh_point: mesh_point",
+        "thrustwasher.gearmesh.kernels.micropitting: buttress film_constant film_ratio_at",
+        "thrustwasher.gearmesh.kernels.micropitting: local_film",
         "thrustwasher.gearmesh.kernels.operating_point: solve_point",
         "thrustwasher.gearmesh.kernels.step: sens step",
         "thrustwasher.gearmesh.kernels.tooth_root: corner_left root_factors root_section",

@@ -14,9 +14,17 @@ from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
 from .contact import compliance
 from .load_sharing import pitch_of, sharing_rule
-from .path_of_contact import base_pitch, derive_path, even_part, flanks_at, line_of_action
+from .micropitting import derive_micropitting, thinnest_films
+from .path_of_contact import (
+    SCUFFING_LUBRICANT,
+    base_pitch,
+    derive_path,
+    even_part,
+    flanks_at,
+    line_of_action,
+)
 from .tooth_root import derive_root, root_rule
-from .working_pair import is_standard, pair_rule, section, tips, working_section
+from .working_pair import are_pointed, is_standard, pair_rule, section, tips, working_section
 
 SIGMA_ROUGH, SIGMA_FINE = 2.26e-6, 0.566e-6  # m, composite RMS of two ground flanks
 ROUGHNESS_ROUGH, ROUGHNESS_FINE = 4.5e-5, 1.5e-5  # S of Li & Seireg
@@ -27,6 +35,17 @@ LARGEST_EFFECTIVE = 0.0864 / 1372.0  # the film has no effect from there on
 LEAST_SLIDE_ROLL = 0.27
 # Contact limits [Pa]: ISO 6336-5, MQ, as usually quoted; the mechanical ones of Atan's Table 1.
 LIMITS = (689.5e6, 434.3e6, 1500e6)  # in the order of the steels
+# Young's modulus [Pa], conductivity [W/(m K)], heat capacity [J/(kg K)], density [kg/m3], contact
+# limit [Pa] of a gear of nodular iron, grey iron, cast tin bronze: moduli of the elasticity factors
+# in ISO 6336-2, limits of irons of 200 HB by ISO 6336-5, both as publicly quoted; the rest, and the
+# limit of bronze, are estimates. Poisson's ratio is 0.3.
+MATERIALS = (
+    (173e9, 32.0, 500.0, 7100.0, 498e6),
+    (118e9, 48.0, 500.0, 7200.0, 339e6),
+    (103e9, 60.0, 380.0, 8800.0, 300e6),
+)
+POISSON = 0.3
+LEAST_LIMIT = 2e7  # Pa, of a contact limit that is given
 RIM = 4.0  # transverse modules from a ring's pitch circle to its outside; an estimate
 STILL_COOLING = 50.0  # W/(m2 K), of gears that hardly move, over their pitch cylinders; an estimate
 
@@ -97,16 +116,44 @@ def derive_geometry(par: Array) -> None:
     spur = loss_factor(ratio, teeth, approach, recess, side)
     wide = wide_loss_factor(ratio, teeth, approach, recess, side)
     par[L.D_LOSS] = ((1.0 - even) * spur + even * wide) / cos_base
+    par[L.D_LOSS_SPUR] = spur / cos_base
+
+
+@kernel
+def gear_value(par: Array, given: int, pinion: int, column: int) -> float:
+    """Return a number of the gear's material: as given, of its material, or that of the pinion.
+
+    ``given``, ``pinion``: places of the parameters; ``column`` of ``MATERIALS``, -1: Poisson's.
+    """
+    if par[given] > 0.0:
+        return float(par[given])
+    material = int(par[L.P_MATERIAL_GEAR])
+    if material == L.AS_PINION:
+        return float(par[pinion])
+    return POISSON if column < 0 else MATERIALS[material - 2][column]
+
+
+@kernel
+def derive_materials(par: Array) -> None:
+    """Fill compliance of both gears together, modulus, heat capacity and effusivity of each."""
+    modulus = gear_value(par, L.P_YOUNGS_MODULUS_GEAR, L.P_YOUNGS_MODULUS, 0)
+    poisson = gear_value(par, L.P_POISSON_RATIO_GEAR, L.P_POISSON_RATIO, -1)
+    conducts = gear_value(par, L.P_CONDUCTIVITY_GEAR, L.P_CONDUCTIVITY, 1)
+    stores = gear_value(par, L.P_HEAT_CAPACITY_GEAR, L.P_HEAT_CAPACITY, 2)
+    stores *= gear_value(par, L.P_DENSITY_GEAR, L.P_DENSITY, 3)
+    par[L.D_THETA] = compliance(par[L.P_YOUNGS_MODULUS], par[L.P_POISSON_RATIO], modulus, poisson)
+    par[L.D_CAPACITY] = par[L.P_DENSITY] * par[L.P_HEAT_CAPACITY]
+    par[L.D_EFFUSIVITY] = math.sqrt(par[L.P_CONDUCTIVITY] * par[L.D_CAPACITY])
+    par[L.D_MODULUS_GEAR], par[L.D_POISSON_GEAR] = modulus, poisson
+    par[L.D_CAPACITY_GEAR], par[L.D_EFFUSIVITY_GEAR] = stores, math.sqrt(conducts * stores)
 
 
 @kernel
 def derive(par: Array) -> int:
     """Fill the constants behind the parameters; return 0, or NOT_FINITE."""
     derive_geometry(par)
-    par[L.D_THETA] = compliance(par[L.P_YOUNGS_MODULUS], par[L.P_POISSON_RATIO])
-    par[L.D_CAPACITY] = par[L.P_DENSITY] * par[L.P_HEAT_CAPACITY]
+    derive_materials(par)
     par[L.D_OIL_CAPACITY] = par[L.P_OIL_DENSITY] * par[L.P_OIL_HEAT_CAPACITY]
-    par[L.D_EFFUSIVITY] = math.sqrt(par[L.P_CONDUCTIVITY] * par[L.D_CAPACITY])
     rough = par[L.P_SURFACE] == L.ROUGH
     sigma = SIGMA_ROUGH if rough else SIGMA_FINE
     par[L.D_SIGMA] = par[L.P_SIGMA_RMS] if par[L.P_SIGMA_RMS] > 0.0 else sigma
@@ -116,6 +163,7 @@ def derive(par: Array) -> int:
     by_speed = math.sqrt(par[L.D_V1]) / (math.sqrt(par[L.D_V1]) + math.sqrt(par[L.D_V2]))
     constant = par[L.P_HEAT_PARTITION] == L.CONSTANT_SHARE
     par[L.D_SHARE] = par[L.P_PARTITION_SHARE] if constant else by_speed
+    derive_factors(par)
     derive_limits(par)
     derive_root(par)
     derive_body(par)
@@ -123,7 +171,9 @@ def derive(par: Array) -> int:
     if par[L.P_FILM_HEAT] == L.LOSS or par[L.P_FIDELITY] == L.FINE:
         line_of_action(par, par[L.D_APPROACH], par[L.D_RECESS])
     if par[L.P_FILM_HEAT] == L.LOSS:
+        derive_micropitting(par, SCUFFING_LUBRICANT[int(par[L.P_BASE_OIL]) - 1])
         derive_path(par)
+        thinnest_films(par)
     return OK if are_finite(par[L.N_PARAM : L.D_POSITION]) else NOT_FINITE
 
 
@@ -204,24 +254,46 @@ def wide_loss_factor(
 
 
 @kernel
-def single_contact_factor(par: Array) -> float:
-    """Return the larger of Z_B, Z_D and 1 [-], stress of single contact over the pitch point's.
+def single_contact_factors(par: Array) -> tuple[float, float]:
+    """Return Z_B and Z_D [-], each at least 1: stress where a pair is alone over the pitch point's.
 
     A pair is alone from B on, where the one before it has left, to D; the less the overlap, the
-    more of that counts. Source: ISO 6336-2 as publicly quoted.
+    more of that counts, none of it from an overlap of 1 on. Beyond a contact ratio of 2 the same
+    places bound the contact of two pairs. Source: ISO 6336-2:2006 as publicly quoted.
     """
-    if par[L.D_CONTACT_RATIO] >= 2.0:
+    pitch, even = flanks_at(par, 0.0)[0], even_part(par)
+    first = math.sqrt(pitch / flanks_at(par, par[L.D_RECESS] - 1.0)[0])
+    second = math.sqrt(pitch / flanks_at(par, 1.0 - par[L.D_APPROACH])[0])
+    first, second = max(first, 1.0), max(second, 1.0)
+    return first - even * (first - 1.0), second - even * (second - 1.0)
+
+
+@kernel
+def helical_factor(contact: float) -> float:
+    """Return K_Bgamma [-] over the total contact ratio: helical teeth heat more than their load.
+
+    1 up to 2, then 1 + 0.2 sqrt((eps - 2) (5 - eps)), from 3.5 on 1.3. Source: ISO/TR 13989-1 as
+    publicly quoted.
+    """
+    if contact <= 2.0:
         return 1.0
-    pitch, most = flanks_at(par, 0.0)[0], 1.0
-    for s in (par[L.D_RECESS] - 1.0, 1.0 - par[L.D_APPROACH]):
-        factor = math.sqrt(pitch / flanks_at(par, s)[0])
-        most = max(most, factor - even_part(par) * (factor - 1.0))
-    return most
+    if contact >= 3.5:
+        return 1.3
+    return 1.0 + 0.2 * math.sqrt((contact - 2.0) * (5.0 - contact))
+
+
+@kernel
+def derive_factors(par: Array) -> None:
+    """Fill the load factors of both flanks together, K_Bgamma, and what they make of the flash."""
+    factor = par[L.P_LOAD_FACTOR] * par[L.P_FACE_LOAD_FACTOR] * par[L.P_MESH_LOAD_FACTOR]
+    helical = helical_factor(par[L.D_CONTACT_RATIO] + par[L.D_OVERLAP])
+    par[L.D_FACTOR], par[L.D_HELICAL] = factor, helical
+    par[L.D_FLASH_FACTOR] = math.exp(0.75 * math.log(factor * helical))
 
 
 @kernel
 def derive_limits(par: Array) -> None:
-    """Fill pitting stress per root of the line load, its limit, scuffing temperature's slope."""
+    """Fill pitting stress per root of the line load, its limits, scuffing temperature's slope."""
     ratio, side = par[L.P_GEAR_RATIO], par[L.D_SIDE]
     angle, contact, even = par[L.D_ANGLE], par[L.D_CONTACT_RATIO], even_part(par)
     zone = 2.0 * par[L.D_COS_BASE] / (math.cos(angle) * math.sin(angle))
@@ -232,11 +304,15 @@ def derive_limits(par: Array) -> None:
     elastic = 1.0 / (math.pi * par[L.D_THETA])
     slant = math.cos(par[L.P_HELIX_ANGLE])
     shape = zone * elastic * sharing / slant * (ratio + side) / (ratio * diameter)
-    par[L.D_PITTING] = math.sqrt(shape * math.cos(angle) * par[L.P_LOAD_FACTOR])
-    if not is_standard(par):
-        par[L.D_PITTING] *= single_contact_factor(par)
+    nominal = math.sqrt(shape * math.cos(angle) * par[L.D_FACTOR])
+    pinion, gear = single_contact_factors(par)
+    par[L.D_PITTING] = nominal * max(pinion, gear)
     limit = LIMITS[int(par[L.P_STEEL]) - 1]
     par[L.D_LIMIT] = par[L.P_CONTACT_LIMIT] if par[L.P_CONTACT_LIMIT] > 0.0 else limit
+    own = gear_value(par, L.P_CONTACT_LIMIT_GEAR, L.P_CONTACT_LIMIT, 4)
+    par[L.D_LIMIT_GEAR] = own if own > 0.0 else par[L.D_LIMIT]
+    used = max(pinion / par[L.D_LIMIT], gear / par[L.D_LIMIT_GEAR])
+    par[L.D_PITTING_USED] = nominal * used
     stage = par[L.P_FZG_STAGE]
     par[L.D_SCUFFING] = (0.85 + 1.4 * par[L.P_STRUCTURAL_FACTOR]) * stage * stage
 
@@ -254,10 +330,18 @@ def derive_body(par: Array) -> None:
     if par[L.D_SIDE] < 0.0:
         rim = RIM * 2.0 * pinion / par[L.P_PINION_TEETH]
         disc = rim * (2.0 * gear + rim)
-    mass = math.pi * width * (pinion * pinion / pinions + disc / gears) * par[L.P_DENSITY]
+    stores = pinion * pinion / pinions * par[L.D_CAPACITY] + disc / gears * par[L.D_CAPACITY_GEAR]
     given = par[L.P_BULK_HEAT_CAPACITY]
-    par[L.D_BULK_CAPACITY] = given if given > 0.0 else mass * par[L.P_HEAT_CAPACITY]
+    par[L.D_BULK_CAPACITY] = given if given > 0.0 else math.pi * width * stores
     par[L.D_STILL] = STILL_COOLING * 2.0 * math.pi * width * (pinion / pinions + gear / gears)
+
+
+@kernel
+def has_own_material(par: Array) -> bool:
+    """Tell if the gear is of another material than the pinion."""
+    given = par[L.P_YOUNGS_MODULUS_GEAR] + par[L.P_POISSON_RATIO_GEAR] + par[L.P_DENSITY_GEAR]
+    given += par[L.P_CONDUCTIVITY_GEAR] + par[L.P_HEAT_CAPACITY_GEAR]
+    return bool(par[L.P_MATERIAL_GEAR] != L.AS_PINION or given > 0.0)
 
 
 @kernel
@@ -266,8 +350,16 @@ def broken_rule(par: Array) -> int:
 
     Every parameter lies in its own range. The numbers are places in the model's list of texts.
     """
-    if 0.0 < par[L.P_CONTACT_LIMIT] < 1e8:
+    if 0.0 < par[L.P_CONTACT_LIMIT] < LEAST_LIMIT:
         return 8
+    if 0.0 < par[L.P_CONTACT_LIMIT_GEAR] < LEAST_LIMIT:
+        return 8
+    if 0.0 < par[L.P_YOUNGS_MODULUS_GEAR] < 1e9 or 0.0 < par[L.P_ROOT_LIMIT_GEAR] < 1e7:
+        return 24
+    if 0.0 < par[L.P_CONDUCTIVITY_GEAR] < 0.1 or 0.0 < par[L.P_HEAT_CAPACITY_GEAR] < 50.0:
+        return 25
+    if 0.0 < par[L.P_DENSITY_GEAR] < 500.0:
+        return 25
     if 0.0 < par[L.P_ADDENDUM_GEAR] < 0.3:
         return 9
     if 0.0 < par[L.P_NORMAL_MODULE] < 1e-4:
@@ -299,8 +391,10 @@ def broken_rule(par: Array) -> int:
         reach *= base_pitch(ratio, par[L.P_PINION_TEETH], angle, side)
         if not start + reach < 1.0:
             return 6
+    if are_pointed(par):
+        return 18
     beyond = par[L.P_HELIX_ANGLE] + par[L.P_ADDENDUM_GEAR] + par[L.P_INTERNAL] > 0.0
-    beyond = beyond or not is_standard(par)
+    beyond = beyond or not is_standard(par) or has_own_material(par)
     if is_paper and (beyond or par[L.P_FRICTION_LAW] == L.MIXED_FRICTION):
         return 7
     rule = sharing_rule(par, approach + recess, pitch_of(par))

@@ -3,13 +3,16 @@
 import math
 
 from ...numerics.jit import kernel
-from ...numerics.smoothing import soft_least
+from ...numerics.smoothing import soft_least, soft_most
+
+BEND = 0.1  # of a bound: the width over which the friction bends into it
+BOUNDARY_SPEED = 1.0  # m/s at the pitch line; below, boundary friction limits the law of the loss
 
 
 @kernel
-def compliance(modulus: float, poisson: float) -> float:
-    """Return theta = 2 (1 - nu^2)/E [1/Pa] of two bodies of the same material."""
-    return 2.0 * (1.0 - poisson * poisson) / modulus
+def compliance(modulus: float, poisson: float, modulus_2: float, poisson_2: float) -> float:
+    """Return theta = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2 [1/Pa] of two bodies."""
+    return (1.0 - poisson * poisson) / modulus + (1.0 - poisson_2 * poisson_2) / modulus_2
 
 
 @kernel
@@ -70,27 +73,63 @@ def li_seireg(film: float, radius: float, f0: float, roughness: float) -> tuple[
 
 
 @kernel
-def iso_and_slope(
-    line_load: float, rolling: float, radius: float, viscosity: float, roughness: float, f0: float
-) -> tuple[float, float]:
-    """Return the mean coefficient of friction [-] of ISO/TS 6336-20, and no more than ``f0``.
+def common_law(
+    line_load: float, rolling: float, radius: float, viscosity: float, roughness: float
+) -> float:
+    """Return (w/(v R))^0.2 eta^-0.05 Ra^0.25 in N/mm, m/s, mm, mPa s, um.
 
-    The second number is its slope over the logarithm of the unbounded value, which goes with the
-    power 0.2 of load over speed and -0.05 of the viscosity.
-
-    0.06 (w/(v R))^0.2 eta^-0.05 Ra^0.25 in its own units (N/mm, m/s, mm, mPa s, um); here
-    ``line_load`` [N/m], ``rolling`` sum of the speeds at the pitch point [m/s], ``radius`` there
-    [m], ``viscosity`` at the oil's temperature [Pa s], ``roughness`` Ra [m]. The bound is chosen
-    here: towards standstill the formula grows without limit.
+    Here ``line_load`` [N/m], ``rolling`` sum of the speeds at the pitch point [m/s], ``radius``
+    there [m], ``viscosity`` at the oil's temperature [Pa s], ``roughness`` Ra [m].
     """
-    load = 1e-3 * line_load / (rolling * 1e3 * radius)
-    mu = 0.06 * math.exp(
+    load = 1e-6 * line_load / (rolling * radius)
+    return math.exp(
         0.2 * math.log(load) - 0.05 * math.log(1e3 * viscosity) + 0.25 * math.log(1e6 * roughness)
     )
+
+
+@kernel
+def iso_and_slope(law: float, lubricant: float, f0: float) -> tuple[float, float]:
+    """Return the mean coefficient of friction [-] against scuffing, and no more than ``f0``.
+
+    The second number is its slope over the logarithm of ``law``, as ``common_law`` returns it with
+    the force F_t at the pitch circle per width. ``lubricant``: X_L of the base oil.
+
+    Source: ISO/TR 13989-1 and ISO/TS 6336-20 as publicly quoted, 0.06 X_L law. The bound is chosen
+    here: towards standstill the formula grows without limit.
+    """
+    mu = 0.06 * lubricant * law
     if f0 <= 0.0:
         return 0.0, 0.0
-    bounded, slope = soft_least(mu, f0, 0.1 * f0)
+    bounded, slope = soft_least(mu, f0, BEND * f0)
     return bounded, slope * mu
+
+
+@kernel
+def schlenk_and_slopes(
+    law: float, rolling: float, slow: float, lubricant: float, boundary: float
+) -> tuple[float, float, float]:
+    """Return the mean coefficient of friction [-] that the loss feels.
+
+    The other two numbers are its slopes over the logarithm of ``law`` at a speed that is held, and
+    over that part of it which the speed makes.
+
+    symbol     meaning                                                           unit
+    law        ``common_law`` with the force F_bt on the base circle per width   -
+    rolling    sum of the speeds at the pitch point                              m/s
+    slow       the same at a pitch-line speed of 1 m/s                           m/s
+    lubricant  X_L of the base oil                                               -
+    boundary   boundary friction                                                 -
+
+    Source: Schlenk (1995) as publicly quoted, 0.048 X_L law. Below a pitch-line speed of 1 m/s it
+    grows to the boundary friction at most, where it has not been above that before; that bound is
+    chosen here.
+    """
+    mu = 0.048 * lubricant * law
+    at_slow = mu * math.exp(0.2 * math.log(rolling / slow))
+    bound, by_slow = soft_most(at_slow, boundary, BEND * boundary)
+    found, by_law = soft_least(mu, bound, BEND * bound)
+    by_bound = (found - by_law * mu) / bound * by_slow * at_slow
+    return found, by_law * mu + by_bound, by_law * mu
 
 
 @kernel

@@ -71,9 +71,10 @@ def follow_friction(
     par: Array, field: Array, film: float, bulk: float, load: float, speed: float
 ) -> float:
     """Return the change of the coefficient of friction; all changes given are relative."""
-    iso = par[L.P_FRICTION_LAW] == L.ISO
-    follows = 0.2 * (load - speed) - 0.05 * bulk if iso else film
-    return field[L.F_FRICTION_SLOPE] * follows
+    if par[L.P_FRICTION_LAW] == L.LI_SEIREG:
+        return field[L.F_FRICTION_SLOPE] * film
+    held = field[L.F_FRICTION_SLOPE] * (0.2 * load - 0.05 * bulk)
+    return held - field[L.F_SPEED_SLOPE] * 0.2 * speed
 
 
 @kernel
@@ -86,14 +87,17 @@ def flash_change(
     torque_change: float,
     friction: float,
 ) -> float:
-    """Return the change of the flash rise [K]: friction x rubbing load x speed^(1/2) b^(-1/2)."""
+    """Return the change of the flash rise [K]: friction x rubbing load x speed^(1/2) b^(-1/2).
+
+    ``load``, ``speed``, ``friction``: relative changes.
+    """
     rise = field[L.F_FLASH]
     line, width = torque * par[L.D_LINE], 2.0 * LEAST_LINE_LOAD
     rubbing = soft_size(line, width)
-    if not (rubbing > 0.0 and field[L.F_FRICTION] > 0.0):
+    if not rubbing > 0.0:
         return 0.0
     grows = soft_size_slope(line, width) * par[L.D_LINE] * torque_change / rubbing
-    return rise * (friction / field[L.F_FRICTION] + grows + 0.5 * speed - 0.25 * load)
+    return rise * (friction + grows + 0.5 * speed - 0.25 * load)
 
 
 @kernel
@@ -167,7 +171,8 @@ def fill_changes(
     """Fill the changes of all outputs but loss torque and power."""
     film, bulk, surface, hottest = film_changes(par, field, oil, turning, load, speed, change)
     friction = follow_friction(par, field, film, bulk, load, speed)
-    flash = flash_change(par, field, torque, load, speed, torque_change, friction)
+    part = friction / field[L.F_FRICTION] if field[L.F_FRICTION] > 0.0 else 0.0
+    flash = flash_change(par, field, torque, load, speed, torque_change, part)
     asperity_changes(par, field, change, film, surface, hottest, flash, friction, load, dout)
 
 

@@ -31,14 +31,20 @@ def flash_rise(heat: float, width: float, speed: float, effusivity: float) -> fl
 
 @kernel
 def blok_rise(
-    friction: float, line_load: float, v1: float, v2: float, width: float, effusivity: float
+    friction: float,
+    line_load: float,
+    v1: float,
+    v2: float,
+    width: float,
+    effusivity: float,
+    effusivity_2: float,
 ) -> float:
     """Return Blok's flash temperature [K]: both flanks equally hot, elliptic heat.
 
-    0.786 f w |V1 - V2|/(B (sqrt V1 + sqrt V2) sqrt(b/2)), ``width`` b [m] in full.
+    0.786 f w |V1 - V2|/((B1 sqrt V1 + B2 sqrt V2) sqrt(b/2)), ``width`` b [m] in full.
     """
-    speeds = abs(v1 - v2) / (math.sqrt(v1) + math.sqrt(v2))
-    return ELLIPTIC * friction * line_load * speeds / (effusivity * math.sqrt(0.5 * width))
+    takes = effusivity * math.sqrt(v1) + effusivity_2 * math.sqrt(v2)
+    return ELLIPTIC * friction * line_load * abs(v1 - v2) / (takes * math.sqrt(0.5 * width))
 
 
 @kernel

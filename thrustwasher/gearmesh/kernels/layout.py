@@ -80,9 +80,20 @@
     P_TIP_RELIEF_GEAR,
     P_TIP_RELIEF_LENGTH_PINION,
     P_TIP_RELIEF_LENGTH_GEAR,
+    P_BASE_OIL,
+    P_FRICTION_SCALE,
+    P_BOUNDARY_FRICTION,
+    P_MATERIAL_GEAR,
+    P_YOUNGS_MODULUS_GEAR,
+    P_POISSON_RATIO_GEAR,
+    P_CONDUCTIVITY_GEAR,
+    P_HEAT_CAPACITY_GEAR,
+    P_DENSITY_GEAR,
+    P_CONTACT_LIMIT_GEAR,
+    P_ROOT_LIMIT_GEAR,
     P_FIDELITY,
     N_PARAM,
-) = range(80)
+) = range(91)
 # Constants that derive() adds: geometry per unit of speed and torque, surface, material; then what
 # a mesh heated by its loss needs: section, loads per torque, limits, body, extremes of the path.
 (
@@ -123,21 +134,38 @@
     D_BULK_CAPACITY,
     D_HOTTEST,
     D_FLASH_MOST,
-    D_FILM_LEAST,
     D_PRESSURE_MOST,
     D_ROOT_PINION,
     D_ROOT_GEAR,
     D_ROOT_USED,
+    D_FACTOR,
+    D_HELICAL,
+    D_FLASH_FACTOR,
+    D_LIMIT_GEAR,
+    D_PITTING_USED,
+    D_MODULUS_GEAR,
+    D_POISSON_GEAR,
+    D_EFFUSIVITY_GEAR,
+    D_CAPACITY_GEAR,
+    D_LOSS_SPUR,
+    D_GF_FRICTION,
+    D_GF_RISE,
+    D_BUTTRESS,
+    D_GF_PLACES,
     D_PLACES,
-) = range(N_PARAM, N_PARAM + 43)
+) = range(N_PARAM, N_PARAM + 56)
 # The line of action: positions from the pitch point in base pitches, shares of the load that the
 # pair there bears, shares of the loss; D_PLACES is the number of positions. Where the loss heats,
-# also lengths and, per root of load and speed, flash of a friction of 1, film, mean pressure.
+# also lengths and, per root of load and speed, flash of a friction of 1, film, mean pressure; then
+# of the D_GF_PLACES positions that may have the thinnest film against micropitting their numbers,
+# logarithms of the film, flash of a friction of 1.
 N_PATH = 160
 D_POSITION = D_PLACES + 1
-D_PATH_SHARE, D_PATH_LOSS, D_PATH_LENGTH, D_PATH_FLASH, D_PATH_FILM, D_PATH_PRESSURE, NPAR = (
+D_PATH_SHARE, D_PATH_LOSS, D_PATH_LENGTH, D_PATH_FLASH, D_PATH_FILM, D_PATH_PRESSURE, D_GF = (
     D_POSITION + i * N_PATH for i in range(1, 8)
 )
+N_GF = 24
+D_GF_FILM, D_GF_FLASH, NPAR = (D_GF + i * N_GF for i in range(1, 4))
 I_LOAD, I_SPEED, I_OIL, NINP = range(4)
 # Memory: whether a step was made, temperature of the bodies [K]; heat stored since then and gone
 # into the oil [J].
@@ -178,6 +206,7 @@ S_STARTED, S_BULK, S_STORED, S_OIL_ENERGY, NSTATE = range(5)
     F_OIL_ENERGY,
     F_ROOT_STRESS,
     F_ROOT_SAFETY,
+    F_SCUFFING_FRICTION,
     F_LINE_LOAD,
     F_WIDTH,
     F_PRESSURE,
@@ -195,20 +224,25 @@ S_STARTED, S_BULK, S_STORED, S_OIL_ENERGY, NSTATE = range(5)
     F_FREE_AREA,
     F_FREE_AREA_SLOPE,
     F_SMOOTH_SIGN,
+    F_SPEED_SLOPE,
+    F_SCUFFING_SLOPE,
+    F_GF_PLACE,
+    F_GF_RISE,
+    F_GF_FLASH,
     N_FIELD,
-) = range(52)
+) = range(58)
 # Behind them, for the rung `fine` of the paper's heat: the hottest position's own numbers, those of
 # the position at hand, the constants there; then, for both heats, the number of the hottest.
 W_HOTTEST, W_HERE, W_LOCAL, W_PLACE = N_FIELD, 2 * N_FIELD, 3 * N_FIELD, 3 * N_FIELD + D_POSITION
 # Where the loss heats: how the step began (HELD and so on), the bodies over the oil then [K],
-# duration [s]; friction of every position, in mixed friction that of the film and contact's share.
+# duration [s]; friction of every position, in mixed friction the contact's share.
 W_BEGAN, W_FROM, W_DURATION, W_FRICTION = range(W_PLACE + 1, W_PLACE + 5)
-W_SHEARED, W_CONTACT, W_PAR = (W_FRICTION + i * N_PATH for i in range(1, 4))
+W_CONTACT, W_PAR = W_FRICTION + N_PATH, W_FRICTION + 2 * N_PATH
 # Where stiffness shares the load: all constants with the shares at the load at hand; scratch for
 # solving the point again with others.
 W_AGAIN = W_PAR + NPAR
 NWORK = W_AGAIN + W_PAR + NSTATE
-NOUT = 34
+NOUT = 35
 IO_REGIME, IO_STATUS, NIOUT = range(3)
 
 FILM, MIXED, BOUNDARY = range(1, 4)  # regimes
@@ -217,7 +251,7 @@ NO_LIMIT, NO_DATA = 1000.0, -1.0
 # Numbers of the enumerations.
 FIELD, FINE = 3, 4  # fidelity; 1 and 2 were simpler and run as FIELD
 ROUGH = 1  # surface
-LI_SEIREG, ISO, MIXED_FRICTION = 1, 2, 4  # friction_law, 3 is constant
+LI_SEIREG, ISO, CONSTANT, MIXED_FRICTION, SCHLENK = range(1, 6)  # friction_law
 LOSS = 1  # film_heat, 2 is the paper's
 QUASI_STEADY = 1  # thermal_mode, 2 is transient
 STEADY_START = 1  # thermal_start, 2 is the oil's temperature
@@ -226,6 +260,8 @@ AISI4340, AISI1020, CASE_HARDENED = 1, 2, 3  # steel
 AT_SURFACE = 1  # viscosity_at and film_viscosity, 2 is the inlet
 CONSTANT_SHARE = 1  # heat_partition, 2 follows the speeds
 ELASTIC = 2  # load_sharing, 1 is rigid
+MINERAL, PAO, ESTER, POLYGLYCOL = range(1, 5)  # base_oil
+AS_PINION = 1  # material_gear; 2 to 4 are nodular iron, grey iron, bronze
 AMBIENT = 1  # traction_law, 2 is limited
 BOUNDED, FREE = 1, 2  # area_law, 3 is constant
 SMOOTH, SHARP = 1, 2  # switch, 3 is none

@@ -53,6 +53,7 @@ def solve_mesh(par: Array, torque: float, speed: float, oil: float, work: Array)
             copy(here, hottest)
     copy(hottest, work[: L.N_FIELD])
     work[L.F_FRICTION], work[L.F_ITERATIONS] = friction, iterations
+    work[L.F_SCUFFING_FRICTION] = friction
     work[L.F_STATUS] = float(worst)
     return worst
 

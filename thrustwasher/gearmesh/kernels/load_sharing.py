@@ -22,6 +22,7 @@ from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import floored
 from . import layout as L
 from .mesh_point import LEAST_LINE_LOAD
+from .micropitting import thinnest_films
 from .path_of_contact import (
     N_NODES,
     NODES,
@@ -74,9 +75,11 @@ def single_stiffness(par: Array) -> float:
     q = 0.04723 + 0.15551 * one + 0.25791 * two
     q -= 0.00635 * x1 + 0.11654 * x1 * one + 0.00193 * x2 + 0.24188 * x2 * two
     q += 0.00529 * x1 * x1 + 0.00182 * x2 * x2
+    first, second = par[L.P_YOUNGS_MODULUS], par[L.D_MODULUS_GEAR]
+    mean_modulus = 2.0 * first * second / (first + second)
     rack = 1.0 + 0.5 * (1.2 - par[L.P_TOOL_ADDENDUM])
     rack *= 1.0 - 0.02 * (20.0 - math.degrees(par[L.P_PRESSURE_ANGLE]))
-    return 1e9 * CORRECTION * rack * slant / q * par[L.P_YOUNGS_MODULUS] / STEEL
+    return 1e9 * CORRECTION * rack * slant / q * mean_modulus / STEEL
 
 
 @kernel
@@ -330,6 +333,7 @@ def shared_at(par: Array, line: float, work: Array) -> Array:
     copy(par, here)
     share_load(here, line)
     derive_path(here)
+    thinnest_films(here)
     return here
 
 

@@ -12,7 +12,6 @@ from ...tribology.lumped_body import rise_after, rise_changes
 from . import layout as L
 from .contact import hertz_width
 from .directional_derivative import asperity_changes, flash_change
-from .flank_temperature import LOWEST_OIL
 from .mesh_point import (
     HOT_FILM,
     LEAST_LINE_LOAD,
@@ -20,20 +19,15 @@ from .mesh_point import (
     contact_weight,
     outside,
     stress_asperities,
+    thinning,
     viscosity_at,
     viscosity_follows,
 )
+from .micropitting import fill_micropitting, micropitting_change
 from .path_friction import fill_friction, film_scale, friction_changes, is_uniform
 from .path_of_contact import flanks_at
 
 HALVINGS = 52
-
-
-@kernel
-def thinning(par: Array, temperature: float) -> float:
-    """Return the relative slope [1/K] of the viscosity."""
-    warmth = temperature - 273.15 + par[L.P_VISCOSITY_C]
-    return -par[L.P_VISCOSITY_B] / (warmth * warmth) if temperature >= LOWEST_OIL else 0.0
 
 
 @kernel
@@ -113,6 +107,7 @@ def heat_of_loss(
     work[L.F_STORED] = state[L.S_STORED] + (power - to_oil) * dt
     work[L.F_BULK_VISCOSITY], work[L.F_VISCOSITY] = thin, viscosity
     _fill_hottest(par, torque, line, turning, work)
+    fill_micropitting(par, line, turning, oil, thin, work)
     status = OK
     if work[L.F_FILM_TEMPERATURE] > HOT_FILM:
         status = HOT
@@ -142,7 +137,7 @@ def _sheared_rise(par: Array, flank: float, sliding: float) -> tuple[float, floa
 @kernel
 def _fill_hottest(par: Array, torque: float, line: float, turning: float, work: Array) -> None:
     """Fill contact, film, temperatures and stresses of the hottest position, path's extremes."""
-    place, factor = int(work[L.W_PLACE]), par[L.P_LOAD_FACTOR]
+    place, factor = int(work[L.W_PLACE]), par[L.D_FACTOR]
     radius, v1, v2 = flanks_at(par, par[np.uintp(L.D_POSITION + place)])
     v1, v2 = v1 * turning, v2 * turning
     borne = factor * par[np.uintp(L.D_PATH_SHARE + place)]
@@ -152,12 +147,11 @@ def _fill_hottest(par: Array, torque: float, line: float, turning: float, work: 
     scale = film_scale(line, turning, work[L.F_VISCOSITY])
     film = par[np.uintp(L.D_PATH_FILM + place)] * scale
     work[L.F_FILM], work[L.F_RATIO] = film, film / par[L.D_SIGMA]
-    work[L.F_FILM_GF] = par[L.D_FILM_LEAST] * scale / par[L.D_MEAN]
     work[L.F_PRESSURE_MAX] = 4.0 / math.pi * par[L.D_PRESSURE_MOST] * math.sqrt(factor * line)
     work[L.F_STRESS], work[L.F_SLIDING] = work[L.F_PRESSURE_MAX], abs(v1 - v2)
-    rubbing, friction = soft_size(torque * par[L.D_LINE], 2.0 * LEAST_LINE_LOAD), work[L.F_FRICTION]
-    quarter = math.sqrt(math.sqrt(line))
-    flash = friction * par[np.uintp(L.D_PATH_FLASH + place)] * factor / math.sqrt(math.sqrt(factor))
+    rubbing = soft_size(torque * par[L.D_LINE], 2.0 * LEAST_LINE_LOAD)
+    friction, quarter = work[L.F_SCUFFING_FRICTION], math.sqrt(math.sqrt(line))
+    flash = friction * par[np.uintp(L.D_PATH_FLASH + place)] * par[L.D_FLASH_FACTOR]
     flash *= rubbing / quarter * math.sqrt(turning)
     work[L.F_FLASH] = work[L.F_FLASH_MAX] = flash
     work[L.F_SURFACE] = work[L.F_BULK] + flash
@@ -200,8 +194,10 @@ def loss_changes(
     mean, thin = work[L.F_MEAN_FRICTION], thinning(par, oil) * warmer
     steep = thinning(par, oil + above) if follows else 0.0
     held = 0.0 if follows else thin  # change of the film's viscosity with the body's held
-    dmean, hottest = friction_changes(par, line, turning, load, faster, thin, viscosity, held, work)
-    by_body, hot_by_body = friction_changes(
+    dmean, hottest, scuffs = friction_changes(
+        par, line, turning, load, faster, thin, viscosity, held, work
+    )
+    by_body, hot_by_body, scuffs_by_body = friction_changes(
         par, line, turning, 0.0, 0.0, 0.0, viscosity, steep, work
     )
     dabove = -warmer if work[L.W_BEGAN] == L.HELD else 0.0
@@ -211,6 +207,7 @@ def loss_changes(
     dbody = warmer + dabove
     dmean += by_body * dbody
     hottest += hot_by_body * dbody
+    scuffs += scuffs_by_body * dbody
     power, dpower = rate * mean, more * mean + rate * dmean
     dafter, dheat = rise_changes(
         par[L.D_BULK_CAPACITY], above, power, cooling, dt, (dabove, dpower, cooler)
@@ -219,12 +216,15 @@ def loss_changes(
     dout[L.F_MEAN_FRICTION], dout[L.F_FRICTION], dout[L.F_BULK] = dmean, hottest, dafter
     dout[L.F_OIL_HEAT], dout[L.F_STORED] = dheat, 0.0
     film = 0.7 * (held + steep * dbody + faster) - 0.13 * load
-    flash = flash_change(par, work, torque, load, faster, seed[L.I_LOAD], hottest)
+    part = scuffs / work[L.F_SCUFFING_FRICTION] if work[L.F_SCUFFING_FRICTION] > 0.0 else 0.0
+    flash = flash_change(par, work, torque, load, faster, seed[L.I_LOAD], part)
     dout[L.F_FLASH] = dout[L.F_FLASH_MAX] = flash
-    dout[L.F_FILM_GF] = work[L.F_FILM_GF] * film
+    dout[L.F_SCUFFING_FRICTION] = scuffs
+    change = (load, faster, warmer, thin)
+    dout[L.F_FILM_GF] = micropitting_change(par, turning, oil, change, work)
     dout[L.F_PRESSURE_MAX] = 0.5 * work[L.F_PRESSURE_MAX] * load
     surface = dafter + flash
-    hotter = surface + _film_change(par, work, torque, film, surface, faster, seed, hottest)
+    hotter = surface + _film_change(par, work, torque, film, surface, faster, seed, part)
     asperity_changes(par, work, dafter, film, surface, hotter, flash, hottest, load, dout)
 
 
@@ -239,7 +239,7 @@ def _film_change(
     seed: Array,
     friction: float,
 ) -> float:
-    """Return the change of the film's rise over the flank [K]."""
+    """Return the change of the film's rise over the flank [K]; ``friction``: relative change."""
     line, corner = torque * par[L.D_LINE], 2.0 * LEAST_LINE_LOAD
     rubbing, rise = soft_size(line, corner), work[L.F_FILM_RISE]
     if not rise > 0.0:
@@ -247,5 +247,5 @@ def _film_change(
     grows = soft_size_slope(line, corner) * par[L.D_LINE] * seed[L.I_LOAD] / rubbing
     sheared, warmer, faster = _sheared_rise(par, work[L.F_SURFACE], work[L.F_SLIDING])
     part = rise / sheared  # that of the carried heat; the rest is the shear's
-    carried = friction / work[L.F_FRICTION] + grows - film
+    carried = friction + grows - film
     return part * part * (warmer * surface + faster * speed) + (1.0 - part) * rise * carried

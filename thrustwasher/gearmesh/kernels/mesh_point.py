@@ -16,6 +16,7 @@ from ...tribology.greenwood_williamson import LARGEST_RATIO, area_and_slope, bou
 from . import contact
 from . import flank_temperature as flank
 from . import layout as L
+from .path_of_contact import LOSS_LUBRICANT, SCUFFING_LUBRICANT
 
 LEAST_LINE_LOAD = 1.0  # N/m
 LEAST_SPEED = 1e-3  # rad/s
@@ -32,20 +33,29 @@ HOTTEST_ASPERITY = 1000.0  # K; steel has softened
 @kernel
 def friction_coefficient(
     par: Array, film: float, line_load: float, speed: float, viscosity: float
-) -> tuple[float, float]:
+) -> tuple[float, float, float]:
     """Return the coefficient of friction [-]; ``speed`` of the pinion [rad/s] above 0.
 
-    The second number is its slope over the logarithm of what it follows: the film with Li &
-    Seireg's law, ISO's unbounded value with that of ISO.
+    The other numbers are slopes: over the logarithm of the film with Li & Seireg's law; of a mean
+    coefficient over that of its law at a speed that is held, and over the speed's part of it.
     """
-    if par[L.P_FRICTION_LAW] == L.LI_SEIREG:
-        return contact.li_seireg(film, par[L.D_RADIUS], par[L.P_F0], par[L.D_ROUGHNESS])
-    if par[L.P_FRICTION_LAW] == L.ISO:
-        rolling, radius = par[L.D_ROLLING] * speed, par[L.D_PITCH_RADIUS]
-        return contact.iso_and_slope(
-            line_load, rolling, radius, viscosity, par[L.D_MEAN], par[L.P_F0]
-        )
-    return par[L.P_CONSTANT_FRICTION], 0.0
+    law, scale = par[L.P_FRICTION_LAW], par[L.P_FRICTION_SCALE]
+    if law == L.LI_SEIREG:
+        mu, slope = contact.li_seireg(film, par[L.D_RADIUS], par[L.P_F0], par[L.D_ROUGHNESS])
+        return mu, slope, 0.0
+    if law == L.CONSTANT:
+        return par[L.P_CONSTANT_FRICTION], 0.0, 0.0
+    rolling, kind = par[L.D_ROLLING] * speed, int(par[L.P_BASE_OIL]) - 1
+    found = contact.common_law(line_load, rolling, par[L.D_PITCH_RADIUS], viscosity, par[L.D_MEAN])
+    if law == L.ISO:
+        mu, slope = contact.iso_and_slope(found, SCUFFING_LUBRICANT[kind], par[L.P_F0])
+        return scale * mu, scale * slope, scale * slope
+    slow = 2.0 * math.sin(par[L.D_ANGLE]) * contact.BOUNDARY_SPEED
+    boundary = par[L.P_BOUNDARY_FRICTION]
+    mu, held, moved = contact.schlenk_and_slopes(
+        found, rolling, slow, LOSS_LUBRICANT[kind], boundary
+    )
+    return scale * mu, scale * held, scale * moved
 
 
 @kernel
@@ -75,6 +85,13 @@ def viscosity_at(par: Array, temperature: float) -> float:
     """Return the viscosity of the oil [Pa s] at a temperature [K]."""
     scale, b, c = par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
     return flank.oil_viscosity(temperature, scale, b, c)
+
+
+@kernel
+def thinning(par: Array, temperature: float) -> float:
+    """Return the relative slope [1/K] of the viscosity."""
+    warmth = temperature - 273.15 + par[L.P_VISCOSITY_C]
+    return -par[L.P_VISCOSITY_B] / (warmth * warmth) if temperature >= flank.LOWEST_OIL else 0.0
 
 
 @kernel
@@ -213,10 +230,11 @@ def mesh_point(par: Array, torque: float, speed: float, oil: float, field: Array
     field[L.F_STRESS] = contact.surface_stress(line_load, par[L.D_RADIUS], par[L.P_YOUNGS_MODULUS])
     field[L.F_SLIDING] = par[L.D_SLIDING] * turning
     status, iterations = heat_film(par, oil, turning, field)
-    friction, slope = friction_coefficient(
+    friction, slope, by_speed = friction_coefficient(
         par, field[L.F_FILM], line_load, turning, field[L.F_BULK_VISCOSITY]
     )
-    field[L.F_FRICTION_SLOPE] = slope
+    field[L.F_FRICTION_SLOPE], field[L.F_SPEED_SLOPE] = slope, by_speed
+    field[L.F_SCUFFING_FRICTION] = friction
     rubbing = soft_size(torque * par[L.D_LINE], 2.0 * LEAST_LINE_LOAD)  # no load, no heat
     heat = par[L.D_SHARE] * friction * rubbing * field[L.F_SLIDING]
     rise = flank.flash_rise(heat, width, par[L.D_V1] * turning, par[L.D_EFFUSIVITY])

@@ -11,8 +11,8 @@ from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import floored, floored_slope, soft_most
 from . import layout as L
 from .line_of_action import mesh_changes, solve_mesh
-from .loss_heat import heat_of_loss, loss_changes, thinning
-from .mesh_point import LEAST_LINE_LOAD
+from .loss_heat import heat_of_loss, loss_changes
+from .mesh_point import LEAST_LINE_LOAD, thinning
 
 LEAST_RISE = 1.0  # K of the contact over the oil that the safety against scuffing counts at least
 
@@ -28,7 +28,7 @@ def fill_safety(par: Array, torque: float, oil: float, field: Array) -> None:
     """Fill pitting stress and all safety factors from bulk, flash, film and the oil's viscosity."""
     line = floored(torque * par[L.D_LOAD], LEAST_LINE_LOAD)
     field[L.F_PITTING_STRESS] = par[L.D_PITTING] * math.sqrt(line)
-    field[L.F_PITTING_SAFETY] = par[L.D_LIMIT] / field[L.F_PITTING_STRESS]
+    field[L.F_PITTING_SAFETY] = 1.0 / (par[L.D_PITTING_USED] * math.sqrt(line))
     limit = scuffing_temperature(par, field[L.F_BULK_VISCOSITY])
     rise = field[L.F_BULK] + field[L.F_FLASH_MAX] - oil
     counted, _ = soft_most(rise, LEAST_RISE, 0.5 * LEAST_RISE)
@@ -105,6 +105,7 @@ def solve_point(
         work[L.F_STORED] = 0.0
         work[L.F_PRESSURE_MAX] = 4.0 / math.pi * work[L.F_PRESSURE]
         work[L.F_FILM_GF] = work[L.F_FILM] / par[L.D_MEAN]
+        work[L.F_GF_PLACE] = -1.0
     fill_safety(par, torque, oil, work)
     return status
 
@@ -135,5 +136,6 @@ def point_changes(
         stress = dout[L.F_STRESS] / work[L.F_STRESS]
         dout[L.F_PRESSURE_MAX] = work[L.F_PRESSURE_MAX] * stress
         dout[L.F_FILM_GF] = dout[L.F_FILM] / par[L.D_MEAN]
+        dout[L.F_SCUFFING_FRICTION] = dout[L.F_FRICTION]
     change = (seed[L.I_LOAD], seed[L.I_OIL], thinning(par, oil) * seed[L.I_OIL])
     safety_changes(par, torque, oil, work, change, dout)

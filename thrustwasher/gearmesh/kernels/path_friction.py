@@ -11,8 +11,8 @@ import numpy as np
 from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import floored, floored_slope, soft_least, soft_most
 from . import layout as L
-from .contact import iso_and_slope, li_seireg
-from .path_of_contact import flanks_at
+from .contact import BOUNDARY_SPEED, common_law, iso_and_slope, li_seireg, schlenk_and_slopes
+from .path_of_contact import LOSS_LUBRICANT, SCUFFING_LUBRICANT, flanks_at, loss_over_scuffing
 
 LEAST_ROLLING = 0.1  # m/s, below it the standard's mean friction would grow without bound; estimate
 # Share of the load on asperities exp(-B ratio^C): Zhou & Hoeprich 1991, whose text was not at hand.
@@ -35,14 +35,52 @@ def film_scale(line: float, turning: float, viscosity: float) -> float:
 
 
 @kernel
-def mean_friction(par: Array, line: float, turning: float, oil: float) -> tuple[float, float]:
-    """Return the standard's mean coefficient [-] (or the constant one) and its log slope."""
-    if par[L.P_FRICTION_LAW] == 3.0:
-        return par[L.P_CONSTANT_FRICTION], 0.0
+def _law(par: Array, load: float, rolling: float, oil: float) -> float:
+    """Return what both mean coefficients are proportional to, at a load per width [N/m]."""
+    return common_law(load, rolling, par[L.D_PITCH_RADIUS], oil, par[L.D_MEAN])
+
+
+@kernel
+def mean_friction(
+    par: Array, line: float, turning: float, oil: float
+) -> tuple[float, float, float]:
+    """Return the mean coefficient [-] that the loss feels, and two slopes.
+
+    By Schlenk's law, that against scuffing, or the constant one. The slopes are those over the
+    logarithm of the law at a speed that is held, and over the part of it that the speed makes.
+    """
+    law = par[L.P_FRICTION_LAW]
+    if law == L.CONSTANT:
+        return par[L.P_CONSTANT_FRICTION], 0.0, 0.0
+    scale = par[L.P_FRICTION_SCALE]
+    if law == L.ISO or law == L.LI_SEIREG:
+        mu, slope = scuffing_friction(par, line, turning, oil)
+        return scale * mu, scale * slope, scale * slope
     rolling = floored(par[L.D_ROLLING] * turning, LEAST_ROLLING)
-    unit = line * par[L.D_UNIT_LOAD] / par[L.D_LOAD]
-    radius = par[L.D_PITCH_RADIUS]
-    return iso_and_slope(unit, rolling, radius, oil, par[L.D_MEAN], par[L.P_F0])
+    slow = 2.0 * math.sin(par[L.D_ANGLE]) * BOUNDARY_SPEED
+    lubricant = LOSS_LUBRICANT[int(par[L.P_BASE_OIL]) - 1]
+    mu, by_law, by_speed = schlenk_and_slopes(
+        _law(par, line, rolling, oil), rolling, slow, lubricant, par[L.P_BOUNDARY_FRICTION]
+    )
+    return scale * mu, scale * by_law, scale * by_speed
+
+
+@kernel
+def scuffing_friction(par: Array, line: float, turning: float, oil: float) -> tuple[float, float]:
+    """Return the scuffing standard's mean coefficient [-] and its log slope."""
+    rolling = floored(par[L.D_ROLLING] * turning, LEAST_ROLLING)
+    law = _law(par, line * par[L.D_UNIT_LOAD] / par[L.D_LOAD], rolling, oil)
+    return iso_and_slope(law, SCUFFING_LUBRICANT[int(par[L.P_BASE_OIL]) - 1], par[L.P_F0])
+
+
+@kernel
+def local_over_loss(par: Array) -> float:
+    """Return the friction of the flash over that of the loss [-] where both are local."""
+    if par[L.P_FRICTION_LAW] != L.MIXED_FRICTION:
+        return 1.0
+    kind = int(par[L.P_BASE_OIL]) - 1
+    other = LOSS_LUBRICANT[0] * SCUFFING_LUBRICANT[kind] / LOSS_LUBRICANT[kind]
+    return other / (loss_over_scuffing(par) * par[L.P_FRICTION_SCALE])
 
 
 @kernel
@@ -90,12 +128,18 @@ def fill_friction(
 ) -> float:
     """Fill friction of all positions and the hottest one's place; return the mean for the loss.
 
-    ``oil`` and ``viscosity`` [Pa s] of the oil supplied and in the film; ``line`` [N/m].
+    ``oil`` and ``viscosity`` [Pa s] of the oil supplied and in the film; ``line`` [N/m]. The
+    friction of the flash is that against scuffing, of the law "constant" the constant one; where
+    friction is local its mean is that.
     """
-    mean, work[L.F_FRICTION_SLOPE] = mean_friction(par, line, turning, oil)
+    mean, work[L.F_FRICTION_SLOPE], work[L.F_SPEED_SLOPE] = mean_friction(par, line, turning, oil)
     place = int(par[L.D_HOTTEST])
     work[L.W_PLACE], work[L.F_FRICTION], work[L.F_MEAN_FRICTION] = float(place), mean, mean
     if is_uniform(par):
+        work[L.F_SCUFFING_FRICTION], work[L.F_SCUFFING_SLOPE] = mean, 0.0
+        if par[L.P_FRICTION_LAW] != L.CONSTANT:
+            found, work[L.F_SCUFFING_SLOPE] = scuffing_friction(par, line, turning, oil)
+            work[L.F_SCUFFING_FRICTION] = found
         return mean
     scale = film_scale(line, turning, viscosity)
     if par[L.P_FRICTION_LAW] == L.MIXED_FRICTION:
@@ -114,6 +158,7 @@ def fill_friction(
             hottest, place = flash, k
     work[L.W_PLACE], work[L.F_MEAN_FRICTION] = float(place), mean
     work[L.F_FRICTION] = work[L.W_FRICTION + place]
+    work[L.F_SCUFFING_FRICTION] = local_over_loss(par) * work[L.F_FRICTION]
     return mean
 
 
@@ -136,12 +181,12 @@ def _share_load(
         weight = par[np.uintp(L.D_PATH_LOSS + k)]
         contact += weight * share
         sheared += weight * (1.0 - share) * found
-        work[np.uintp(L.W_CONTACT + k)], work[np.uintp(L.W_SHEARED + k)] = share, found
+        work[np.uintp(L.W_CONTACT + k)], work[np.uintp(L.W_FRICTION + k)] = share, found
     dry, _ = boundary_friction(par, mean - sheared, contact)
     for k in range(int(par[L.D_PLACES])):
         share = work[np.uintp(L.W_CONTACT + k)]
-        friction = share * dry + (1.0 - share) * work[np.uintp(L.W_SHEARED + k)]
-        work[np.uintp(L.W_FRICTION + k)] = friction
+        sheared = work[np.uintp(L.W_FRICTION + k)]
+        work[np.uintp(L.W_FRICTION + k)] = share * dry + (1.0 - share) * sheared
 
 
 @kernel
@@ -155,22 +200,23 @@ def friction_changes(
     viscosity: float,
     thicker: float,
     work: Array,
-) -> tuple[float, float]:
-    """Return the changes of the mean friction and of that at the hottest position.
+) -> tuple[float, float, float]:
+    """Return the changes of the mean friction, of that at the hottest position, of its flash's.
 
     ``load``, ``speed``, ``oil``: relative changes of line load, speed and supplied oil's viscosity;
     ``thicker`` that of the ``viscosity`` in the film.
     """
     rolling = par[L.D_ROLLING] * turning
     faster = floored_slope(rolling, LEAST_ROLLING) * rolling / floored(rolling, LEAST_ROLLING)
-    iso = 0.2 * (load - faster * speed) - 0.05 * oil
-    mean = work[L.F_FRICTION_SLOPE] * iso
+    held, moved = 0.2 * load - 0.05 * oil, -0.2 * faster * speed
+    mean = work[L.F_FRICTION_SLOPE] * held + work[L.F_SPEED_SLOPE] * moved
     if is_uniform(par):
-        return mean, mean
+        return mean, mean, work[L.F_SCUFFING_SLOPE] * (held + moved)
     film = 0.7 * (thicker + speed) - 0.13 * load
     if par[L.P_FRICTION_LAW] == L.MIXED_FRICTION:
         change = (film, thicker + speed - film, 0.5 * load)
-        return _shared_changes(par, line, turning, viscosity, change, mean, work)
+        mean, hottest = _shared_changes(par, line, turning, viscosity, change, mean, work)
+        return mean, hottest, local_over_loss(par) * hottest
     scale, mean, hottest = film_scale(line, turning, viscosity), 0.0, 0.0
     for k in range(int(par[L.D_PLACES])):
         radius, _, _ = flanks_at(par, par[L.D_POSITION + k])
@@ -180,7 +226,7 @@ def friction_changes(
         mean += found * par[L.D_PATH_LOSS + k]
         if k == int(work[L.W_PLACE]):
             hottest = found
-    return mean, hottest
+    return mean, hottest, hottest
 
 
 @kernel
@@ -195,7 +241,7 @@ def _shared_changes(
 ) -> tuple[float, float]:
     """Return the changes of the mixed friction; ``change`` of film, shear rate and pressure."""
     scale, place = film_scale(line, turning, viscosity), int(work[L.W_PLACE])
-    standard, _ = mean_friction(par, line, turning, work[L.F_BULK_VISCOSITY])
+    standard, _, _ = mean_friction(par, line, turning, work[L.F_BULK_VISCOSITY])
     contact, more, sheared, grows, here, there = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for k in range(int(par[L.D_PLACES])):
         film = par[np.uintp(L.D_PATH_FILM + k)] * scale

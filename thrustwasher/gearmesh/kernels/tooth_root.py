@@ -105,8 +105,7 @@ def derive_root(par: Array) -> None:
     tip, tip_gear, module = tips(par)
     helix = min(par[L.P_HELIX_ANGLE], STEEPEST_HELIX)
     slant = 1.0 - min(par[L.D_OVERLAP], 1.0) * helix / (2.0 * math.pi / 3.0)
-    scale = par[L.P_LOAD_FACTOR] * par[L.P_FACE_LOAD_FACTOR] * par[L.P_MESH_LOAD_FACTOR]
-    scale *= slant * math.cos(angle) / module
+    scale = par[L.D_FACTOR] * slant * math.cos(angle) / module
     teeth, contact = par[L.P_PINION_TEETH], par[L.D_CONTACT_RATIO]
     form, correction = root_factors(par, teeth, par[L.P_PROFILE_SHIFT_PINION], tip, contact)
     par[L.D_ROOT_PINION], par[L.D_ROOT_GEAR] = scale * form * correction, 0.0
@@ -117,9 +116,13 @@ def derive_root(par: Array) -> None:
         teeth *= par[L.P_GEAR_RATIO]
         form, correction = root_factors(par, teeth, gear_shift(par), tip_gear, contact)
         par[L.D_ROOT_GEAR] = scale * form * correction
-    worst = max(par[L.D_ROOT_PINION] / par[L.P_REVERSED_BENDING], par[L.D_ROOT_GEAR])
-    if par[L.P_ROOT_LIMIT] > 0.0:
-        par[L.D_ROOT_USED] = worst / (STRESS_CORRECTION * par[L.P_ROOT_LIMIT])
+    limit = par[L.P_ROOT_LIMIT]
+    if limit > 0.0:
+        own = par[L.P_ROOT_LIMIT_GEAR] if par[L.P_ROOT_LIMIT_GEAR] > 0.0 else limit
+        worst = max(
+            par[L.D_ROOT_PINION] / (par[L.P_REVERSED_BENDING] * limit), par[L.D_ROOT_GEAR] / own
+        )
+        par[L.D_ROOT_USED] = worst / STRESS_CORRECTION
 
 
 @kernel

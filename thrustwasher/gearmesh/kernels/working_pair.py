@@ -12,7 +12,7 @@ import math
 from ...numerics.jit import Array, kernel
 from . import layout as L
 
-AGREE = 1e-6  # m between a distance of the axes given and that of two shifts given
+AGREE = 1e-6  # m between a distance of the axes given and that of two shifts, rounding aside
 LEAST_LENGTH = 1e-3  # m of a distance or diameter that is given
 NEWTON = 60  # steps of Newton's method; about 6 are taken
 
@@ -151,6 +151,26 @@ def tip_thickness(par: Array) -> tuple[float, float]:
 
 
 @kernel
+def half_digit(shift: float) -> float:
+    """Return half a unit of the last digit of a profile shift: of three to six decimals, else 0."""
+    if shift == 0.0:
+        return 0.0
+    unit = 1e-3
+    for _ in range(4):
+        if abs(shift / unit - round(shift / unit)) < 1e-6:
+            return 0.5 * unit
+        unit *= 0.1
+    return 0.0
+
+
+@kernel
+def are_pointed(par: Array) -> bool:
+    """Tell if the teeth of a gear end in a point before its tip."""
+    first, second = tip_thickness(par)
+    return not (first > 0.0 and second > 0.0)
+
+
+@kernel
 def pair_rule(par: Array) -> int:
     """Return the number of the first rule of shifts and tips that is broken; 0: none."""
     given = par[L.P_WORKING_CENTRE_DISTANCE]
@@ -169,11 +189,8 @@ def pair_rule(par: Array) -> int:
     if not is_standard(par) and not working_involute(par) > 1e-12:
         return 17
     if given > 0.0:
-        if not (
-            abs(distance_of_shifts(par)[0] - given) <= AGREE and given > centre * math.cos(angle)
-        ):
+        digits = half_digit(par[L.P_PROFILE_SHIFT_PINION]) + half_digit(gear_shift(par))
+        off = abs(distance_of_shifts(par)[0] - given)
+        if not (off <= AGREE + digits * tips(par)[2] and given > centre * math.cos(angle)):
             return 16
-    if is_standard(par):
-        return 0
-    first, second = tip_thickness(par)
-    return 18 if not (first > 0.0 and second > 0.0) else 0
+    return 18 if not is_standard(par) and are_pointed(par) else 0

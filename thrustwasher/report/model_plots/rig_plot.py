@@ -13,8 +13,10 @@ SIGMAS = 1.645  # 5 .. 95 %
 
 @styled
 def rig_figure(found: Any) -> Figure:
-    """Return measured and computed values over the rig's varied input."""
+    """Return measured and computed values over the rig's varied input, or of several results."""
     rig = found.rig
+    if len({*rig.outputs}) > 1:
+        return _of_several(found)
     order = np.argsort(rig.inputs[rig.vary], kind="stable")
     x, unit = rig.inputs[rig.vary][order], _unit(rig)
     figure, (axis, *_) = new_figure(6.4, 4.2)
@@ -42,6 +44,20 @@ def rig_figure(found: Any) -> Figure:
         axis.plot(x[used], rig.measured[order][used], "o", color=ORANGE, label="used for the fit")
     axis.legend()
     label(axis, rig.texts["title"], f"{rig.vary} [{unit}]", f"{rig.output} [{rig.unit}]")
+    return figure
+
+
+def _of_several(found: Any) -> Figure:
+    """Return what was computed over what was measured, a line for each point."""
+    rig, places = found.rig, np.arange(len(found.rig.measured))
+    figure, (axis, *_) = new_figure(6.4, 0.34 * len(places) + 1.4)
+    ratio = found.computed / rig.measured
+    ends = np.abs(np.array([found.low, found.high]) / rig.measured - ratio)
+    axis.errorbar(ratio, places, xerr=ends, fmt="s", color=BLUE, capsize=4)
+    axis.axvline(1.0, color=BLACK)
+    axis.set_yticks(places, rig.outputs)
+    axis.invert_yaxis()
+    label(axis, rig.texts["title"], "computed over measured", "")
     return figure
 
 

@@ -59,6 +59,7 @@ from .sequence import checked_sequence, read_sequence
 LEVELS = (0.05, 0.5, 0.95)  # of the bands in known_bands.toml
 NO_MATTER = ("fidelity", "torque_age")  # parameters of how a run goes
 TEXTS = ("title", "description", "base", "master", "fidelity")
+REVERSED = 0.7  # share of the limit for teeth that bend both ways, as those of a planet
 ONE_OIL = 1.2  # ratio of viscosities up to which parts count as having one oil
 LEAST_TEETH = 5  # of sun and planet: fewer make no gear
 ROLE = ("starts_pressed",)  # what a scene, not a part file, says of a part
@@ -265,8 +266,9 @@ def _parts(
                 gearbox = replace(parts["transmission"].params, ring_mesh="ring_mesh" in table)
                 given = _sump(f"{where} [sump]", given, gearbox, temperature)
             usual: dict[str, Any] = {}
-            if key in MESHES:  # with how many gears a planet meshes, and sun or ring
+            if key in MESHES:  # a planet has two mates, its teeth bend both ways
                 usual = {"mates_pinion": 2, "mates_gear": parts["transmission"].params.planets}
+                usual["reversed_bending"] = REVERSED
             if key == "losses":
                 usual = {"planets": parts["transmission"].params.planets}
             part, lost = _part(f"{where} [{key}]", PARTS[key], given, common, usual)

@@ -1,7 +1,7 @@
 "use strict";
 /* The gear mesh: a point, and what comes with it along the path of contact. */
 
-const MOST_TORQUE = 1e5, MOST_TEETH = 500; // N·m, number: of the pinion
+const MOST_TORQUE = 1e7, MOST_TEETH = 500; // N·m, number: of the pinion
 
 class Model extends PointModel {
   /** As all models; if the pinion has too few teeth (rule 1), return also the least number of them. */
@@ -39,7 +39,7 @@ class Model extends PointModel {
     for (const name of Object.keys(found)) {
       if (name === "micropitting_safety" ? par[L.P_PERMISSIBLE_FILM_RATIO] === 0 : !endures && /^(modification|allowable|stress_util)/.test(name)) found[name] = null;
     }
-    return { code, outputs: found, path: this.path(constants, oil, speed), teeth: this.teeth() };
+    return { code, outputs: found, path: this.path(constants, oil, speed, torque), teeth: this.teeth() };
   }
 
   /** Return the constants with the shares at this torque, which a step leaves; as they are where they are rigid. */
@@ -50,6 +50,14 @@ class Model extends PointModel {
     this.point.given.view.set([torque, speed, oil]);
     kernel.call("step", this.par, this.point.given, this.state, this.work, this.out, this.point.status, 0, 0);
     return this.work.part(L.W_PAR, L.W_PAR + L.NPAR);
+  }
+
+  /** Safety against micropitting at the places of the path. */
+  micropitting(constants, oil, speed, torque) {
+    const { L } = this, par = constants.view, thin = this.work.view[L.F_BULK_VISCOSITY];
+    const line = Math.max(torque * par[L.D_LINE], 1), turning = Math.max(Math.abs(speed), 1e-3);
+    const at = (_, k) => this.kernel.call("film_ratio_at", constants, k, line, turning, oil, thin) / par[L.P_PERMISSIBLE_FILM_RATIO];
+    return Array.from({ length: par[L.D_PLACES] }, at);
   }
 
   /** What the transverse section is drawn from: lengths [m], angles [rad], positions in base pitches. */
@@ -68,7 +76,7 @@ class Model extends PointModel {
   }
 
   /** Flash, film, pressure and friction along the path, in proportion to the hottest position's; shares of the load, sliding. */
-  path(constants, oil, speed) {
+  path(constants, oil, speed, torque) {
     const { L } = this, f = this.work.view, par = constants.view;
     const n = par[L.D_PLACES];
     if (par[L.P_FILM_HEAT] !== L.LOSS || !n) return null;
@@ -91,7 +99,7 @@ class Model extends PointModel {
       bulk: f[L.F_BULK], pressure: along(pressure, most, f[L.F_PRESSURE_MAX]), share: row(L.D_PATH_SHARE),
       // in proportion, so that the least is the mesh's own, which is rounded below a rise of 1 K
       safety: flash.map((v) => (f[L.F_SCUFFING_SAFETY] * counted(f[L.F_BULK] + f[L.F_FLASH_MAX] - oil)) / counted(v + f[L.F_BULK] - oil)),
-      micropitting: par[L.P_PERMISSIBLE_FILM_RATIO] > 0 ? film.map((v) => v / par[L.D_MEAN] / par[L.P_PERMISSIBLE_FILM_RATIO]) : null,
+      micropitting: par[L.P_PERMISSIBLE_FILM_RATIO] > 0 ? this.micropitting(constants, oil, speed, torque) : null,
     };
   }
 }

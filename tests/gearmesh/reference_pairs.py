@@ -1,0 +1,55 @@
+"""Gear pairs of published reports, as parameters and points; docs/accuracy.md names the sources."""
+
+import math
+
+from thrustwasher import GearMeshParams, oil, solve_gearmesh
+
+# Third stage of a 5 MW wind gearbox (Nejad et al. 2016), reports of a commercial gear program.
+STAGE_3 = {
+    "gear_ratio": 95 / 24,
+    "pinion_teeth": 24,
+    "normal_module": 14e-3,
+    "helix_angle": math.radians(10.0),
+    "face_width": 0.36,
+    "profile_shift_pinion": 0.48,
+    "working_centre_distance": 0.861,
+    "profile_shift_gear_from_distance": True,
+    "tip_diameter_pinion": 0.380747,
+    "tip_diameter_gear": 1.395376,
+    "sigma_rms": 0.85e-6,
+    "mean_roughness": 0.6e-6,
+    "youngs_modulus": 206e9,
+    "conductivity": 50.0,
+    "heat_capacity": 485.0,
+    "density": 7830.0,
+    "load_factor": 1.678,
+    "fzg_stage": 14,
+    "pressure_viscosity": 2.162e-8,
+    "permissible_film_ratio": 0.143,
+    "root_limit": 430e6,
+}
+FZG_C = {
+    "gear_ratio": 1.5,
+    "pinion_teeth": 16,
+    "normal_module": 4.5e-3,
+    "face_width": 14e-3,
+    "profile_shift_pinion": 0.1817,
+    "profile_shift_gear": 0.1715,
+    "working_centre_distance": 91.5e-3,
+    "tip_diameter_pinion": 82.46e-3,
+    "tip_diameter_gear": 118.36e-3,
+    "youngs_modulus": 206e9,
+}
+
+
+def stage_3(**changes):
+    """Solve the third stage at 5 MW, 80 degC."""
+    grade = oil("ISO VG 220").parameters_for("gearmesh")
+    params = GearMeshParams(**{**STAGE_3, **grade, **changes})
+    speed = 1165.9 * math.pi / 30.0
+    return solve_gearmesh(params, power=5e6, speed=speed, oil_temperature=353.15)
+
+
+def of_viscosity(eta, celsius):
+    """Return the parameters of an oil that has this viscosity [Pa s] at this temperature."""
+    return {"viscosity_scale": 1e-4, "viscosity_b": math.log(eta / 1e-4) * (celsius + 70.0)}

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import Any
 
+from ..model.holding import coupling_age, coupling_inertia, holding_choice
 from ..model.parameters import check_ranges, check_rules, choice, count, flag, quantity
 from ..model.part_file import preset_params
 from ..model.toml_tables import spec_beside
@@ -528,6 +529,9 @@ class GearMeshParams:
     root_limit_gear: float = quantity(
         0.0, "Pa", 0.0, 3e9, "nominal stress number of the gear's root (0: as root_limit)"
     )
+    holding: str = holding_choice("the mesh")
+    coupling_inertia: float = coupling_inertia()
+    coupling_age: int = coupling_age()
 
     def __post_init__(self) -> None:
         check_ranges(self)

@@ -1,5 +1,7 @@
 """Where each number of the gear mesh lies in its arrays."""
 
+from ...tribology.holding.memory import N_MEMORY
+
 # Parameters, in the order of GearMeshParams.
 (
     P_GEAR_RATIO,
@@ -91,9 +93,12 @@
     P_DENSITY_GEAR,
     P_CONTACT_LIMIT_GEAR,
     P_ROOT_LIMIT_GEAR,
+    P_HOLDING,
+    P_COUPLING_INERTIA,
+    P_COUPLING_AGE,
     P_FIDELITY,
     N_PARAM,
-) = range(91)
+) = range(94)
 # Constants that derive() adds: geometry per unit of speed and torque, surface, material; then what
 # a mesh heated by its loss needs: section, loads per torque, limits, body, extremes of the path.
 (
@@ -168,8 +173,9 @@ N_GF = 24
 D_GF_FILM, D_GF_FLASH, NPAR = (D_GF + i * N_GF for i in range(1, 4))
 I_LOAD, I_SPEED, I_OIL, NINP = range(4)
 # Memory: whether a step was made, temperature of the bodies [K]; heat stored since then and gone
-# into the oil [J].
-S_STARTED, S_BULK, S_STORED, S_OIL_ENERGY, NSTATE = range(5)
+# into the oil [J]; the driveline that the mesh sits in.
+S_STARTED, S_BULK, S_STORED, S_OIL_ENERGY, S_MEMORY = range(5)
+NSTATE = S_MEMORY + N_MEMORY
 # What is known of one operating point; the real outputs come first, in their order.
 (
     F_TORQUE,

@@ -5,7 +5,12 @@ import math
 from ...numerics.arrays import are_finite, clear, copy
 from ...numerics.jit import Array, Ints, kernel
 from ...numerics.smoothing import floored, floored_slope, soft_size, soft_size_slope
-from ...numerics.status import BAD_INPUT, NOT_FINITE, OK
+from ...numerics.status import BAD_INPUT, CHATTER, NOT_FINITE, OK
+from ...tribology.holding import memory as M
+from ...tribology.holding.drag import hold_drag
+from ...tribology.holding.memory import Coupling
+from ...tribology.holding.reversals import chatters
+from ...tribology.holding.torque import knows
 from . import layout as L
 from .constants import broken_rule as broken_rule
 from .constants import derive as derive
@@ -44,6 +49,26 @@ def _solve(
 
 
 @kernel
+def coupling_of(par: Array) -> Coupling:
+    """Return how the mesh holds where its shafts could stand."""
+    width = par[L.P_SPEED_SMOOTHING]
+    return (
+        int(par[L.P_HOLDING]),
+        par[L.P_COUPLING_INERTIA],
+        int(par[L.P_COUPLING_AGE]),
+        width,
+        False,
+    )
+
+
+@kernel
+def capacity_of(work: Array) -> float:
+    """Return the friction torque of sliding teeth [N m >= 0] at this load and speed."""
+    smooth = work[L.F_SMOOTH_SIGN]
+    return abs(work[L.F_TORQUE] / smooth) if smooth != 0.0 else 0.0
+
+
+@kernel
 def step(
     par: Array, inp: Array, state: Array, work: Array, out: Array, iout: Ints, t: float, dt: float
 ) -> int:
@@ -62,6 +87,14 @@ def step(
     copy(work, out)
     if not are_finite(out):
         status = NOT_FINITE
+    mem = state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY]
+    if status < 10:
+        given, _, _ = hold_drag(
+            coupling_of(par), mem, speed, dt, work[L.F_TORQUE], capacity_of(work)
+        )
+        out[L.F_TORQUE], out[L.F_POWER] = given, given * speed
+        if chatters(mem):
+            status = CHATTER
     if dt > 0.0 and status < 10:
         state[L.S_STARTED] = 1.0
         state[L.S_BULK], state[L.S_STORED] = work[L.F_BULK], work[L.F_STORED]
@@ -85,6 +118,12 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
             _add_sharing(par, torque, speed, oil, work, seed[L.I_LOAD], dout)
     else:
         _changes(par, torque, speed, oil, work, seed, dout)
+    mem, own = state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY], work[L.F_TORQUE]
+    if knows(coupling_of(par), mem, mem[M.STEP]) and speed != mem[M.SLIP]:
+        given, holds, slope = hold_drag(coupling_of(par), mem, speed, 0.0, own, capacity_of(work))
+        if holds:
+            dout[L.F_TORQUE] = slope * seed[L.I_SPEED]
+            dout[L.F_POWER] = dout[L.F_TORQUE] * speed + given * seed[L.I_SPEED]
     return OK if are_finite(dout) else NOT_FINITE
 
 

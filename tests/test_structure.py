@@ -19,7 +19,7 @@ sys.path.insert(0, str(ROOT / "benchmarks"))
 import structure
 
 # All counts of lines are of files as ``ruff format`` leaves them with every "fmt: skip" ignored.
-SOURCE_LINES = 75_200  # of the package and fmu_src, all languages
+SOURCE_LINES = 75_300  # of the package and fmu_src, all languages
 TEST_LINES = 40_000
 FILE_LINES, FUNCTION_LINES, FOLDER_FILES = 600, 110, 20
 FORMAT_MARKS = {"sources": 40, "tests": 40}  # tables of numbers

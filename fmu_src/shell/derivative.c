@@ -117,7 +117,7 @@ static int place_in_seed(const Variable *v) {
     int place = NINP;
     if (NSEED == NINP || !v->tunable) return -1;
     for (const Variable *before = VARIABLES; before < v; before++) place += before->tunable;
-    return place;
+    return place < NSEED ? place : -1;
 }
 
 /* Tell if a rule lets a parameter move at all. */

@@ -25,9 +25,12 @@ class Clutch(Model):
         "Into a ShiftTransmission: wire torque_capacity to it with coupling = capacity, there "
         "stick and slip are decided inside the step and no step limit comes from friction; or "
         "friction_torque with coupling = torque.",
-        "In another driveline wire friction_torque. Near zero slip it rises from -capacity to "
-        "+capacity over speed_smoothing, the stiffest spring of the system: the limit below "
-        "holds, a larger speed_smoothing relaxes it in proportion.",
+        "In another driveline wire friction_torque between its two shafts: with holding = "
+        "identified (the default) the pack finds the inertia that its slip sees and the delay of "
+        "its torque, locks, holds and breaks away, at the host's step. With holding = off the "
+        "torque rises near zero slip from -capacity to +capacity over speed_smoothing, the "
+        "stiffest spring of the system: then the limit below holds, a larger speed_smoothing "
+        "relaxes it in proportion.",
         "Give the slip its sign; the torque has the same sign and acts against the slip.",
     )
     command = Command(

@@ -344,7 +344,7 @@ def draw(swept: dict[str, Results], folder: Path) -> None:
     import matplotlib
 
     matplotlib.use("Agg")
-    matplotlib.rcParams |= {"svg.hashsalt": "holding", "font.size": 9}
+    matplotlib.rcParams |= {"svg.hashsalt": "holding", "svg.fonttype": "none", "font.size": 9}
     from matplotlib import pyplot as plt
 
     figure, axes = plt.subplots(3, 3, figsize=(10.5, 9.5), sharey=True, sharex="row")
@@ -369,7 +369,7 @@ def draw(swept: dict[str, Results], folder: Path) -> None:
     handles, labels = axes[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper center", ncols=4, frameon=False)
     figure.tight_layout(rect=(0.0, 0.0, 1.0, 0.94))
-    figure.savefig(folder / "holding-methods.svg")
+    figure.savefig(folder / "holding-methods.svg", metadata={"Date": None})
 
 
 def percent(shares: Shares) -> str:

@@ -7,11 +7,11 @@ from operator import attrgetter
 from typing import Any
 
 from ..errors import ParameterError
-from ..model.holding import coupling_age, coupling_inertia, holding_choice
 from ..model.parameters import check_ranges, check_rules, choice, count, flag, quantity
 from ..model.part_file import preset_params
 from ..model.spec import Rule
 from ..model.toml_tables import spec_beside
+from ..tribology.holding.parameters import coupling_age, coupling_inertia, holding_choice
 
 FRICTION_LAWS = {
     "wang": "boundary friction of Wang, Wei & Wu (2012), Eq 12, with the shear ratio's speed law",

@@ -5,10 +5,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import Any
 
-from ..model.holding import coupling_age, coupling_inertia, holding_choice
 from ..model.parameters import check_ranges, check_rules, choice, count, flag, quantity
 from ..model.part_file import preset_params
 from ..model.toml_tables import spec_beside
+from ..tribology.holding.parameters import coupling_age, coupling_inertia, holding_choice
 from .pair_rules import RULES
 from .parameter_array import as_array
 

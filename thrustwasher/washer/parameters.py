@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..errors import ParameterError
-from ..model.holding import coupling_age, coupling_inertia, holding_choice
 from ..model.parameters import (
     check_number,
     check_ranges,
@@ -18,6 +17,7 @@ from ..model.parameters import (
 from ..model.part_file import preset_params
 from ..model.spec import Rule
 from ..model.toml_tables import spec_beside
+from ..tribology.holding.parameters import coupling_age, coupling_inertia, holding_choice
 
 LEAST_ROUGHNESS = 1.5e-7  # [m] smoother ones make the tilted gap hundreds of sigma: not solved
 FRICTION_LAWS = {

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from .parameters import choice, count, quantity
+from ...model.parameters import choice, count, quantity
 
 HOLDING = {
     "identified": "finds inertia and delay of the driveline from what its torque does, then holds",

@@ -11,7 +11,7 @@ capacity and of the first slip. The plants over the host step are the same at al
 slip lasts 0.12 to 0.6 s. Gains of BoundedGain are the best of 144 sets over the first 30 plants,
 noise and walk of KalmanBank the best of 5 over the first 45, so both were seen before they are
 judged here. Shafts and hand-over take three tenths of the plants. Operations are counted, not
-timed. 200 plants take about 16 minutes of processor time.
+timed. 200 plants take about 10 minutes of processor time.
 """
 
 import argparse

@@ -27,10 +27,11 @@ PINNED = {  # value; relative tolerance
     "ex13_engine_and_vehicle_ssp": (0.88947, 2e-4),  # s
     "ex14_jackson_green": (0.15514, 1e-3),  # share of the film's heat that the solids take
     "ex15_design": (0.256891, 1e-4),  # N m, at the film ratio of the limit
+    "ex16_own_driveline": (91.724138, 1e-6),  # N m, the torque of rigid shafts
 }
 IN_SHORT = {"ex14_jackson_green": {"most": 1}}  # CI runs every example as it stands
 OWN_FMUS = ("ex12_engine_and_vehicle", "ex13_engine_and_vehicle_ssp")
-NATIVE = ("ex08_native_washer", "ex09_package", *OWN_FMUS)
+NATIVE = ("ex08_native_washer", "ex09_package", "ex16_own_driveline", *OWN_FMUS)
 
 
 def load(name):

@@ -11,9 +11,9 @@ LIMIT = 64 * 1024  # bytes
     "model",
     ["WetClutch", "GearMesh", "ShiftTransmission", "OilSump", "DrivelineLosses", "CommandSource"],
 )
-def test_the_arrays_of_an_instance_fit_into_half_of_64_kb(model):
+def test_the_arrays_of_an_instance_leave_a_third_of_64_kb_to_the_shell(model):
     """Parameters, inputs, work, outputs and memory, the latter two also as before a step."""
     kernel = kernel_of(find_spec(model))
     kept_twice = kernel.NSTATE + kernel.NOUT + kernel.NIOUT
     doubles = kernel.NPAR + kernel.NINP + kernel.NWORK + 2 * kept_twice
-    assert 8 * doubles <= LIMIT // 2
+    assert 8 * doubles <= 2 * LIMIT // 3

@@ -118,7 +118,10 @@ def course(t):
 
 def energy(rung, n, moving):
     """Return the heat [J] of a clutch over 0.2 s in n steps."""
-    unit, h = DirectInstance(find_spec("clutch"), parameters={"fidelity": rung}), 0.2 / n
+    unit, h = (
+        DirectInstance(find_spec("clutch"), parameters={"fidelity": rung, "holding": "off"}),
+        0.2 / n,
+    )
     unit.initialize(0.0, dict(zip(["load", "speed"], course(0.0), strict=True)))
     for i in range(n):
         now, ahead = course(i * h), course((i + 1) * h)

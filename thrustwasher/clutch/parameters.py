@@ -256,8 +256,9 @@ class ClutchParams:
     coupling_age: int = coupling_age()
     probing: bool = flag(
         True,
-        "torque dips by 2 % while the pack slips and the driveline is not known",
+        "torque dips by up to 2 % while the pack slips and the driveline is not known",
         read_by=(("holding", "identified"),),
+        of_a_run=True,
     )
 
     def __post_init__(self) -> None:

@@ -10,6 +10,7 @@ from thrustwasher.clutch.kernels.advance import load_memory
 from thrustwasher.clutch.kernels.rates import n_unknowns
 from thrustwasher.clutch.parameters import FRICTION_LAWS, SPEC, ClutchParams
 from thrustwasher.clutch.solve import prepare
+from thrustwasher.tribology.holding.memory import IDENTIFIED
 
 from slopes import Unit, differences, disagreement  # isort: skip
 
@@ -74,6 +75,25 @@ def test_derivatives_are_those_of_differences_under_any_option(rung, seed):
         worn_in(unit, rng)
         point = random_point(rng)
         assert disagreement(unit, point, scale_at(point)).max() < 1e-6
+
+
+@pytest.mark.parametrize("rung", RUNGS)
+@pytest.mark.parametrize("course", ["held", "linear"])
+def test_derivatives_of_a_pack_that_holds_are_those_of_its_law(rung, course):
+    """Sliding with dips, at lock and held, between two shafts of a driveline."""
+    unit = pack(rung, input_course=course, starts_pressed=True)
+    unit.par[L.P_HOLDING] = IDENTIFIED
+    slip, held = 40.0, 0
+    for n in range(60):
+        torque = unit.step([3000.0, slip, 340.0, 0.0], dt=1e-3)[L.O_TORQUE]
+        slip += 1e-3 * (30.0 - torque) / 0.05
+        if n % 5 == 0 and unit.work[L.W_SUBSTEPS] <= 1.0:
+            point = np.array([2900.0, slip + (0.5 if abs(slip) > 5.0 else 1e-4), 341.0, 10.0])
+            assert (
+                disagreement(unit, point, [300.0, 0.1 * abs(slip) + 1e-4, 10.0, 50.0]).max() < 1e-5
+            )
+            held += unit.iout[L.IO_LOCKED]
+    assert held > 2 and abs(slip) < 1e-9
 
 
 @pytest.mark.parametrize("rung", RUNGS)

@@ -41,7 +41,7 @@ def random_mesh(rng):
     changes["permissible_film_ratio"] = float(rng.choice([0.0, 0.3]))
     unit = mesh(str(rng.choice(list(SPEC.rungs))), **changes)
     if rng.random() < 0.4:
-        unit.state[:] = 1.0, 350.0, 3.0, 2.0
+        unit.state[:4] = 1.0, 350.0, 3.0, 2.0
     return unit
 
 
@@ -80,7 +80,7 @@ def test_derivatives_go_through_the_step_that_warms_the_bodies(dt, friction_law,
     before = np.array([begun, 350.0, 3.0, 2.0])
 
     def stepped(point):
-        unit.state[:] = before
+        unit.state[:4] = before
         return unit.step(point, dt=dt)
 
     point, size = np.array([40.0, 180.0, 330.0]), np.array([40.0, 180.0, 100.0])

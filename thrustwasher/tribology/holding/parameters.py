@@ -21,10 +21,11 @@ def holding_choice(unit: str) -> Any:
 def coupling_inertia() -> Any:
     """Return the field of the inertia that the slip sees [kg m2]."""
     text = "inertia that the slip sees: J1 J2/(J1 + J2) of two shafts, J of one"
-    return quantity(0.1, "kg.m2", 1e-6, 1e6, text, tunable=True, read_by=OF_GIVEN)
+    more = {"tunable": True, "read_by": OF_GIVEN, "of_a_run": True}
+    return quantity(0.1, "kg.m2", 1e-6, 1e6, text, **more)
 
 
 def coupling_age() -> Any:
     """Return the field of the delay of the torque, in steps of the host."""
     text = "steps after which the torque acts: 0 at once, 1 where values are a step old"
-    return count(0, 0, 2, text, read_by=OF_GIVEN)
+    return count(0, 0, 2, text, read_by=OF_GIVEN, of_a_run=True)

@@ -88,8 +88,8 @@ def remember(
 def answer(par: Array, slip: float, dt: float, work: Array, out: Array) -> int:
     """Put the torque of a pack that holds to ``out``; return 1 where it does, else 0.
 
-    Takes ``slip`` [rad/s] and torque to W_MEMORY if ``dt`` > 0. At the slip that was given last it
-    is the torque given then, as far as the capacity now allows.
+    Takes ``slip`` [rad/s] and torque to W_MEMORY if ``dt`` > 0. In a hold it is, at the slip that
+    was given last, the torque given then, as far as the capacity now allows.
     """
     mem = work[L.W_MEMORY : L.W_MEMORY + M.N_MEMORY]
     wet = abs(out[L.O_VISCOUS_TORQUE])
@@ -101,8 +101,8 @@ def answer(par: Array, slip: float, dt: float, work: Array, out: Array) -> int:
         of_dry = of_wet = 0.0
         way, step = coupling_of(par), dt if dt > 0.0 else mem[M.STEP]
         out[L.O_PLANT_INERTIA] = inertia_of(way, mem)
-        if dt == 0.0 and mem[M.COUNT] > 0.0 and slip == mem[M.SLIP]:
-            holds = mem[M.HELD] > 0.0
+        if dt == 0.0 and mem[M.HELD] > 0.0 and slip == mem[M.SLIP]:
+            holds = True
             torque = min(capacity, max(-capacity, mem[M.TORQUE]))
             of_dry = of_wet = torque / capacity if capacity > 0.0 else 0.0
         else:

@@ -125,9 +125,6 @@ def step(
         out[L.O_STORED_HEAT] = stored_heat(par, work, first)
         more = out[L.O_STORED_HEAT] - state[L.S_SHOWN_STORED]
         out[L.O_OIL_HEAT] = (energy - state[L.S_SHOWN_ENERGY] - more) / dt
-    if holds and dt > 0.0:
-        out[L.O_POWER] = (energy - state[L.S_SHOWN_ENERGY]) / dt
-        out[L.O_HEAT_FLUX] = out[L.O_POWER] / (par[L.P_FACES] * par[L.D_AREA])
     out[L.O_ADVISED] = state[L.S_ADVISED]
     span, straight = dt, linear or before != (load, slip, oil, drum)
     if dt > 0.0:

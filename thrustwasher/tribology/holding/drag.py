@@ -2,13 +2,14 @@
 """Friction that drags on a shaft: of a washer, of teeth. Where the shaft could stand, it holds it.
 
 While the parts slide the torque is what it is without: nothing dips, nothing is smoothed. Only
-where the driveline is known, by reversals or by what the torque did on the way to rest, and the
+where the driveline is known well, by reversals or by what the torque did on the way to rest, and the
 torque that ends the speed with the step is less than sliding takes, that torque is given.
 """
 
 from ...numerics.jit import Array, kernel
 from . import memory as M
 from .memory import Coupling
+from .plant import UNSURE
 from .torque import hold, knows, note, notice
 
 
@@ -27,11 +28,12 @@ def hold_drag(
         capacity = max(capacity, mem[M.CAPACITY])
     if dt > 0.0:
         notice(coupling, mem, speed, capacity)
-    elif mode != M.OFF and mem[M.COUNT] > 0.0 and speed == mem[M.SLIP] and mem[M.HELD] > 0.0:
+    elif mem[M.HELD] > 0.0 and speed == mem[M.SLIP]:
         return min(capacity, max(-capacity, mem[M.TORQUE])), True, 0.0
     given, holds, slope, outside = torque, False, 0.0, mem[M.OUTSIDE]
     step = dt if dt > 0.0 else mem[M.STEP]
-    if mode != M.OFF and knows(coupling, mem, step):
+    sure = mode == M.GIVEN or (mode == M.IDENTIFIED and mem[M.ERROR] < UNSURE)
+    if sure and knows(coupling, mem, step):
         found, holds, by_speed, _, _, outside = hold(coupling, mem, speed, step, capacity, 0.0)
         if holds or found * torque < 0.0 or speed == 0.0:
             given, slope = found, by_speed

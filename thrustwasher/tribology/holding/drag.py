@@ -2,8 +2,8 @@
 """Friction that drags on a shaft: of a washer, of teeth. Where the shaft could stand, it holds it.
 
 While the parts slide the torque is what it is without: nothing dips, nothing is smoothed. Only
-where the driveline is known well, by reversals or by what the torque did on the way to rest, and the
-torque that ends the speed with the step is less than sliding takes, that torque is given.
+where the driveline is known well, by reversals or by what the torque did on the way to rest, and
+the torque that ends the speed with the step is less than sliding takes, that torque is given.
 """
 
 from ...numerics.jit import Array, kernel

@@ -30,6 +30,7 @@ ROOT = Path(__file__).parents[1]
 KERNELS = [
     "thrustwasher/numerics/*",
     "thrustwasher/tribology/*.py",
+    "thrustwasher/tribology/holding/*.py",
     "thrustwasher/*/kernels/*",
     "thrustwasher/shift/cosim/compiled_loop.py",
 ]

@@ -30,7 +30,7 @@ def test_the_first_screen_says_that_the_nominal_jerk_is_luck(found):
     record = record_of(found)
     low, middle, high = known_bands(found.scene)["peak_jerk"].quantiles.values()
     assert found.figures["peak_jerk"] < low < middle < high
-    assert "by the scatter of this scene 7.39 m/s³ to 144 m/s³, median 53.2 m/s³" in headline(
+    assert "by the scatter of this scene 13.3 m/s³ to 145 m/s³, median 56 m/s³" in headline(
         record
     )
     (card,) = [c for c in _cards(record) if "change of acceleration" in c.name]

@@ -87,7 +87,8 @@ def coupled(steps):
     """
     small = {"volume": 1e-4, "housing_capacity": 0.0, "conductance": 0.0}
     held = {"load": 5e3, "speed": 20.0}
-    with DirectInstance(PACK) as pack, sump(**small) as oil:
+    prescribed = {"holding": "off"}
+    with DirectInstance(PACK, parameters=prescribed) as pack, sump(**small) as oil:
         pack.initialize(0.0, held | {"oil_temperature": 358.15})
         oil.initialize(0.0, {})
         t, rows = 0.0, []

@@ -14,6 +14,7 @@ H = 1e-3
 WASHER = {"load": 400.0, "speed": 300.0, "tilt": 2e-3, "oil_temperature": 353.15}
 MESH = {"load": 60.0, "speed": 200.0, "oil_temperature": 350.0}
 PACK = {"load": 3000.0, "speed": 50.0, "oil_temperature": 350.0}
+SLOW, GIVEN = {"speed": 1e-3}, {"holding": "given"}  # held: the shaft nearly stands
 WAYS = ["fmi2", "fmi3", "event mode"]
 each_way = pytest.mark.parametrize("way", WAYS)
 
@@ -32,6 +33,16 @@ CASES = [
     Case("washer", "film_heat_fraction", 0.5, WASHER, {"oil_cooling": 0}, "temperature"),
     Case(
         "gearmesh", "constant_friction", 0.1, MESH, {"friction_law": "constant"}, "friction_torque"
+    ),
+    Case("washer", "coupling_inertia", 0.2, WASHER | SLOW, GIVEN, "friction_torque"),
+    Case("gearmesh", "coupling_inertia", 0.2, MESH | SLOW, GIVEN, "friction_torque"),
+    Case(
+        "clutch",
+        "coupling_inertia",
+        0.2,
+        PACK | {"speed": 0.02},
+        GIVEN | {"starts_pressed": 1},
+        "friction_torque",
     ),
     Case("clutch", "friction_scale", 0.5, PACK, {"starts_pressed": 1}, "friction_torque"),
 ]

@@ -95,7 +95,7 @@ def test_each_point_has_its_warnings():
     assert found.doubts[0] == ()
     held, teeth = found.doubts[1], "; ".join(found.doubts[2])
     assert "brake: 499.2 N·m to hold, its capacity" in held[0]
-    assert len(held) == 2 and "washer: temperature_max = 161.6 °C" in held[1]
+    assert len(held) == 2 and "washer: temperature_max = 162.2 °C" in held[1]
     for words in ("would slip", "mesh: pitting_safety", "mesh: scuffing_safety", "washer: "):
         assert words in teeth
     assert found.columns["warnings"].tolist() == [0.0, 2.0, len(found.doubts[2])]

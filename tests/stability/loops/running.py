@@ -34,7 +34,10 @@ def body_and_law(fmus, body, law):
 def gearbox_and_clutch(fmus, gearbox, clutch, brake=0.0):
     """Return a system: a transmission and its clutch; ``brake``: the torque its brake sends."""
     coupling = gearbox.get("coupling", "capacity")
-    found = {"transmission": gearbox, "clutch": {"input_course": "linear", "holding": "off", **clutch}}
+    found = {
+        "transmission": gearbox,
+        "clutch": {"input_course": "linear", "holding": "off", **clutch},
+    }
     parts = {}
     for name, parameters in found.items():
         spec = find_spec(name)

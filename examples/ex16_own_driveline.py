@@ -66,6 +66,7 @@ def main(serial: bool = False, plot: str = "") -> float:
         time, slip, torque = zip(*rows, strict=True)
         plt.plot(time, slip, time, torque)
         plt.legend(["slip [rad/s]", "torque [N m]"])
+        plt.xlabel("time [s]")
         plt.savefig(plot)
     return rows[-1][2]
 

@@ -177,8 +177,8 @@ def _cards(record: Record) -> list[Card]:
             return []
         given = usual[name][0].value_words if name in usual else partial(figure.words, digits=3)
         low, middle, high = (given(x) for x in found.quantiles.values())
-        words = (f"{BAND}: {low} .. {high}", f"median {middle}")
-        return [", ".join(text.replace(" ", "\N{NO-BREAK SPACE}") for text in words)]
+        words = (f"{BAND}:", f"{low} ..", f"{high},", f"median {middle}")  # lines break between
+        return [" ".join(text.replace(" ", "\N{NO-BREAK SPACE}") for text in words)]
 
     cards = [
         Card(

@@ -17,7 +17,7 @@ from ...tribology.holding.work import work_done, work_foreseen
 from . import layout as L
 from .advance import settle_film
 from .pack_outputs import fill_outputs
-from .rates import share_power
+from .rates import add_heat, share_power
 
 
 @kernel
@@ -68,19 +68,19 @@ def remember(
         share_power(par, point[0], slip, point[3], film, work)
     way = coupling_of(par)
     done, span = work_done(way, mem, slip), state[L.S_DURATION] if linear else dt
-    heat = done
     if dt > 0.0:
         torque = hold(way, mem, slip, dt, dry, wet)[0]
         foreseen = work_foreseen(way, mem, slip, dt, torque)
-    if not linear:
-        heat += foreseen
     if span > 0.0:
-        power, slope = (heat - mem[M.BOOKED]) / (span * par[L.P_FACES]), 0.0
+        power, slope, late = foreseen / (span * par[L.P_FACES]), 0.0, done - mem[M.BOOKED]
+        mem[M.BOOKED] = done + foreseen
         if linear:
-            slope = mem[np.uintp(M.TORQUE + max(age_of(way, mem), 0))] / par[L.P_FACES]
-            power -= slope * 0.5 * (mem[M.SLIP] + slip)
+            acting = mem[np.uintp(M.TORQUE + max(age_of(way, mem), 0))]
+            power, slope = 0.0, acting / par[L.P_FACES]
+            late -= acting * 0.5 * (mem[M.SLIP] + slip) * span
+            mem[M.BOOKED] = done
         work[L.W_GIVEN], work[L.W_GIVEN_POWER], work[L.W_GIVEN_SLOPE] = 1.0, power, slope
-        mem[M.BOOKED] = heat
+        add_heat(par, work, late / par[L.P_FACES])
     return foreseen
 
 

@@ -225,6 +225,18 @@ def _give_power(par: Array, slip: float, work: Array, at: int) -> None:
 
 
 @kernel
+def add_heat(par: Array, work: Array, heat: float) -> None:
+    """Give a face heat [J] at once, in W_NOW, shared as a power that is given."""
+    work[np.uintp(L.W_NOW + L.Y_ENERGY)] += heat
+    n = 1 + int(par[L.D_MODES])
+    for k in range(int(par[L.D_RINGS])):
+        ring, own = ring_of(par, k), heat * work[np.uintp(L.W_RING_SHARE + k)]
+        for i in range(n):
+            place = np.uintp(L.W_NOW + L.Y_HEAT + k * n + i)
+            work[place] += ring[np.uintp(L.D_GAIN + i)] * own
+
+
+@kernel
 def share_power(par: Array, load: float, slip: float, drum: float, u: float, work: Array) -> None:
     """Fill the rings' shares in a power that is given: as they would share their own now."""
     rings, total = int(par[L.D_RINGS]), 0.0

@@ -34,4 +34,5 @@ def work_foreseen(coupling: Coupling, mem: Array, slip: float, h: float, torque:
         change = (slip - mem[M.SLIP]) / mem[M.STEP] * h
         if inertia > 0.0:
             change -= (acting - mem[np.uintp(M.TORQUE + max(age, 0))]) / inertia * h
+    change = min(abs(slip), max(-abs(slip), change))  # a short step says little of a long one
     return acting * (slip + 0.5 * change) * h

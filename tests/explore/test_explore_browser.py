@@ -294,7 +294,7 @@ def test_a_point_without_a_solution_is_told_and_the_last_result_stays(opened):
     before = page.figure("friction_torque")
     page.put("speed", 0)
     said = page.page.text_content("#state")
-    words = "speed = 0 rad/s, allowed: from 0.075 rad/s on for power = 7500 W; the figures"
+    words = "speed = 0 rad/s, allowed: from 0.00075 rad/s on for power = 7500 W; the figures"
     assert said.startswith(f"{words} are those of power 7.5 kW, speed 180 rad/s")
     assert page.figure("friction_torque") == before and page.page.is_visible("#views")
     page.put("speed", 200)

@@ -68,17 +68,29 @@ def parse_quantity(value: str | float, unit: str, name: str, *, difference: bool
             comma = "; the decimal sign is a point" if match else ""
             raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}{comma}")
         digits, written = match[1], _plain(match[2])
-    if written in ("", _plain(unit)):
-        factor, offset = 1.0, 0.0
-    else:
-        known = {_plain(text): pair for text, pair in UNITS.get(unit, {}).items()}
-        if written not in known:
-            raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}")
-        factor, offset = known[written]
+    size = unit_size(written, unit)
+    if size is None:
+        raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}")
+    factor, offset = size
     si = _scaled(digits, factor, 0.0 if difference else offset)
     if not math.isfinite(si):
         raise ParameterError(f"{name} = {value!r}, allowed: {_wanted(unit)}")
     return si
+
+
+def unit_size(written: str, unit: str) -> tuple[float, float] | None:
+    """Return (factor, offset) of a unit as written, SI value = factor * number + offset.
+
+    None if it does not measure what the SI unit ``unit`` does; "" is that unit.
+
+    >>> unit_size("°C", "K"), unit_size("kN", "K")
+    ((1.0, 273.15), None)
+    """
+    written = _plain(written)
+    if written in ("", _plain(unit)):
+        return 1.0, 0.0
+    known = {_plain(text): pair for text, pair in UNITS.get(unit, {}).items()}
+    return known.get(written)
 
 
 def has_unit(value: Any) -> bool:

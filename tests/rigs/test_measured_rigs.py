@@ -107,11 +107,11 @@ GOOD = "2.0, 180, 0.5, 0.01, table"
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"lines": ["2.0, 180, x, 0.01, table"]}, "point 1: friction_torque = 'x', a number"),
+        ({"lines": ["2.0, 180, x, 0.01, table"]}, "line 2: friction_torque = 'x', a number"),
         ({"lines": ["2.0, 180, 0.5, 0.01, guess"]}, "origin 'guess', allowed: table, figure"),
         ({"lines": ["2.0, 180, 0.5, 0.01, fit"]}, "1 points are of a published fit"),
-        ({"lines": []}, "has no points"),
-        ({"head": HEAD.replace("speed", "spede")}, "column 'spede .rad/s.' is not known; did you"),
+        ({"lines": []}, "no line of numbers"),
+        ({"head": HEAD.replace("speed", "spede")}, "column 'spede' is not known; did you"),
         ({"head": HEAD.replace("friction_torque,", "load_factor,")}, "column 'load_factor'"),
         ({"source": ""}, "source = None, a text is required"),
         ({"extra": "vary = 'tilt'\n"}, "vary = 'tilt', allowed: an input that is a column"),

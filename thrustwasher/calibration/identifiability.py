@@ -68,7 +68,7 @@ def information(problem: Problem, best: Array, confidence: float) -> Information
 
     slopes = problem.slopes(best) * problem.scale
     n, p = slopes.shape
-    singular, directions = np.linalg.svd(slopes, full_matrices=True)[1:]
+    singular, directions = np.linalg.svd(slopes, full_matrices=n < p)[1:]
     weighted = problem.measured * problem.weight
     singular = np.concatenate([singular, np.zeros(p - len(singular))])
     size = VANISHES * float(np.linalg.norm(weighted))

@@ -16,7 +16,9 @@ from ..sweep.axes import places
 from ..sweep.solve_rows import Task, output_signals, solve_task
 from ..sweep.sweep_plan import Plan, make_plan
 from ..units import parse_quantity
+from .signs import folded, too_fast
 
+FRICTIONS = {"friction": False, "friction_torque": True}  # outputs, and if they have a sign
 ERROR = "_error"  # ending of the column with an output's standard deviation
 
 
@@ -29,6 +31,7 @@ class Measured:
     output: tuple[str, ...]  # (n,)
     value: Array
     error: Array | None  # (n,) standard deviations, if known
+    count: Array | None = None  # (n,) rows that each value is the mean of; None: one
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -150,7 +153,25 @@ def measured(
     if plan.params[0] is None:
         raise ParameterError("data: the parameters of point 1 break a rule of the model")
     spread = _deviations(units, columns, errors, found)
-    return Measured(plan, np.array(row), output, np.array(value), spread)
+    return _with_signs(Measured(plan, np.array(row), output, np.array(value), spread))
+
+
+def _with_signs(points: Measured) -> Measured:
+    """Return the points with friction of the sign that the model gives it, and doubtful speeds."""
+    plan, value = points.plan, points.value.copy()
+    radius = find_model(plan.spec.key).fits.sliding_radius
+    if radius is None or "speed" not in (s.name for s in plan.spec.inputs):
+        return points
+    speed, said = points.input("speed"), [too_fast(points.input("speed"), radius(plan.params[0]))]
+    for name in [n for n in points.names if n in FRICTIONS]:
+        own = points.of(name)
+        error = None if points.error is None else points.error[own]
+        value[own], text = folded(
+            name, value[own], speed[own], error, points.row[own].tolist(), odd=FRICTIONS[name]
+        )
+        said.append(text)
+    plan = replace(plan, warnings=(*plan.warnings, *filter(None, said)))
+    return replace(points, plan=plan, value=value)
 
 
 def _number(name: str, row: int, value: Any) -> float:

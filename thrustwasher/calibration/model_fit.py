@@ -14,8 +14,9 @@ from ..numerics.jit import Array
 from ..sweep.solve_rows import check_rung
 from .estimates import Calibration
 from .fit import chosen_names, fitted
+from .groups import grouped
 from .identifiability import Verdict, counted
-from .least_squares import Problem
+from .least_squares import Problem, best_fit
 from .measured import Measured, measured, output_units
 
 ModelCalibration = Calibration  # its name while a law's fit was another one
@@ -25,6 +26,7 @@ LEAST_SHARE = 0.1  # of half the range: the least change that would certainly ma
 ELSEWHERE = "(0:"  # in the meaning of a parameter whose 0 stands for another one's value
 INSIDE = 1e-13  # of a logarithmic range: rounding does not lead out of it
 MOST_KEPT = 200
+PASSES = 2  # of a fit to means, each with the curvature at the one before
 POOR = 0.2  # of an output's mean: an rms residual above it is always worth a warning
 MATERIAL = 0.02  # of the mean: less is not worth a warning
 SCATTERS = 3.0  # a value further off than this many standard deviations is off
@@ -82,6 +84,8 @@ class ModelProblem(Problem):
         low, high, first, scale, by_logarithm = np.array(rows).T
         usual = cls.typical or np.abs(points.value).mean() or 1.0
         even = np.full(len(points.value), 1.0 / usual)
+        if points.count is not None:
+            even *= np.sqrt(points.count / points.count.mean())
         problem = cls(
             base=cls.held(params),
             names=names,
@@ -325,13 +329,20 @@ def calibrate(
     is_law = not own.computed and not own.units.keys().isdisjoint(data)
     kind: type[ModelProblem] = (model.fits.law if is_law else None) or ModelProblem
     points = measured(start, params, data, at, errors or {}, fidelity or start.fidelity)
-    points, names = kind.asked(points, fit, {*data, *at})
+    groups = grouped(points) if kind.by_rung else None
+    points, names = kind.asked(groups.means if groups else points, fit, {*data, *at})
     if twice := set(names) & set(data):
         raise ParameterError(
             f"fit = {twice.pop()!r}: is a column of the data, allowed: one of both"
         )
     problem, first = kind.of(points, names, bounds or {})
     problem.check_first(first)
+    guess = first
+    for _ in range(PASSES if groups else 0):
+        assert groups is not None
+        there = groups.straightened(problem.values(guess))
+        problem = replace(problem, points=there, measured=there.value)
+        guess = best_fit(problem, guess)
     found, judged = fitted(
         problem, first, confidence, kind.profiles if profile is None else profile
     )

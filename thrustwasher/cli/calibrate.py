@@ -34,6 +34,8 @@ OPTIONS = {
     "--error NAME=VALUE ...": "standard deviation of an output: friction_torque=2%%, of its value; "
     "may be repeated",
     "--bounds NAME=LOW:HIGH ...": "narrower range of a parameter; may be repeated",
+    "--column NAME=CHANNEL ...": "column of the file that holds NAME, e.g. speed=N_SLIP or "
+    "'speed [rpm]=N_SLIP'; may be repeated",
     "--confidence P": "probability of the intervals; above 0, below 1, default 0.95",
     "--preset NAME": "preset to start from, e.g. paper",
     "--fidelity RUNG": "rung of the model, default the part's",
@@ -89,7 +91,8 @@ def run(arguments: argparse.Namespace) -> int:
             raise ParameterError("--error, --bounds, --fidelity: allowed: beside PART")
         changes = _options.read_settings(arguments.set, part.spec)
         part = replace(part, parameters=part.parameters | changes)
-        columns = _table.read_columns(data, LAW_UNITS, optional=LAW_OPTIONAL)
+        names = arguments.column or ()
+        columns = _table.read_columns(data, LAW_UNITS, optional=LAW_OPTIONAL, names=names)
         options |= columns
 
     from ..calibration.model_fit import calibrate
@@ -166,7 +169,9 @@ def _of_model(arguments: argparse.Namespace, part: PartFile, data: str) -> dict[
     from ..calibration.measured import column_units
 
     units = column_units(part.spec)
-    columns = _table.read_columns(data, units, optional=tuple(units), strict=True)
+    columns = _table.read_columns(
+        data, units, optional=tuple(units), strict=True, names=arguments.column or ()
+    )
     bounds, known = {}, places(part.spec)
     given = {
         option: split_settings(getattr(arguments, option), f"--{option}", metavar)

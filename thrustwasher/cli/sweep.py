@@ -3,7 +3,7 @@
 import argparse
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from ..errors import ParameterError, SolveError
@@ -21,6 +21,8 @@ OPTIONS = {
     "load=20:1850:x40 (40 values, equal ratios; n40: even), speed=136,545, "
     '"oil_temperature [degC]=24,80"; may be repeated, the first input runs fastest',
     "--points FILE.csv": "instead of --over, a file with a point in every line",
+    "--column NAME=CHANNEL ...": "with --points: column of the file that holds NAME, e.g. "
+    "speed=N_SLIP; may be repeated",
     "--preset NAME": "named set of parameters to start from, e.g. paper",
     "--fidelity RUNG": "rung of the model, its command's --help lists them; auto:0.01: the "
     "cheapest whose torque is verified to 1 %% over all points",
@@ -52,7 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
     out = None
     if arguments.out:
         out = _output.check_file(arguments.out, "--out", (".csv", ".parquet"))
-    points = _points(arguments.points, spec) if arguments.points else None
+    points = _points(arguments.points, spec, arguments.column or ()) if arguments.points else None
     over = split_settings(arguments.over, "--over", VALUES)
     part = _options.with_oil(
         arguments, part, (*at, *(n.partition("[")[0].strip() for n in over), *(points or ()))
@@ -105,11 +107,13 @@ def _held(arguments: argparse.Namespace, spec: ModelSpec) -> dict[str, str]:
     return held
 
 
-def _points(path: str, spec: ModelSpec) -> dict[str, Any]:
+def _points(path: str, spec: ModelSpec, names: Sequence[str]) -> dict[str, Any]:
     """Return the columns of a file of points; any of the model's names may be a column."""
     known = places(spec)
     units = {p.name: p.unit for p in known.values() if p.kind in ("real", "integer")}
-    columns: dict[str, Any] = dict(read_columns(path, {**units, "line": "1"}, (*units, "line")))
+    columns: dict[str, Any] = dict(
+        read_columns(path, {**units, "line": "1"}, (*units, "line"), names=names)
+    )
     if not set(columns) - {"line"}:
         inputs = ", ".join(p.name for p in known.values() if p.is_input)
         raise ParameterError(f"{path}: no column is an input or parameter, required: {inputs}")

@@ -99,6 +99,8 @@ class Fits:
     """Exact derivatives of outputs, of these too: called with (parameters, inputs of a line's
     rows, rung, wanted: (row, output), names of parameters), returns (wanted, parameters) or None
     where there are none."""
+    sliding_radius: Callable[[Any], float] | None = None
+    """From parameters to the radius [m] at which the speed slides."""
 
 
 @dataclass(frozen=True, kw_only=True)

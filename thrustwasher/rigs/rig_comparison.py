@@ -11,6 +11,7 @@ from scipy.stats import binomtest, qmc
 
 from ..errors import ParameterError, SolveError
 from ..model.part_file import PartFile
+from ..model.point import Point, point_of
 from ..model.registry import find_model
 from ..shift.scene.places import scene_places, scene_scatter
 from ..shift.scene.scene import Scene
@@ -136,6 +137,7 @@ def compare(
         row = int(np.flatnonzero(~np.isfinite(computed))[0])
         raise SolveError(f"rig {rig.name}: point {row + 1} has no solution here")
     low, high, warnings = _band(rig, fitted, computed, draws, progress)
+    warnings = tuple(filter(None, (_not_measured(rig), *warnings)))
     return Comparison(rig, computed, low, high, judged, fitted, warnings)
 
 
@@ -153,7 +155,7 @@ def _of_part(rig: Rig, part: PartFile, changes: Mapping[str, Any]) -> Array:
     except ParameterError:
         return np.full(len(rig.measured), np.nan)
     for i in range(len(rig.measured)):
-        point = {name: float(column[i]) for name, column in rig.inputs.items()}
+        point = _point(rig, part, i).values
         output = rig.outputs[i]
         if output in model.fits.units and model.fits.computed:
             whole = {**part.starts, **point}
@@ -164,6 +166,19 @@ def _of_part(rig: Rig, part: PartFile, changes: Mapping[str, Any]) -> Array:
             value = np.nan if failed else float(getattr(result, output))
         found.append(value)
     return np.array(found)
+
+
+def _point(rig: Rig, part: PartFile, i: int) -> Point:
+    """Return the inputs of a point; those without a column from the part's box or by default."""
+    return point_of(part, {name: float(column[i]) for name, column in rig.inputs.items()})
+
+
+def _not_measured(rig: Rig) -> str:
+    """Say which inputs have no column, and what was taken for them."""
+    if isinstance(rig.target, Scene):
+        return ""
+    taken = _point(rig, rig.target, 0).taken
+    return f"inputs without a column in points.csv: {taken}" if taken else ""
 
 
 def _of_scene(rig: Rig, scene: Scene, changes: Mapping[str, Any]) -> Array:

@@ -1,7 +1,5 @@
 """A rig's folder: ``rig.toml`` with its source and conditions, ``points.csv``, part or scene."""
 
-import csv
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,7 +15,7 @@ from ..model.toml_tables import nothing_else, read_file
 from ..shift import load_scene
 from ..shift.scene.scene import Scene
 from ..shift.steady_points import COLUMNS, RANGES
-from ..units import parse_quantity
+from ..storage.tables.table import numbers, read_table
 
 ORIGINS = ("table", "figure", "text", "fit")
 TEXTS = ("title", "source", "measured", "conditions", "rights", "read", "reason")
@@ -173,44 +171,27 @@ def _points(
     path: Path, inputs: dict[str, str], outputs: dict[str, str]
 ) -> tuple[dict[str, NDArray[np.float64]], tuple[str, ...]]:
     """Return the columns [SI] and the origin of every point."""
-    try:
-        text = path.read_text("utf-8-sig")
-    except (OSError, ValueError):
-        raise ParameterError(f"{path}: cannot be read, a CSV file is required") from None
-    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
-    rows = list(csv.reader(lines, skipinitialspace=True))
-    if len(rows) < 2:
-        raise ParameterError(f"{path}: has no points, a line of names and one of numbers at least")
+    if not path.is_file():
+        raise ParameterError(f"{path}: cannot be read, a CSV file is required")
+    table = read_table(path)
     units = {**inputs, **outputs, **{n + ERROR: u for n, u in outputs.items()}}
     columns: dict[str, NDArray[np.float64]] = {}
     origin: tuple[str, ...] = ()
-    for i, head in enumerate(rows[0]):
-        match = re.fullmatch(r"\s*([\w]+)\s*(?:\[(.*)\])?\s*", head)
-        name, written = (match[1], (match[2] or "").strip()) if match else ("", "")
-        cells = [row[i].strip() if i < len(row) else "" for row in rows[1:]]
+    for column in table.columns:
+        name, difference = column.name, column.name.endswith(ERROR)
         if name == "origin":
-            origin = tuple(cells)
+            origin = tuple(column.cells)
             continue
         if name not in units:
             hint = suggestion(name, units, "did you mean {}? ")
-            raise ParameterError(f"{path}: column {head!r} is not known; {hint}".rstrip("; "))
-        written = "" if written in ("-", "1") else written
-        columns[name] = np.array(
-            [_number(path, name, j, c, written, units[name]) for j, c in enumerate(cells)]
-        )
+            raise ParameterError(f"{path}: column {name!r} is not known; {hint}".rstrip("; "))
+        values = numbers(column, table, units[name], difference=difference)
+        if None in values:
+            line = table.lines[values.index(None)]
+            raise ParameterError(f"{path}, line {line}: {name} is missing")
+        columns[name] = np.array(values, float)
     wrong = [text for text in origin if text not in ORIGINS]
     if wrong or not origin:
         said = f"{wrong[0]!r}" if wrong else "missing"
         raise ParameterError(f"{path}: origin {said}, allowed: {', '.join(ORIGINS)}")
     return columns, origin
-
-
-def _number(path: Path, name: str, row: int, text: str, written: str, unit: str) -> float:
-    """Return a cell in SI units."""
-    where = f"{path}, point {row + 1}: {name}"
-    try:
-        float(text)
-    except ValueError:
-        raise ParameterError(f"{where} = {text!r}, a number is required") from None
-    difference = name.endswith(ERROR)
-    return parse_quantity(f"{text} {written}".strip(), unit, where, difference=difference)

@@ -107,6 +107,7 @@ def _of_folds(
 
 
 FITS = Fits(
+    sliding_radius=lambda params: params.outer_radius,
     units={"film_loss_load": "N", "film_regain_load": "N"},
     computed=fold_loads,
     without="load",

@@ -178,4 +178,6 @@ def _load_test(problem: FrictionProblem, best: Array, told: Information) -> Load
     return LoadTest(change, p_value, text)
 
 
-FITS = Fits(units={"friction": "1"}, law=FrictionFit)
+FITS = Fits(
+    units={"friction": "1"}, law=FrictionFit, sliding_radius=lambda params: params.friction_radius
+)

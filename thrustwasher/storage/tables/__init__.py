@@ -1,0 +1,1 @@
+"""Tables of measured data as spreadsheets, loggers and programs write them."""

@@ -1,0 +1,169 @@
+"""A table as it stands in a file: names, units and cells of its columns."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import ParameterError, suggestion
+from ...units import UNITS, parse_quantity, unit_size
+
+LONGEST = 2_000_000  # rows; a larger file is none of measured points
+MANY = 2_000  # rows from which a column is converted as a whole, rounded once in long double
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column; ``unit`` as written, "" for none."""
+
+    name: str
+    unit: str
+    cells: list[str]
+    """Numbers with a decimal point; "" where nothing was measured."""
+
+
+@dataclass(frozen=True)
+class Table:
+    """Columns in the order of the file."""
+
+    path: str
+    columns: list[Column]
+    lines: list[int]
+    """Number of each row in the file, from 1."""
+    remarks: list[str] = field(default_factory=list)
+    """What was not plain, such as "decimal commas"."""
+    binary: bool = False
+    """From a format with many channels, of which those without a known name do not count."""
+
+    def __len__(self) -> int:
+        """Return the number of rows."""
+        return len(self.lines)
+
+    def renamed(self, names: Mapping[str, str]) -> "Table":
+        """Return the table with columns renamed: name, or name and [unit], by channel.
+
+        Raises
+        ------
+        ParameterError : there is no such channel, or a name is given twice
+        """
+        known = {column.name: column for column in self.columns}
+        given = [name.partition("[")[0].strip() for name in names]
+        twice = [name for name in given if given.count(name) > 1]
+        if twice:
+            raise ParameterError(f"--column {twice[0]}: is given twice")
+        new = {}
+        for name, channel in names.items():
+            if channel not in known:
+                hint = suggestion(channel, known, "did you mean {}? ")
+                shown = ", ".join(list(known)[:20]) + (", .." if len(known) > 20 else "")
+                raise ParameterError(
+                    f"{self.path}: --column {name}={channel}: there is no column {channel!r}; "
+                    f"{hint}found: {shown}"
+                )
+            plain, unit = split_head(name)
+            new[channel] = (plain, unit)
+        columns = [
+            Column(new[c.name][0], new[c.name][1] or c.unit, c.cells) if c.name in new else c
+            for c in self.columns
+            if c.name in new or c.name not in given
+        ]
+        return Table(self.path, columns, self.lines, self.remarks, self.binary)
+
+
+def split_head(head: str) -> tuple[str, str]:
+    """Return name and unit of a column's head.
+
+    Examples
+    --------
+    >>> split_head("speed [rpm]"), split_head("load (kN)"), split_head("friction")
+    (('speed', 'rpm'), ('load', 'kN'), ('friction', ''))
+    """
+    match = re.fullmatch(r"\s*([^\[\]()]*?)\s*(?:\[(.*)\]|\((.*)\))?\s*", head)
+    if match is None:
+        return head.strip(), ""
+    return match[1], plain_unit(match[2] or match[3] or "")
+
+
+def plain_unit(text: str) -> str:
+    """Return a unit without brackets; none for a pure number."""
+    text = text.strip().strip("[]()").strip()
+    return "" if text in ("-", "1", "\u2013") else text
+
+
+def is_unit(text: str) -> bool:
+    """Tell if a text is a unit of anything, or says that there is none."""
+    text = plain_unit(text)
+    if not text:
+        return True
+    return any(unit_size(text, unit) for unit in UNITS)
+
+
+def numbers(
+    column: Column, table: Table, unit: str, *, name: str = "", difference: bool = False
+) -> list[float | None]:
+    """Return a column in the SI unit ``unit``; None where a cell is empty.
+
+    Raises
+    ------
+    ParameterError : a cell is no finite number; the message names file, line and column
+    """
+    name = name or column.name
+    if len(column.cells) > MANY and all(column.cells):
+        whole = _converted(column, unit, difference)
+        if whole is not None:
+            return list(whole.tolist())
+    found: list[float | None] = []
+    for text, line in zip(column.cells, table.lines, strict=True):
+        place = f"{table.path}, line {line}: {name}"
+        if not text:
+            found.append(None)
+            continue
+        try:
+            float(text)
+        except ValueError:
+            raise ParameterError(f"{place} = {text!r}, a number is required") from None
+        written = f"{text} {column.unit}".strip()
+        found.append(parse_quantity(written, unit, place, difference=difference))
+    return found
+
+
+def _converted(column: Column, unit: str, difference: bool) -> NDArray[np.float64] | None:
+    """Return all cells at once; None if one of them is no finite number."""
+    size = unit_size(column.unit, unit)
+    if size is None:
+        return None
+    factor, offset = np.longdouble(repr(size[0])), np.longdouble(repr(size[1]))
+    try:
+        values = np.array(column.cells, dtype=np.longdouble)
+    except ValueError:
+        return None
+    with np.errstate(over="ignore"):
+        si = np.asarray(values * factor + (0.0 if difference else offset), dtype=np.float64)
+    return si if np.isfinite(si).all() else None
+
+
+def read_table(path: str | Path) -> Table:
+    """Return the table of a file.
+
+    Text (``.csv``, ``.txt``, ``.tsv`` or any other ending) in UTF-8, UTF-16 or Windows' western
+    code page; comma, semicolon or tab between the cells; decimal points, or decimal commas where
+    they cannot be anything else. ``.xlsx``, ``.mat`` and ``.mf4`` by packages that read them.
+
+    Raises
+    ------
+    ParameterError : the file cannot be read, or can be read in two ways; the message says which
+    """
+    path = Path(path)
+    if path.is_dir():
+        raise ParameterError(f"{path}: is a folder, a file with a table is required")
+    ending = path.suffix.lower()
+    if ending in (".xlsx", ".xlsm", ".mat", ".mf4", ".mdf"):
+        from .binary_file import read_binary
+
+        return read_binary(path)
+    from .text_file import read_text_table
+
+    return read_text_table(path)

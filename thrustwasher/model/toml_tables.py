@@ -9,7 +9,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, get_args, get_origin, get_type_hints
 
-from ..errors import ParameterError, suggestion, within
+from ..errors import ParameterError, refuse_pipe, suggestion, within
 from ..units import has_unit, parse_quantity
 from .parameters import allowed, check_number, check_value
 from .spec import ModelSpec, Rule
@@ -25,6 +25,7 @@ ESCAPED = re.compile(
 def read_file(what: str, path: str | Path) -> dict[str, Any]:
     """Return the tables of a TOML file; ``what`` it is ("scene") begins the message of an error."""
     try:
+        refuse_pipe(path)
         text = Path(path).read_text(encoding="utf-8-sig")
     except (OSError, ValueError) as problem:  # bytes that are no text, a path that is none
         reason = getattr(problem, "strerror", None) or "not UTF-8 text"

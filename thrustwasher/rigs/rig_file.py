@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import ParameterError, suggestion
+from ..errors import ParameterError, refuse_pipe, suggestion
 from ..model.part_file import PartFile, find_part, load_part, preset_part
 from ..model.registry import find_model, spec_of
 from ..model.toml_tables import nothing_else, read_file
@@ -174,6 +174,7 @@ def _points(
 ) -> tuple[dict[str, NDArray[np.float64]], tuple[str, ...]]:
     """Return the columns [SI] and the origin of every point."""
     try:
+        refuse_pipe(path)
         text = path.read_text("utf-8-sig")
     except (OSError, ValueError):
         raise ParameterError(f"{path}: cannot be read, a CSV file is required") from None

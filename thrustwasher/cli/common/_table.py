@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ...errors import ParameterError, suggestion
+from ...errors import ParameterError, refuse_pipe, suggestion
 from ...units import parse_quantity
 from ._output import note
 
@@ -59,6 +59,7 @@ def _lines(path: str) -> list[tuple[int, str]]:
     """Return the lines that count, with their numbers in the file."""
     if Path(path).is_dir():
         raise ParameterError(f"{path}: is a folder, a CSV file is required")
+    refuse_pipe(path)
     found = []
     try:
         with open(path, encoding="utf-8-sig", newline=None) as stream:

@@ -3,7 +3,9 @@
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from enum import IntEnum
-from os import PathLike, fspath
+from errno import EINVAL
+from os import PathLike, fspath, stat
+from stat import S_ISFIFO
 
 
 class ParameterError(ValueError):
@@ -44,6 +46,12 @@ def naming(path: str | PathLike[str]) -> Iterator[None]:
         if error.filename is None:
             error.filename = fspath(path)
         raise
+
+
+def refuse_pipe(path: str | PathLike[str]) -> None:
+    """Raise OSError for a named pipe, whose writer may never come; what lies in /dev is meant."""
+    if S_ISFIFO(stat(path).st_mode) and not fspath(path).startswith("/dev/"):
+        raise OSError(EINVAL, "is a pipe, a file is required", fspath(path))
 
 
 @contextmanager

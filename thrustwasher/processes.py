@@ -12,6 +12,8 @@ from typing import Any
 
 from .errors import EnvironmentProblem
 
+# What a terminal sends to all processes of a command: Ctrl-C, and its end where there is one.
+FOR_PARENTS = {signal.SIGINT, getattr(signal, "SIGHUP", signal.SIGINT)}
 Run = Callable[[Callable[[Any], Any], Sequence[Any], int], Iterator[Any]]
 
 
@@ -72,11 +74,11 @@ def runner(n: int) -> Iterator[Run]:
 
 @contextmanager
 def _interrupts_held() -> Iterator[None]:
-    """Hold Ctrl-C back: processes that start meanwhile never see it, not even while they start."""
+    """Hold back what is the parent's business: a process never sees it, not even at its start."""
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, FOR_PARENTS)
     try:
         yield
     finally:
@@ -84,8 +86,9 @@ def _interrupts_held() -> Iterator[None]:
 
 
 def _settle_in() -> None:
-    """Prepare a worker: Ctrl-C is the parent's business, and without a parent there is no work."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    """Prepare a worker: to stop is the parent's business, and without a parent there is no work."""
+    for number in FOR_PARENTS:
+        signal.signal(number, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
     if parent is not None:
         threading.Thread(target=_end_with, args=(parent,), daemon=True).start()

@@ -7,7 +7,7 @@ import time
 import pytest
 from children import started, stopped
 
-from thrustwasher.cli import Stopped, Watch, main
+from thrustwasher.cli import SIGNALS, Stopped, Watch, main
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs signals of POSIX")
 SWEEP = ["sweep", "gearmesh", "--over", "load=10:1000:x300", "--over", "speed=50:500:x150"]
@@ -61,7 +61,7 @@ def test_a_shift_that_is_stopped_leaves_the_folder_as_it_was(tmp_path, number, s
 
 @pytest.fixture
 def watch():
-    before = {n: signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM)}
+    before = {n: signal.getsignal(n) for n in SIGNALS}
     for number in before:
         signal.signal(number, signal.SIG_DFL)
     made = Watch()
@@ -76,6 +76,12 @@ def test_only_the_first_signal_disturbs_what_is_tidied_up(watch):
         signal.raise_signal(signal.SIGTERM)
     signal.raise_signal(signal.SIGINT)
     assert (watch.status, watch.word) == (143, "terminated")
+
+
+def test_a_terminal_that_closes_stops_a_command_as_ctrl_c_does(watch):
+    with pytest.raises(Stopped):
+        signal.raise_signal(signal.SIGHUP)
+    assert (watch.status, watch.word) == (129, "the terminal has closed")
 
 
 def test_a_signal_a_second_later_stops_what_hangs(watch, monkeypatch):
@@ -103,8 +109,9 @@ def test_what_a_parent_has_switched_off_stays_off():
         assert watch.number == 0
     finally:
         watch.close()
+        for number in SIGNALS:
+            signal.signal(number, signal.SIG_DFL)
         signal.signal(signal.SIGINT, before)
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 
 def test_a_stop_that_a_library_takes_for_a_failure_is_a_stop(monkeypatch, capsys):
@@ -119,7 +126,7 @@ def test_a_stop_that_a_library_takes_for_a_failure_is_a_stop(monkeypatch, capsys
 
     monkeypatch.setattr(cli, "_dispatch", fail)
     monkeypatch.setattr(sys, "argv", ["thrustwasher", "shift"])
-    before = {n: signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM)}
+    before = {n: signal.getsignal(n) for n in SIGNALS}
     try:
         assert main() == 143
     finally:

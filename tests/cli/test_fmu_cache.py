@@ -54,6 +54,17 @@ def test_the_second_call_builds_nothing(cache, linker, capsys):
     assert not [n for n in names if n.endswith("_out.csv")]
 
 
+@pytest.mark.parametrize("size", [0, 5000, None])
+def test_an_fmu_that_is_not_as_it_was_built_is_built_again(cache, linker, capsys, size):
+    path = fmu_cache.fmu_paths([PART], "native")[PART]
+    built = path.read_bytes()
+    path.write_bytes(built[:size] if size is not None else built[:-9] + b"x" + built[-8:])
+    capsys.readouterr()
+    assert fmu_cache.fmu_paths([PART], "native")[PART].read_bytes() == built
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1 and f"{PART} again: not as it was built" in said
+
+
 @pytest.mark.parametrize("fmi", ["2", "3"])
 def test_no_compiler_is_needed(no_linker, tmp_path, capsys, fmi):
     assert main(["build", PART, "--fmi", fmi, "--out", str(tmp_path)]) == 0

@@ -5,6 +5,7 @@ import pytest
 from thrustwasher import ParameterError, WasherParams, load_part
 from thrustwasher.model.part_file import part_text, preset_parts
 from thrustwasher.model.registry import all_models
+from thrustwasher.shift import load_scene
 from thrustwasher.units import exact_quantity, parse_quantity
 
 MINE = """
@@ -93,6 +94,30 @@ def test_what_is_wrong_in_a_part_file_is_named(mine, old, new, words):
         load_part(path)
     for word in ["mine.toml", *words]:
         assert word in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "code"),
+    [
+        ('model = "washer"\nname = "A"\ndescription = "bell \\u0007"', 3, "0007"),
+        (
+            'model = "washer"\nnotes = "\\\\b \\t"\ndescription = "x \\uFFFE y"\nname = "A"',
+            3,
+            "FFFE",
+        ),
+        ("model = 'washer'\nnotes = '\\b'\ndescription = " + '"""\nfirst\n\\b"""', 5, "0008"),
+        ('model = "washer"\n[parameters]\n"rough\\u001bness" = 1', 3, "001B"),
+    ],
+)
+def test_characters_that_no_xml_may_hold_are_refused_with_their_line(tmp_path, text, line, code):
+    """Before, they went into an FMU and an SSP that nothing could read, with exit status 0."""
+    (tmp_path / "mine.toml").write_text(text, "utf-8")
+    with pytest.raises(ParameterError, match=rf"mine\.toml': line {line}: character U\+{code} in"):
+        load_part(tmp_path / "mine.toml")
+    scene = 'base = "msl"\ntitle = "1\\u0001"'
+    (tmp_path / "scene.toml").write_text(scene, "utf-8")
+    with pytest.raises(ParameterError, match=r"scene\.toml': line 2: character U\+0001"):
+        load_scene(tmp_path / "scene.toml")
 
 
 def test_a_byte_order_mark_as_of_windows_editors_is_no_part_of_the_text(mine):

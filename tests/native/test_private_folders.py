@@ -1,6 +1,8 @@
 """Compiled code is kept where only its user can write, and is checked before it is loaded."""
 
+import errno
 import os
+import stat
 import subprocess
 import sys
 import threading
@@ -9,6 +11,8 @@ from pathlib import Path
 import pytest
 
 from thrustwasher.native import files
+from thrustwasher.native.trust import doubt_of
+from thrustwasher.numerics import jit
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="modes of folders are POSIX")
 
@@ -69,7 +73,8 @@ def test_a_file_that_is_not_as_it_was_written_is_not_there(tmp_path, spoil):
 
 
 def test_a_failed_write_leaves_no_part_behind(tmp_path, monkeypatch):
-    monkeypatch.setattr(files.os, "replace", lambda *_: (_ for _ in ()).throw(OSError("full")))
+    full = OSError(errno.ENOSPC, "full")
+    monkeypatch.setattr(files.os, "replace", lambda *_: (_ for _ in ()).throw(full))
     with pytest.raises(OSError, match="full"):
         files.write(tmp_path / "a", b"x")
     assert list(tmp_path.iterdir()) == []
@@ -122,7 +127,67 @@ def test_a_folder_others_could_write_to_and_a_link_are_not_used(fresh, tmp_path,
     assert files.code_folder() != fresh
     assert "could be written by others" in capsys.readouterr().err
     (tmp_path / "link").symlink_to(tmp_path)
-    assert files.not_private(tmp_path / "link") == "is no folder"
+    assert files.not_private(tmp_path / "link").endswith("is no folder")
+
+
+@pytest.fixture
+def owned_by(monkeypatch):
+    """Let a folder belong to another user, as far as this process can see."""
+    whose, lstat = {}, Path.lstat
+
+    def about(path):
+        found = list(lstat(path))
+        found[stat.ST_UID] = whose.get(path, found[stat.ST_UID])
+        return os.stat_result(found)
+
+    monkeypatch.setattr(Path, "lstat", about)
+    return whose
+
+
+@posix
+def test_a_folder_above_that_belongs_to_somebody_else_is_not_trusted(fresh, owned_by, capsys):
+    """Who owns it can put a folder of his own in the place of the user's, while a program runs."""
+    assert files.code_folder() == fresh
+    owned_by[fresh.parent] = 54321
+    folder = files.code_folder()
+    assert folder != fresh and files.not_private(folder) == ""
+    said = capsys.readouterr().err
+    assert f"{fresh.parent} belongs to another user" in said and said.count("\n") == 1
+    files.keep(fresh / "a.o", b"code")
+    assert files.kept(fresh / "a.o") is None, "it is looked at anew before each load"
+
+
+@posix
+@pytest.mark.parametrize(("mode", "is_trusted"), [(0o755, True), (0o777, False), (0o1777, True)])
+def test_a_folder_above_that_others_can_write_has_to_be_sticky(fresh, mode, is_trusted, capsys):
+    above = fresh.parent.parent
+    above.mkdir()
+    above.chmod(mode)
+    assert (files.code_folder() == fresh) == is_trusted
+    assert (f"{above} could be written by others" in capsys.readouterr().err) != is_trusted
+    assert is_trusted or not files.user_cache().is_relative_to(above), "nor are maps from there"
+
+
+@posix
+def test_both_ends_of_a_link_are_looked_at(tmp_path):
+    (tmp_path / "open").mkdir()
+    (tmp_path / "open").chmod(0o777)
+    (tmp_path / "open" / "mine").mkdir()
+    (tmp_path / "here").symlink_to("open/../open/mine")
+    assert doubt_of(tmp_path / "here") == f"{tmp_path / 'open'} could be written by others"
+    (tmp_path / "round").symlink_to("round")
+    with pytest.raises(OSError, match="symbolic links"):
+        doubt_of(tmp_path / "round")
+
+
+@posix
+@pytest.mark.parametrize("what", ["", "kernels-0"])
+def test_compiled_code_of_numba_is_not_taken_where_others_write(tmp_path, what, fresh, monkeypatch):
+    monkeypatch.setattr(jit, "kernel_digest", lambda: "0")
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "numba"))
+    assert jit.cache_folder() == str(tmp_path / "numba" / "kernels-0")
+    (tmp_path / "numba" / what).chmod(0o777)
+    assert not jit.cache_folder().startswith(str(tmp_path / "numba"))
 
 
 @posix

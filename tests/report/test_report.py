@@ -233,7 +233,8 @@ def test_warnings_of_several_shifts_are_said_once_and_none_is_lost(record):
         )
 
     shifts = [replace(record, found=told(*x)) for x in (("30 N", "1 rad/s"), ("4 kN", "2 rad/s"))]
-    said = [text for text in summary.warnings_of_all(shifts) if "part file" in text]
+    texts = [summary.warnings(shift) for shift in shifts]
+    said = [text for text in summary.warnings_of_all(texts) if "part file" in text]
     likewise = ". Likewise shifts 2."
     assert said == [f"Shift 1: {text}{likewise}" for text in told("30 N", "1 rad/s")]
 

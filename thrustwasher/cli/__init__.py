@@ -23,6 +23,7 @@ from typing import Any, NoReturn
 from .. import __version__
 from ..errors import EnvironmentProblem, ParameterError, SolveError, suggestion
 from ..model.registry import models_with_points
+from ._streams import named_streams
 
 MODELS = models_with_points()
 COMMANDS = (
@@ -46,6 +47,9 @@ COMMANDS = (
 )
 DONE, DEFECT, WRONG_INPUT, NO_SOLUTION, PIPE_CLOSED = 0, 1, 2, 3, 141
 LONGEST = 2000  # characters of a message
+SIGNALS: dict[int, str] = {signal.SIGINT: "stopped", signal.SIGTERM: "terminated"}
+if hasattr(signal, "SIGHUP"):  # not on Windows
+    SIGNALS[signal.SIGHUP] = "the terminal has closed"
 GRACE = 1.0  # s in which another signal to stop does not count
 RARELY = 100_000  # new objects between two searches for garbage: imports and plots leave hardly any
 EPILOG = (
@@ -59,11 +63,15 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit status; never raises, never shows a traceback."""
     words = list(sys.argv[1:] if argv is None else argv)
     label = f"thrustwasher {words[0]}" if words and words[0] in COMMANDS else "thrustwasher"
-    if hasattr(sys.stdout, "reconfigure"):
-        sys.stdout.reconfigure(errors="replace")  # a terminal that knows no µ still gets numbers
+    with named_streams(is_program=argv is None):
+        return _ended(words, label, is_program=argv is None)
+
+
+def _ended(words: list[str], label: str, *, is_program: bool) -> int:
+    """Run a command to its end, whatever that is."""
     watch = Watch()
     try:
-        if argv is None:  # a program of its own, no function in somebody's process
+        if is_program:  # no function in somebody's process
             watch.begin()
             gc.set_threshold(RARELY)
         status = _dispatch(words)
@@ -82,18 +90,13 @@ def _status_of(error: BaseException, label: str) -> int:
     if isinstance(error, SystemExit):  # argparse after --help and --version
         return error.code if isinstance(error.code, int) else DONE
     if isinstance(error, BrokenPipeError):  # the reader, e.g. `head`, has gone: that is its right
-        try:  # so that the interpreter's last flush is quiet
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        except (OSError, ValueError):
-            pass  # a test's stand-in for standard output has no file number
         return PIPE_CLOSED
     if isinstance(error, ParameterError | EnvironmentProblem):  # first: BranchError is both
         return _say(label, str(error), WRONG_INPUT)
     if isinstance(error, SolveError):
         return _say(label, str(error), NO_SOLUTION)
     if isinstance(error, OSError):
-        full = error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
-        where = error.filename or (_nameless_file() if full else "")
+        where = error.filename or _nameless(error)
         where = f"{where}: " if where else ""
         return _say(label, f"{where}{error.strerror or error}", WRONG_INPUT)
     if isinstance(error, MemoryError):
@@ -104,13 +107,16 @@ def _status_of(error: BaseException, label: str) -> int:
     return _say(label, f"{text} (THRUSTWASHER_TRACEBACK=1 shows where)", DEFECT)
 
 
-def _nameless_file() -> str:
-    """Say what could not be written where the error does not."""
-    try:
-        sys.stdout.flush()
-    except OSError:
-        return "standard output"
-    return "a temporary file or the cache of compiled kernels (NUMBA_CACHE_DIR)"
+def _nameless(error: OSError) -> str:
+    """Say what an error is about that has no name of a file."""
+    if error.errno == errno.ENOENT:
+        try:
+            os.getcwd()
+        except OSError:
+            return "the working directory is gone; go to another one"
+    if error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
+        return "a temporary file or the cache of compiled kernels (NUMBA_CACHE_DIR)"
+    return ""
 
 
 class _Parser(argparse.ArgumentParser):
@@ -197,7 +203,7 @@ class Stopped(KeyboardInterrupt):
 
 
 class Watch:
-    """Which signal asked this process to end, if any: Ctrl-C or SIGTERM.
+    """Which signal asked this process to end, if any: Ctrl-C, SIGTERM, or the terminal's end.
 
     Only the first one counts while things are tidied up; one that comes a second later stops
     whatever still runs. A stop that arrives as another failure, because some library in between
@@ -212,7 +218,7 @@ class Watch:
         """Take the signals over; what a parent has switched off stays off."""
         if threading.current_thread() is not threading.main_thread():
             return
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in SIGNALS:
             if signal.getsignal(number) in (signal.default_int_handler, signal.SIG_DFL):
                 signal.signal(number, self._stop)
 
@@ -225,7 +231,7 @@ class Watch:
 
     def close(self) -> None:
         """Let nothing disturb the last line and the interpreter's end."""
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in SIGNALS:
             if signal.getsignal(number) == self._stop:
                 signal.signal(number, signal.SIG_IGN)
 
@@ -237,4 +243,4 @@ class Watch:
     @property
     def word(self) -> str:
         """The message."""
-        return "terminated" if self.number == signal.SIGTERM else "stopped"
+        return SIGNALS.get(self.number, "stopped")

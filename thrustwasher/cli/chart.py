@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-from ..errors import ParameterError
+from ..errors import ParameterError, refuse_pipe
 from .common import _options, _output
 
 HELP = "measure error and cost of every way to solve the models here, and draw the charts"
@@ -100,6 +100,7 @@ def _read(path: str) -> dict[str, Any]:
     from ..study.surroundings import SCHEMA
 
     try:
+        refuse_pipe(path)
         record = json.loads(Path(path).read_text("utf-8"))
         known = record["schema"] == SCHEMA
     except (ValueError, KeyError, TypeError, RecursionError):

@@ -246,7 +246,8 @@ def _simulate(arguments: argparse.Namespace, scene: Any) -> Any:
     with _fmu_instances(scene, arguments.fmu) as make:
         if not arguments.no_report:
             loader.start()
-        result = run_scene(scene, make, guard=not arguments.no_guard, progress=progress)
+        keep = "figures" if arguments.no_report else "all"
+        result = run_scene(scene, make, guard=not arguments.no_guard, progress=progress, keep=keep)
     if loader.is_alive():
         loader.join()
     return result

@@ -13,7 +13,7 @@ from importlib import metadata
 from ..errors import ParameterError
 from ..model.prepare import tables_of
 from ..model.registry import all_specs, kernel_of
-from ..native.files import code_folder
+from ..native.files import VARIABLE, code_folder, private_folder, why_not_kept
 from ..native.link import find_linker
 from ..native.portable import MISSING, maker
 from .model_kernels import is_compiled, package_version
@@ -41,6 +41,7 @@ def diagnose() -> list[Check]:
         ("models", lambda: ", ".join(s.name for s in all_specs() if kernel_of(s))),
         ("compiled kernels", _kernels),
         ("kept maps", _kept),
+        ("folder of FMUs that run", _running),
         ("temporary folder", lambda: _writable(tempfile.gettempdir())),
         ("FMU sources", lambda: str(source_folder())),
         ("Python FMU", _binary),
@@ -99,6 +100,17 @@ def _c_sources() -> str:
 
 def _kept() -> str:
     return "; ".join(tables.kept() for tables in filter(None, map(tables_of, all_specs())))
+
+
+def _running() -> str:
+    """Try the folder that FMUs are unpacked to, and their libraries loaded from."""
+    folder = code_folder("fmus", runs=True)
+    if folder.is_relative_to(private_folder()):
+        raise ParameterError(
+            f"each program unpacks them anew, to {folder}: {why_not_kept()}; let {VARIABLE} name "
+            "another folder"
+        )
+    return str(folder)
 
 
 def _writable(folder: str) -> str:

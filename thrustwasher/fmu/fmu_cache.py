@@ -6,30 +6,44 @@ import sys
 import time
 from collections.abc import Iterable
 from contextlib import suppress
+from functools import lru_cache
 from pathlib import Path
 
-from ..native.files import code_folder
+from ..native.files import code_folder, keep_sum, kept, stamp
 
 KEPT = 3  # versions
 
 
 def fmu_paths(models: Iterable[str], target: str) -> dict[str, Path]:
-    """Return the FMU of each model for this machine, building those that are not there yet."""
+    """Return the FMU of each model for this machine, building those that are not there yet.
+
+    One that is not as it was built is built again; what happens is said in a line.
+    """
     from .build import build
     from .running.loading import prune
 
     folder = cache_folder(target)
     paths = {model: folder / f"{target}-fmi2" / f"{model}.fmu" for model in models}
-    missing = [model for model, path in paths.items() if not path.is_file()]
+    missing = [model for model, path in paths.items() if not _is_whole(path, stamp(path))]
     if missing:
+        damaged = [model for model in missing if paths[model].exists()]
         began = time.perf_counter()
         build(missing, target=target, out=folder, local=True)
+        for model in missing:
+            keep_sum(paths[model], paths[model].read_bytes())
         took = f"{time.perf_counter() - began:.0f} s"
-        print(f"built {', '.join(missing)} in {took}", file=sys.stderr)
+        again = f", {', '.join(damaged)} again: not as it was built in {folder}" if damaged else ""
+        print(f"built {', '.join(missing)} in {took}{again}", file=sys.stderr)
         prune(folder.parent, KEPT)
     with suppress(OSError):
         os.utime(folder)
     return paths
+
+
+@lru_cache(maxsize=64)
+def _is_whole(path: Path, _changed: tuple[int, ...]) -> bool:
+    """Tell if an FMU is there as it was built; looked at once per process and change."""
+    return kept(path) is not None
 
 
 def cache_folder(target: str) -> Path:

@@ -1,6 +1,7 @@
 """TOML files and their tables: read, with quantities in SI units, or an error that says where."""
 
 import json
+import re
 import tomllib
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import is_dataclass, replace
@@ -8,15 +9,23 @@ from functools import cache
 from pathlib import Path
 from typing import Any, get_args, get_origin, get_type_hints
 
-from ..errors import ParameterError, suggestion, within
+from ..errors import ParameterError, refuse_pipe, suggestion, within
 from ..units import has_unit, parse_quantity
 from .parameters import allowed, check_number, check_value
 from .spec import ModelSpec, Rule
+
+# What XML 1.0 has no place for, as it is and as TOML's texts may spell it.
+NO_XML = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")
+ESCAPED = re.compile(
+    r"\\\\|(\\(?:[bfe]|(?:x|u00|U000000)(?:0[0-8bcef]|1[\da-f])|(?:u|U0000)fff[ef]))",
+    re.IGNORECASE,
+)
 
 
 def read_file(what: str, path: str | Path) -> dict[str, Any]:
     """Return the tables of a TOML file; ``what`` it is ("scene") begins the message of an error."""
     try:
+        refuse_pipe(path)
         text = Path(path).read_text(encoding="utf-8-sig")
     except (OSError, ValueError) as problem:  # bytes that are no text, a path that is none
         reason = getattr(problem, "strerror", None) or "not UTF-8 text"
@@ -25,11 +34,40 @@ def read_file(what: str, path: str | Path) -> dict[str, Any]:
 
 
 def parse(where: str, text: str) -> dict[str, Any]:
-    """Return the tables of a TOML text."""
+    """Return the tables of a TOML text; characters that no XML file may hold are refused."""
     try:
-        return tomllib.loads(text)
+        table = tomllib.loads(text)
+        if strange := _strange(table):
+            raise ParameterError(
+                f"{where}: line {_line_of_strange(text, len(strange))}: character "
+                f"U+{ord(strange[0]):04X} in a text, allowed: those of XML, which FMUs are made "
+                "of (no control characters but tab and line end)"
+            )
+        return table
+    except ParameterError:
+        raise
     except (ValueError, RecursionError) as problem:  # also numbers and nesting without end
         raise ParameterError(f"{where}: not valid TOML ({problem})") from None
+
+
+def _strange(value: Any) -> str:
+    """Return all characters in keys and texts that XML 1.0 does not know."""
+    if isinstance(value, dict):
+        return "".join(_strange(k) + _strange(x) for k, x in value.items())
+    if isinstance(value, list):
+        return "".join(map(_strange, value))
+    return "".join(NO_XML.findall(value)) if isinstance(value, str) else ""
+
+
+def _line_of_strange(text: str, n: int) -> int:
+    """Return the first line without whose escapes fewer than ``n`` strange characters are left."""
+    lines = text.split("\n")
+    for i, line in enumerate(lines):
+        plain = NO_XML.sub(" ", ESCAPED.sub(lambda found: " " if found[1] else found[0], line))
+        changed = "\n".join([*lines[:i], plain, *lines[i + 1 :]])
+        if plain != line and len(_strange(tomllib.loads(changed))) < n:
+            return i + 1
+    return len(lines)
 
 
 def table_beside(module: str, name: str) -> dict[str, Any]:

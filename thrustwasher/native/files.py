@@ -8,6 +8,7 @@ one of this process, and that is said.
 import atexit
 import hashlib
 import io
+import mmap
 import os
 import shutil
 import stat
@@ -22,9 +23,12 @@ from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
 
-from ..errors import naming
+from ..errors import EnvironmentProblem, naming
+from .drafts import draft_in, flush
+from .trust import doubt_of
 
 Note = Callable[[str], None]
+VARIABLE = "XDG_CACHE_HOME"
 READABLE = "can be read by others"
 EPOCH = (1980, 1, 1, 0, 0, 0)
 UNIX, FILE_MODE = 3, 0o100644
@@ -42,16 +46,11 @@ def to_stderr(message: str) -> None:
 def write(path: Path, data: bytes, mode: int = 0o644) -> None:
     """Put a file in place at once: a reader sees the old one or the new one, never a half."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    handle, part = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with naming(path), os.fdopen(handle, "wb") as file:
-            file.write(data)
-        os.chmod(part, mode)
-        os.replace(part, path)
-    except BaseException:
-        with suppress(OSError):
-            os.unlink(part)
-        raise
+    with naming(path), draft_in(path.parent, is_folder=False) as draft:
+        draft.write_bytes(data)
+        draft.chmod(mode)
+        flush(draft)
+        os.replace(draft, path)
 
 
 def zipped(files: Mapping[str, bytes], first: str = "") -> bytes:
@@ -73,55 +72,110 @@ def checksum(data: bytes) -> str:
 
 
 def user_cache() -> Path:
-    """Return where this user's compiled code lies; it need not exist."""
+    """Return where this user's compiled code and maps lie; it need not exist."""
     home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
     if not os.path.isabs(home):  # without a home, "~" is a folder like any other
         home = str(private_folder())
-    return Path(home) / "thrustwasher"
-
-
-def code_folder(name: str = "native") -> Path:
-    """Return a folder for compiled code that nobody else can write to.
-
-    It is ``name`` in the user's cache if that can be made so, else a temporary folder that goes
-    with this process; then a line on standard error says why, once.
-    """
-    return _code_folder(user_cache(), name)
+    return Path(_trusted_home(home)) / "thrustwasher"
 
 
 @cache
-def _code_folder(home: Path, name: str) -> Path:
-    folder = home / name
-    why = _made_private(folder)
+def _trusted_home(home: str) -> str:
+    """Return a folder for caches, or a private one where others could change what lies there."""
+    return home if is_trusted(Path(home)) else str(private_folder())
+
+
+def code_folder(name: str = "native", *, runs: bool = False) -> Path:
+    """Return a folder for compiled code that nobody else can write to.
+
+    It is ``name`` in the user's cache if that can be made so, else a temporary folder that goes
+    with this process; then a line on standard error says why, once. Whose it is and what leads to
+    it are looked at anew each time. ``runs``: libraries are loaded from there. EnvironmentProblem:
+    no folder lets them.
+    """
+    folder = user_cache() / name
+    why = _unfit(folder, runs)
     if not why:
         return folder
-    if not _said:  # other kinds of code find the same
-        _said.append(why)
-        meanwhile = f"it lies in {private_folder()} meanwhile"
-        to_stderr(f"compiled code is not kept: {folder} {why}; {meanwhile}")
-    (private_folder() / name).mkdir(exist_ok=True, mode=0o700)
-    return private_folder() / name
+    folder = private_folder() / name
+    folder.mkdir(exist_ok=True, mode=0o700)
+    if runs and not lets_run(folder):
+        raise EnvironmentProblem(
+            f"{why}, and {folder.parent.parent} lets no code run either (noexec); let {VARIABLE} "
+            "name a folder that does"
+        )
+    _say_once(why)  # other kinds of code find the same
+    return folder
 
 
+def is_trusted(folder: Path, variable: str = VARIABLE) -> bool:
+    """Tell if nobody else could change what lies in a folder; if not, say once why.
+
+    ``variable``: of the environment, which names another one. The folder need not exist yet.
+    """
+    with suppress(FileNotFoundError):
+        if why := doubt_of(folder):
+            _say_once(why, variable)
+            return False
+    return True
+
+
+_fit: dict[tuple[Path, bool], bool] = {}  # folders that were made and tried
 _said: list[str] = []  # why code is not kept
 
 
-def _made_private(folder: Path) -> str:
+def _say_once(why: str, variable: str = VARIABLE) -> None:
+    if not _said:
+        _said.append(why)
+        to_stderr(
+            f"compiled code is not kept: {why}; it lies in {private_folder()} meanwhile; let "
+            f"{variable} name another folder"
+        )
+
+
+def why_not_kept() -> str:
+    """Return why compiled code lies in a temporary folder, "" if it does not."""
+    return _said[0] if _said else ""
+
+
+def _unfit(folder: Path, runs: bool) -> str:
     """Make a folder that is the user's alone; return why it is not, or nothing."""
     try:
-        folder.mkdir(parents=True, exist_ok=True, mode=0o700)
-        why = not_private(folder)
-        if why == READABLE:  # what lies there is the user's own
-            folder.chmod(0o700)
-            why = not_private(folder)
-        with tempfile.TemporaryFile(dir=folder):
-            return why
+        if (folder, runs) not in _fit or not folder.is_dir():
+            _make_private(folder)
+            with tempfile.TemporaryFile(dir=folder):
+                pass
+            if runs and not lets_run(folder):
+                return f"{folder} lies where no code may run (noexec)"
+            _fit[folder, runs] = True
+        return not_private(folder)
     except OSError as error:
-        return f"cannot be written ({error.strerror or error})"
+        return f"{folder} cannot be written ({error.strerror or error})"
+
+
+def _make_private(folder: Path) -> None:
+    """Make a folder and its parents for the user alone; what lies there already is his own."""
+    for made in reversed([p for p in (folder, *folder.parents) if not p.exists()]):
+        made.mkdir(exist_ok=True, mode=0o700)
+    if not_private(folder).endswith(READABLE):
+        folder.chmod(0o700)
+
+
+def lets_run(folder: Path) -> bool:
+    """Tell if the system runs code of a folder: one mounted noexec is for data alone."""
+    if not sys.platform.startswith("linux"):
+        return True
+    try:
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.truncate(mmap.PAGESIZE)
+            mmap.mmap(file.fileno(), mmap.PAGESIZE, prot=mmap.PROT_READ | mmap.PROT_EXEC).close()
+    except PermissionError:
+        return False
+    return True
 
 
 def not_private(folder: Path) -> str:
-    """Return why code in a folder is not trusted: "" if the folder is the user's alone.
+    """Return why code in a folder is not trusted: "" if it is the user's alone, with its parents.
 
     On Windows the folders of a user's profile are closed to others by the system.
     """
@@ -129,12 +183,12 @@ def not_private(folder: Path) -> str:
         return ""
     about = folder.lstat()
     if not stat.S_ISDIR(about.st_mode):
-        return "is no folder"
+        return f"{folder} is no folder"
     if about.st_uid != os.getuid():
-        return "belongs to another user"
-    if about.st_mode & 0o022:
-        return "could be written by others"
-    return READABLE if about.st_mode & 0o055 else ""
+        return f"{folder} belongs to another user"
+    if why := doubt_of(folder):
+        return why
+    return f"{folder} {READABLE}" if about.st_mode & 0o055 else ""
 
 
 @cache
@@ -159,16 +213,35 @@ def forget_old(folder: Path, pattern: str, kept: int, unused: float = 0.0) -> No
                 used.append((found.stat().st_mtime, found))
     for last, old in sorted(used, reverse=True)[kept:]:
         if time.time() - last >= unused:
-            gone = old.with_name(f".{old.name}.{os.getpid()}")
-            with suppress(OSError):
-                old.rename(gone)  # nobody finds half a folder
-                shutil.rmtree(gone, ignore_errors=True)
+            remove_folder(old)
+
+
+def remove_folder(folder: Path) -> None:
+    """Remove a folder at once, so that nobody finds half of it."""
+    gone = folder.with_name(f".{folder.name}.{os.getpid()}")
+    with suppress(OSError):
+        folder.rename(gone)
+        shutil.rmtree(gone, ignore_errors=True)
 
 
 def keep(path: Path, data: bytes) -> None:
     """Write a file of compiled code and beside it its checksum."""
     write(path, data, 0o600)
+    keep_sum(path, data)
+
+
+def keep_sum(path: Path, data: bytes) -> None:
+    """Write the checksum of a file's content beside it."""
     write(path.with_name(path.name + SUM), checksum(data).encode(), 0o600)
+
+
+def stamp(path: Path) -> tuple[int, ...]:
+    """Return what changes when a file is written to or replaced; empty if it is not there."""
+    try:
+        about = path.stat()
+    except OSError:
+        return ()
+    return about.st_ino, about.st_size, about.st_mtime_ns, about.st_ctime_ns
 
 
 def kept(path: Path) -> bytes | None:
@@ -181,6 +254,8 @@ def kept(path: Path) -> bytes | None:
             about = os.fstat(file.fileno())
             data = file.read()
         if sys.platform != "win32" and (about.st_uid != os.getuid() or about.st_mode & 0o022):
+            return None
+        if doubt_of(path.parent):  # looked at anew before each load
             return None
         known = path.with_name(path.name + SUM).read_text("ascii")
     except (OSError, UnicodeDecodeError):

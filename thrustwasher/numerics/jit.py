@@ -24,12 +24,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import EnvironmentProblem
-from ..native.files import code_folder, forget_old, private_folder
+from ..native.files import VARIABLE, code_folder, forget_old, is_trusted, private_folder
 from ..native.load import native_function
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int32]
 F = TypeVar("F", bound=Callable[..., Any])
+NUMBAS = "NUMBA_CACHE_DIR"
 KEPT_VERSIONS = 5
 PACKAGE = Path(__file__).parents[1]
 KERNELS = ("numerics", "tribology", "**/kernels", "**/kernels/map")  # folders of kernels
@@ -100,19 +101,28 @@ def kernel_digest() -> str:
     return hashed.hexdigest()[:16]
 
 
-@cache
 def cache_folder() -> str:
-    """Return the folder of what numba compiled: NUMBA_CACHE_DIR, else the user's cache."""
-    base = os.environ.get("NUMBA_CACHE_DIR") or str(code_folder("jit"))
-    folder = os.path.join(base, f"kernels-{kernel_digest()}")
+    """Return the folder of what numba compiled: in NUMBA_CACHE_DIR, else in the user's cache.
+
+    One that others could change is not used: what lies there is run.
+    """
+    named, version = os.environ.get(NUMBAS), f"kernels-{kernel_digest()}"
+    folder = (Path(named) if named else code_folder("jit")) / version
+    is_safe = is_trusted(folder, NUMBAS if named else VARIABLE)
+    return str(folder if is_safe and _is_usable(folder) else private_folder() / version)
+
+
+@cache
+def _is_usable(folder: Path) -> bool:
+    """Make the folder of this version, and tell if it can be written to."""
     try:
-        if not os.path.isdir(folder):
-            forget_old(Path(base), "kernels-*", KEPT_VERSIONS)
-        os.makedirs(folder, exist_ok=True)
+        if not folder.is_dir():
+            forget_old(folder.parent, "kernels-*", KEPT_VERSIONS)
+        folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
-            return folder
+            return True
     except OSError:
-        return str(private_folder() / f"kernels-{kernel_digest()}")
+        return False
 
 
 def jitted(function: Callable[..., Any], inline: str = "never") -> Any:

@@ -24,6 +24,7 @@ def run_shift(
     step: float | None = None,
     fidelity: Rungs | None = None,
     scatter: int | None = None,
+    keep: str = "all",
 ) -> ShiftResult | SequenceResult:
     """Return the result of a gear shift; its FMUs are built if they are missing, and freed.
 
@@ -38,6 +39,8 @@ def run_shift(
         scene's
     scatter : also study how sure the figures are, by so many base points, 8 .. 131072, rounded up
         to a power of two; it takes that many runs for each source of scatter too
+    keep : of a scene with a sequence, "all" points or the "figures" alone: a run of any length
+        then fits into memory, and its shifts have no signals
 
     Returns
     -------
@@ -61,7 +64,7 @@ def run_shift(
     if asked.sequence:
         check_rungs(asked)
     with fmu_instances(asked) as make:
-        result = run_scene(asked, make)
+        result = run_scene(asked, make, keep=keep)
     if runs is None or isinstance(result, SequenceResult):
         return result
     return replace(result, scatter=propagate(result.scene, runs=runs))

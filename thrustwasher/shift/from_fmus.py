@@ -36,11 +36,19 @@ def check_rungs(scene: Scene, where: str = "with [sequence]") -> None:
 
 
 def run_scene(
-    scene: Scene, make: Make, *, guard: bool = True, progress: Progress | None = None
+    scene: Scene,
+    make: Make,
+    *,
+    guard: bool = True,
+    progress: Progress | None = None,
+    keep: str = "all",
 ) -> ShiftResult | SequenceResult:
-    """Return the result of a scene of one shift or several; arguments as in ``run_auto``."""
+    """Return the result of a scene of one shift or several; arguments as in ``run_auto``.
+
+    ``keep``: of several shifts, as in ``run_sequence``.
+    """
     if not scene.sequence:
         return run_auto(scene, make, guard=guard, progress=progress)
     check_rungs(scene)
     instances = {name: make(name, part) for name, part in scene.parts.items()}
-    return run_sequence(scene, instances, guard=guard, progress=progress)
+    return run_sequence(scene, instances, guard=guard, progress=progress, keep=keep)

@@ -79,7 +79,14 @@ def run_shift(
         raise type(problem)(message) from (problem.__cause__ or problem)
     wall = perf_counter() - begin
     cost = _costs(scene, system, before, wall)
-    result = result_of(scene, run, wall, cost, messages, found)
+    messages += [
+        line
+        for action in run.schedule
+        if isinstance(action, Correct)
+        for line in action.change.words()
+    ]
+    signals = run.recorder.signals()
+    result = result_of(scene, run.time, signals, run.h, wall, cost, messages, found)
     if not guard:
         return result
     from .checks.guard import guarded, reset
@@ -125,21 +132,21 @@ def _costs(
 
 def result_of(
     scene: Scene,
-    run: Run,
+    time: Array,
+    signals: dict[str, Array],
+    step: float,
     wall: float,
-    cost: list[Cost],
-    messages: list[str],
+    cost: Sequence[Cost] = (),
+    messages: Sequence[str] = (),
     found: Sequence[str] = (),
 ) -> ShiftResult:
-    """Read everything from the rows of a finished run."""
-    time, signals = run.time, run.recorder.signals()
+    """Read everything from the signals of a finished run."""
     events = find_events(scene, time, signals)
     judder = find_judder(scene, time, signals)
     figures = key_figures(scene, time, signals, events, judder)
-    corrections = [action.change for action in run.schedule if isinstance(action, Correct)]
     return ShiftResult(
         scene=scene,
-        step=run.h,
+        step=step,
         master=scene.master,
         time=time,
         signals=signals,
@@ -147,22 +154,18 @@ def result_of(
         phases=find_phases(scene, signals, events),
         energy=energy_balance(signals),
         key_figures=figures,
-        cost=cost,
+        cost=list(cost),
         wall_time=wall,
         overhead=wall - sum(c.wall_time for c in cost),
         real_time_factor=(scene.stop_time - scene.start_time) / wall,
-        messages=[
-            *messages,
-            *(line for change in corrections for line in change.words()),
-            *thrust_remarks(scene, signals),
-        ],
+        messages=[*messages, *thrust_remarks(scene, signals)],
         found=(
             *found,
-            *doubts(scene, run.h, time, signals),
+            *doubts(scene, step, time, signals),
             *doubts_of_packs(scene, time, signals, events, figures),
         ),
         judder=judder,
-        chatter=find_chatter(scene, time, signals, run.h),
+        chatter=find_chatter(scene, time, signals, step),
     )
 
 

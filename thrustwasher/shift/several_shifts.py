@@ -1,5 +1,6 @@
 """Run several shifts in one: fine steps in each shift's window, long ones between them."""
 
+from bisect import bisect_right
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from itertools import count
@@ -19,14 +20,16 @@ from .checks.step_error import by_step, parts_of_a_step, recorded_parts
 from .checks.step_estimate import StepError, excess
 from .checks.washer_in_time import InTime
 from .checks.windows import Windows
-from .cosim.loop import Drive, Recorder, Run, driven
+from .cosim.loop import Drive, driven
 from .cosim.system import Stepping, System
-from .run import Progress, check_instances, connected, result_of
+from .run import Progress, check_instances, connected
 from .scene.connections import COMMAND
 from .scene.scene import Scene
 from .scene.sequence import sequence_of, shift_scene, times
+from .sequence_rows import EveryPoint, FiguresAlone, read_shift
 from .shift_result import ShiftResult
 
+KEEP = ("all", "figures")  # of a run's points
 # Input of the transmission -> profile that drives it.
 DRIVEN = {
     "clutch_pressure": "clutch_pressure",
@@ -39,7 +42,9 @@ DRIVEN = {
 class SequenceResult(Tabled):
     """A finished sequence: the signals of the whole run, and each shift as a result of its own.
 
-    In the shifts, heats and works count from the start of their window.
+    In the shifts, heats and works count from the start of their window. Where figures alone were
+    kept, ``time`` and ``signals`` are those at the ends of the windows and where the oil is
+    hottest, and the shifts have no signals.
     """
 
     scene: Scene
@@ -50,6 +55,8 @@ class SequenceResult(Tabled):
     messages: list[str]
     found: tuple[str, ...] = ()
     """What the run and the checks after it found to be doubtful; ``warnings`` has more."""
+    steps: int
+    """The number of communication steps."""
     step_errors: dict[int, StepError] = field(default_factory=dict)
     """What the step of a window errs by, by the shift's place: the first and the longest one."""
     in_time: Mapping[str, InTime] = field(default_factory=dict)
@@ -80,7 +87,7 @@ class SequenceResult(Tabled):
         found: dict[str, Any] = {
             "scene": self.scene.name,
             "title": self.scene.title,
-            "steps": len(self.time) - 1,
+            "steps": self.steps,
             "oil_temperature_start": float(oil[0]),
             "oil_temperature_end": float(oil[-1]),
             "oil_temperature_max": float(oil.max()),
@@ -136,14 +143,19 @@ def run_sequence(
     *,
     progress: Progress | None = None,
     guard: bool = False,
+    keep: str = KEEP[0],
 ) -> SequenceResult:
     """Simulate all shifts of a scene's ``[sequence]`` with living instances.
 
     Instances, ``progress`` and errors are those of ``run_shift``; ParameterError also with another
     master than gauss-seidel, whose torques are not bound to a constant step. ``guard``: check the
     run afterwards; the first and the longest shift run once more from where they began, with
-    shorter steps, and washers that were taken as steady are followed in time.
+    shorter steps, and washers that were taken as steady are followed in time. ``keep``: "all"
+    points, about 2 MB a shift, or the "figures" alone, so that a run of any length fits; figures
+    and warnings are the same.
     """
+    if keep not in KEEP:
+        raise ParameterError(f"keep = {keep!r}, allowed: {' or '.join(map(repr, KEEP))}")
     shifts = [shift_scene(scene, i) for i in range(len(sequence_of(scene).shifts))]
     for shift in shifts:
         shift.check_step()
@@ -159,61 +171,69 @@ def run_sequence(
     check_instances(scene, instances)
     time = np.array(list(times(scene)))
     windows, steps = Windows(system, shifts if guard else ()), count()
+    kept = (
+        EveryPoint(system, shifts, time)
+        if keep == "all"
+        else FiguresAlone(system, shifts, time, followed=guard)
+    )
 
     def one_step(t: float, end: float) -> None:
         done = next(steps)
+        if len(kept.shifts) > windows.over:
+            windows.over = len(kept.shifts)
+            windows.free(but={*kept.whole, windows.over})
         if progress is not None and done and done % 100 == 0:
             progress(done, len(time) - 1)
         windows.pass_by(t)
         drive(t, end)
 
     begin = perf_counter()
-    recorder = driven(system, time, one_step)
-    wall = perf_counter() - begin
-    found = [_one(shift, system, time, recorder) for shift in shifts]
+    driven(system, time, one_step, kept.keep)
+    points, signals = kept.points()
     result = SequenceResult(
         scene=scene,
-        time=time,
-        signals=recorder.signals(),
-        wall_time=wall,
-        shifts=found,
-        messages=[f"first shift: {message}" for message in found[0].messages],
+        time=points,
+        signals=signals,
+        wall_time=perf_counter() - begin,
+        shifts=kept.shifts,
+        messages=[f"first shift: {message}" for message in kept.shifts[0].messages],
+        steps=len(time) - 1,
     )
-    return _guarded(result, windows, drive) if guard else result
+    return _guarded(result, kept, windows, drive) if guard else result
 
 
-def _guarded(result: SequenceResult, windows: Windows, drive: Drive) -> SequenceResult:
+def _guarded(
+    result: SequenceResult, kept: EveryPoint, windows: Windows, drive: Drive
+) -> SequenceResult:
     """Return a finished sequence with what the checks after it have found."""
     found: list[str] = []
     errors: dict[int, StepError] = {}
-    lasts = [s.figures["lock_after_ramp_start"] or np.inf for s in result.shifts]
-    for i in sorted({0, int(np.argmax(lasts))}):
+    for i, shift in kept.whole.items():
         if not windows.able:
             found.append("The step was not checked: there are parts that cannot save their state")
             break
         try:
-            errors[i] = error = by_step(result.shifts[i], _finer(result, i, windows, drive))
+            errors[i] = error = by_step(shift, _finer(shift, i, windows, drive))
             found += [f"Shift {i + 1}: {text}" for text in error.warnings()]
         except (ParameterError, SolveError) as problem:
             found.append(
                 f"The step of shift {i + 1} was not checked: a second run failed ({problem})"
             )
     windows.free()
-    followed = followed_washers(result.scene, result.time, result.signals, result.scene.step)
+    followed = followed_washers(result.scene, *kept.watched(), result.scene.step)
     for name, washer in followed.items():
         found += washer.warnings(name, REMEDY)
     return replace(result, found=tuple(found), step_errors=errors, in_time=followed)
 
 
-def _finer(result: SequenceResult, i: int, windows: Windows, drive: Drive) -> ShiftResult:
+def _finer(whole: ShiftResult, i: int, windows: Windows, drive: Drive) -> ShiftResult:
     """Run one shift once more from where it began, with shorter steps."""
-    shift = result.shifts[i].scene
-    n = result.shifts[i].steps
-    steps = round(n * parts_of_a_step(shift, shift.step, n))
+    shift = whole.scene
+    steps = round(whole.steps * parts_of_a_step(shift, shift.step, whole.steps))
     window = shift.stop_time - shift.start_time
-    played = recorded_parts(result.scene, result.time, result.signals)
-    time, recorder = windows.again(i, window, steps, drive, played)
-    return _one(replace(shift, step=window / steps), windows.system, time, recorder)
+    played = recorded_parts(shift, whole.time, whole.signals)
+    time, rows = windows.again(i, window, steps, drive, played)
+    return read_shift(replace(shift, step=window / steps), windows.system, time, rows)
 
 
 def _drives(system: System, shifts: list[Scene]) -> Drive:
@@ -230,8 +250,10 @@ def _drives(system: System, shifts: list[Scene]) -> Drive:
         for s in shifts
     ]
 
+    starts = [shift.start_time for shift in shifts]
+
     def drive(t: float, end: float) -> None:
-        k = max(0, sum(s.start_time <= t + 1e-9 for s in shifts) - 1)
+        k = max(0, bisect_right(starts, t + 1e-9) - 1)
         inputs[names.index(COMMAND)] = shifts[k].command(end)
         for name, points in profiles[k].items():
             if len(points):
@@ -239,22 +261,3 @@ def _drives(system: System, shifts: list[Scene]) -> Drive:
                 inputs[names.index(name)] = float(np.interp(at, *points))
 
     return drive
-
-
-def _one(
-    shift: Scene, system: System, time: NDArray[np.float64], recorder: Recorder
-) -> ShiftResult:
-    """Return one shift's result from its rows; energies count from its start."""
-    first, last = np.searchsorted(time, [shift.start_time - 1e-9, shift.stop_time + 1e-9])
-    own = Recorder(system, 0)
-    own.rows = recorder.rows[first:last].copy()
-    signals = own.signals()
-    for part in recorder.parts:
-        for signal in part.spec.outputs:
-            if signal.unit == "J" and signal.name != "kinetic_energy":
-                column = signals[f"{part.name}.{signal.name}"]
-                column -= column[0]
-    own_time = time[first:last]
-    commands = np.array([shift.command(t) for t in own_time.tolist()])
-    run = Run(system, [], own_time, shift.step, commands, own)
-    return result_of(shift, run, 1.0, [], [])

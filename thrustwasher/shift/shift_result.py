@@ -74,13 +74,15 @@ class ShiftResult(Tabled):
     chatter: Sequence[Chatter] = ()  # Packs whose slip flips from step to step
     selection: Selection | None = None
     """Why the rungs are what they are, if they were chosen for a tolerance."""
+    said: tuple[str, ...] | None = None
+    """The warnings of a shift whose signals were not kept; None: they are read from these."""
     scatter: Any = field(default=None, repr=False)
     """What the scatter of the scene makes of it (``ScatterResult``), if that was studied."""
 
     @property
     def steps(self) -> int:
         """The number of communication steps."""
-        return len(self.time) - 1
+        return round((self.time[-1] - self.time[0]) / self.step)
 
     @property
     def figures(self) -> dict[str, float | None]:
@@ -97,7 +99,7 @@ class ShiftResult(Tabled):
         """What must not be missed, a line each: doubts about the figures, then faults they show."""
         from ..report.shift.summary import warnings_of
 
-        return tuple(warnings_of(self))
+        return tuple(warnings_of(self)) if self.said is None else self.said
 
     def comparison(self) -> list[dict[str, Any]]:
         """Return what the scene's source says beside this run: one entry per key figure."""

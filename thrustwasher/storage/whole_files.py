@@ -1,29 +1,28 @@
 """Files and folders that are written whole or not at all."""
 
 import os
-import secrets
-import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from ..errors import ParameterError, naming
+from ..native.drafts import draft_in, flush
 
 
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
     """Give a temporary path beside ``path`` that takes its place only if all went well."""
-    with naming(path), new_folder(path.parent):
-        draft = path.parent / f".{secrets.token_hex(8)}{path.suffix}"
-        try:  # a signal may stop it at any line: the name is known before the file is there
-            draft.touch(0o600, exist_ok=False)
-            yield draft
-            mask = os.umask(0)  # of ordinary new files
-            os.umask(mask)
-            draft.chmod(0o666 & ~mask)
-            os.replace(draft, path)
-        finally:
-            draft.unlink(missing_ok=True)
+    with (
+        naming(path),
+        new_folder(path.parent),
+        draft_in(path.parent, path.suffix, is_folder=False) as draft,
+    ):
+        yield draft
+        mask = os.umask(0)  # of ordinary new files
+        os.umask(mask)
+        draft.chmod(0o666 & ~mask)
+        flush(draft)
+        os.replace(draft, path)
 
 
 @contextmanager
@@ -32,22 +31,18 @@ def whole_folder(path: Path) -> Iterator[Path]:
 
     ParameterError: a folder has the name of a file.
     """
-    with naming(path), new_folder(path):
-        draft = path / f".draft-{secrets.token_hex(8)}"
-        try:
-            draft.mkdir(0o700)
-            yield draft
-            made = sorted(draft.iterdir())
-            for blocked in (path / file.name for file in made):
-                if blocked.is_dir():
-                    raise ParameterError(
-                        f"{blocked}: is a folder, and a file of this name is to be written; move "
-                        "or rename it, or choose another folder"
-                    )
-            for file in made:
-                os.replace(file, path / file.name)
-        finally:
-            shutil.rmtree(draft, ignore_errors=True)
+    with naming(path), new_folder(path), draft_in(path) as draft:
+        yield draft
+        made = sorted(draft.iterdir())
+        for blocked in (path / file.name for file in made):
+            if blocked.is_dir():
+                raise ParameterError(
+                    f"{blocked}: is a folder, and a file of this name is to be written; move "
+                    "or rename it, or choose another folder"
+                )
+        flush(draft)
+        for file in made:
+            os.replace(file, path / file.name)
 
 
 @contextmanager

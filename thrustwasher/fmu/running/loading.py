@@ -3,19 +3,29 @@
 import ctypes
 import errno
 import hashlib
+import io
 import os
 import platform
 import re
 import sys
-import tempfile
 import zipfile
-from contextlib import suppress
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from ...errors import EnvironmentProblem, ParameterError, naming
-from ...native.files import DAMAGED, code_folder, forget_old
+from ...native.drafts import draft_in, flush
+from ...native.files import (
+    DAMAGED,
+    code_folder,
+    forget_old,
+    locked,
+    remove_folder,
+    stamp,
+    to_stderr,
+)
 
 KEPT = 20  # unpacked FMUs
 IN_USE = 86400.0  # s; a folder used within this time may be open in another process
@@ -46,52 +56,99 @@ class Messages(list[Message]):
 
 
 def unpack(path: str | os.PathLike[str]) -> Path:
-    """Unpack an FMU once per content into the user's cache and return the folder."""
+    """Unpack an FMU once per content into the user's cache and return the folder.
+
+    What lies there is compared with the FMU once in a process, and again when a file was touched;
+    if a byte is missing or another one, it is unpacked again and that is said. ParameterError: the
+    FMU is none. EnvironmentProblem: no folder to be had lets libraries run.
+    """
     file = Path(path)
     if not file.is_file():
         raise ParameterError(f"FMU = {str(file)!r}, allowed: an existing file; build it first")
-    named = str(file.resolve()), file.stat().st_mtime_ns, file.stat().st_size
-    folder = _unpacked(*named)
-    if not (folder / "modelDescription.xml").is_file():  # somebody emptied the cache
-        _unpacked.cache_clear()
-        folder = _unpacked(*named)
+    home = code_folder("fmus", runs=True)  # whose it is: looked at anew before each load
+    about = file.stat()
+    named = home, str(file.resolve()), about.st_mtime_ns, about.st_size
+    known = _unpacked.get(named)
+    if known is None or known != _Unpacked.at(known.folder, known.stamps):
+        known = _unpacked[named] = _whole(home, file)
     with suppress(OSError):
-        os.utime(folder)  # the time of the last use
-    return folder
+        os.utime(known.folder)  # the time of the last use
+    return known.folder
 
 
-@cache
-def _unpacked(path: str, _changed: int, _size: int) -> Path:
-    digest = hashlib.sha256(Path(path).read_bytes()).hexdigest()[:16]
-    home = code_folder("fmus")
-    folder = home / f"{Path(path).stem}-{digest}"
-    if (folder / "modelDescription.xml").is_file():
-        return folder
-    with tempfile.TemporaryDirectory(dir=home, ignore_cleanup_errors=True) as draft:
-        part = Path(draft) / "fmu"
-        with naming(folder):
-            _extract(path, part)
-        try:
-            part.rename(folder)  # all or nothing; two processes may do it at once
-        except OSError:
-            if not (folder / "modelDescription.xml").is_file():
-                raise
-    prune(home)
-    return folder
+class _Unpacked(NamedTuple):
+    """A folder that was compared with its FMU: by file, what changes when somebody writes to it."""
+
+    folder: Path
+    stamps: dict[str, tuple[int, ...]]
+
+    @classmethod
+    def at(cls, folder: Path, names: Iterable[str]) -> "_Unpacked":
+        return cls(folder, {name: stamp(folder / name) for name in names})
 
 
-def _extract(path: str, folder: Path) -> None:
-    """Unpack an archive whole, or refuse it by name."""
+_unpacked: dict[tuple[Path, str, int, int], _Unpacked] = {}
+
+
+def _whole(home: Path, file: Path) -> _Unpacked:
+    """Return the unpacked FMU after comparing it; one process at a time unpacks."""
+    data = file.read_bytes()
+    contents = _contents(file, data)
+    folder = home / f"{file.stem}-{hashlib.sha256(data).hexdigest()[:16]}"
+    with locked(home.with_name("fmus.lock"), lambda: None):
+        if folder.is_dir() and (wrong := _difference(contents, folder)):
+            to_stderr(f"{folder}: {wrong} is not as it was unpacked; it is unpacked again")
+            remove_folder(folder)
+        if not folder.is_dir():
+            with draft_in(home) as draft, naming(folder):
+                _write(file, contents, draft)
+                flush(draft)
+                draft.rename(folder)  # all or nothing
+            prune(home)
+        return _Unpacked.at(folder, contents)
+
+
+def _contents(file: Path, data: bytes) -> dict[str, bytes]:
+    """Return the files of an archive by path, or refuse one that is not whole by its name."""
+    contents = {}
+    with _refused_if_broken(file), zipfile.ZipFile(io.BytesIO(data)) as archive:
+        archive.getinfo("modelDescription.xml")
+        for info in archive.infolist():
+            parts = [part for part in info.filename.split("/") if part not in ("", ".", "..")]
+            if parts and not info.is_dir():
+                contents["/".join(parts)] = archive.read(info)
+    return contents
+
+
+def _write(file: Path, contents: Mapping[str, bytes], folder: Path) -> None:
+    with _refused_if_broken(file):  # a name may be that of a file and of a folder
+        for name, data in contents.items():
+            path = folder / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(data)
+
+
+@contextmanager
+def _refused_if_broken(file: Path) -> Iterator[None]:
     try:
-        with zipfile.ZipFile(path) as archive:
-            archive.getinfo("modelDescription.xml")
-            archive.extractall(folder)
+        yield
     except (OSError, *DAMAGED) as problem:
         if isinstance(problem, OSError) and problem.errno in DISK:
             raise
         raise ParameterError(
-            f"FMU = {path!r}: is no whole FMU ({problem}); remove it and build it again"
+            f"FMU = {str(file)!r}: is no whole FMU ({problem}); remove it and build it again"
         ) from None
+
+
+def _difference(contents: Mapping[str, bytes], folder: Path) -> str:
+    """Return the first file of an FMU that lies otherwise in a folder, "" if there is none."""
+    for name, data in contents.items():
+        try:
+            if (folder / name).read_bytes() != data:
+                return name
+        except OSError:
+            return name
+    return ""
 
 
 def prune(home: Path, kept: int = KEPT) -> None:

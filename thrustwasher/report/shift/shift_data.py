@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import ParameterError
+from ...errors import ParameterError, refuse_pipe
 from ...units import UNITS, pretty_unit
 from ..scatter.words import HIGH, LOW
 from . import shift_tables, summary
@@ -258,6 +258,7 @@ def _moment(moment: Moment) -> dict[str, Any]:
 def read_run(page: Path) -> dict[str, Any]:
     """Return the run that a report holds; ParameterError if it holds none of this version."""
     try:
+        refuse_pipe(page)
         found = re.search(f"{re.escape(MARKER)}(.*?)</script>", page.read_text("utf-8"), re.DOTALL)
         data = json.loads(found[1]) if found else {}
         known = data["version"] == VERSION and len(data["runs"]) == 1

@@ -36,18 +36,18 @@ def warnings(r: Record) -> list[str]:
 def warnings_of(result: Any) -> list[str]:
     """Return what a reader of a shift's or a sequence's result must not miss."""
     if result.scene.sequence:
-        return [*result.found, *warnings_of_all([record_of(shift) for shift in result.shifts])]
+        return [*result.found, *warnings_of_all([shift.warnings for shift in result.shifts])]
     return warnings(record_of(result))
 
 
-def warnings_of_all(records: Sequence[Record]) -> list[str]:
-    """Return what must not be missed, with the first shift it holds for.
+def warnings_of_all(warnings: Sequence[Sequence[str]]) -> list[str]:
+    """Return what must not be missed of several shifts, with the first one it holds for.
 
     Two texts say the same if they differ in numbers and units alone.
     """
     found: dict[str, tuple[str, list[str]]] = {}
-    for i, record in enumerate(records, 1):
-        for text in warnings(record):
+    for i, texts in enumerate(warnings, 1):
+        for text in texts:
             found.setdefault(QUANTITY.sub("#", text), (text, []))[1].append(str(i))
     lines = []
     for text, shifts in found.values():

@@ -81,12 +81,13 @@ def advance_in_python(run: Run, i: int, stop: int) -> None:
         recorder.keep(k + 1)
 
 
-def driven(system: System, time: NDArray[np.float64], drive: Drive) -> Recorder:
-    """Step the parts in turn over times any distance apart; return the record of every point."""
-    recorder, schedule = Recorder(system, len(time)), gauss_seidel(system)
-    recorder.keep(0)
-    for k, (t, end) in enumerate(pairwise(time.tolist()), 1):
-        drive(t, end)
-        carry_out(schedule, t, end - t)
-        recorder.keep(k)
-    return recorder
+def driven(
+    system: System, time: NDArray[np.float64], drive: Drive, keep: Callable[[int], None]
+) -> None:
+    """Step the parts in turn over times any distance apart; every point is handed to ``keep``."""
+    schedule = gauss_seidel(system)
+    keep(0)
+    for k, (t, end) in enumerate(pairwise(time), 1):
+        drive(float(t), float(end))
+        carry_out(schedule, float(t), float(end - t))
+        keep(k)

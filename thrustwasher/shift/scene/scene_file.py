@@ -7,6 +7,7 @@ Beside a built-in scene stand the bands of its figures, from a study made before
 takes seconds and says nothing of its luck, a study takes minutes.
 """
 
+import os
 from collections.abc import Mapping
 from dataclasses import fields, replace
 from importlib import resources
@@ -107,9 +108,10 @@ def merged_tables(name: str, top: Mapping[str, Any] | None = None) -> dict[str, 
     seen: list[str] = []
     merged = dict(top or {})
     while name or not seen:
-        if name in seen:
+        own = os.path.realpath(name) if name.endswith(".toml") else name
+        if own in seen:
             raise ParameterError(f"scene {name!r}: its bases go round in a circle")
-        seen.append(name)
+        seen.append(own)
         table = _parse(name)
         base = table.pop("base", "")
         if not isinstance(base, str):

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import ParameterError, suggestion
+from ...errors import ParameterError, refuse_pipe, suggestion
 from ...units import UNITS, parse_quantity, unit_size
 
 LONGEST = 2_000_000  # rows; a larger file is none of measured points
@@ -159,6 +159,8 @@ def read_table(path: str | Path) -> Table:
     path = Path(path)
     if path.is_dir():
         raise ParameterError(f"{path}: is a folder, a file with a table is required")
+    if path.exists():
+        refuse_pipe(path)
     ending = path.suffix.lower()
     if ending in (".xlsx", ".xlsm", ".mat", ".mf4", ".mdf"):
         from .binary_file import read_binary

@@ -24,6 +24,8 @@ COMMON = (
     *("-Os", "-std=c99", "-ffp-contract=off", "-fno-math-errno", "-fvisibility=hidden"),
     *("-s", "-I."),
 )
+# A module for browsers: zig's C library would bring mathematics once more.
+ALONE = ("-nostdlib", "-Wl,--no-entry")
 # What a processor must have for a level beyond the first one of its platform.
 FEATURES = {"v3": ("avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe")}
 SHORT, LONG = 6.0, 60.0  # seconds until something is printed, at the first build and at later ones
@@ -117,7 +119,8 @@ def shared_library(
     without extension, stands inside the file on macOS only. ``defines``: "NAME" or "NAME=VALUE".
     """
     output = f"{name}.{platform.extension}"
-    flags = [*(["-shared"] if platform.format != "WASM" else []), *platform.flags]
+    kind = ALONE if platform.format == "WASM" else ("-shared",)
+    flags = [*kind, *platform.flags]
     if platform.format == "MachO":
         flags.append(f"-Wl,-install_name,@rpath/{output}")
     platform = replace(platform, libraries=())

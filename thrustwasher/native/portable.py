@@ -75,7 +75,7 @@ def _linked(kernel: str, names: list[str], stack: int, note: Note) -> bytes:
     """Return the module with the entries of the step ABI, the C library's functions inside."""
     level = WEB.levels[0].name
     exports = [f"-Wl,--export={name}_{level}" for name in names]
-    flags = ["-mexec-model=reactor", f"-Wl,-z,stack-size={stack}", "-Wl,--export=__heap_base"]
+    flags = [*link.ALONE, f"-Wl,-z,stack-size={stack}", "-Wl,--export=__heap_base"]
     code = objects(kernel, [WEB], note)
     parts = {f"kernel_{level}.o": content for (_, level), content in code.items()}
     parts |= mathematics.sources(s for content in code.values() for s in undefined(content))

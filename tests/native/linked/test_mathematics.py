@@ -18,7 +18,8 @@ ONE = {
     **dict.fromkeys(("log", "log2", "log10"), (1e-9, 1e9)),
     **dict.fromkeys(("sin", "cos", "tan"), (-1e7, 1e7)),
     **dict.fromkeys(("asin", "acos"), NEAR),
-    **dict.fromkeys(("atan", "asinh", "tanh", "erf"), (-20.0, 20.0)),
+    **dict.fromkeys(("atan", "asinh", "tanh", "erf", "ceil", "floor"), (-20.0, 20.0)),
+    "sqrt": (0.0, 1e9),
     **{"expm1": (-5.0, 100.0), "log1p": (-0.9, 100.0), "erfc": (-5.0, 26.0)},
 }
 TWO = ("pow", "atan2", "hypot", "fmod")

@@ -110,6 +110,7 @@ hidden double asinh(double);
 hidden double atan(double);
 hidden double atan2(double, double);
 hidden double cbrt(double);
+hidden double ceil(double);
 hidden double cos(double);
 hidden double cosh(double);
 hidden double erf(double);

@@ -84,11 +84,22 @@ static void add_range(Text *t, const Variable *v, double low, double high) {
     if (strcmp(v->unit, "1") != 0) add(t, " %s", v->unit);
 }
 
+/* What is said of a number of a fidelity that is gone, or NULL. */
+static const char *gone(const Variable *v, double number) {
+    for (int i = 0; v->store == STORE_PAR && v->slot == RUNG && i < N_GONE_RUNGS; i++) {
+        if (GONE_RUNGS[i].number == number) return GONE_RUNGS[i].name;
+    }
+    return NULL;
+}
+
 static void add_allowed(Text *t, const Variable *v) {
     if (v->enumeration >= 0) {
         const Enumeration *e = &ENUMERATIONS[v->enumeration];
+        const char *between = "";
         for (int i = 0; i < e->n; i++) {
-            add(t, "%s%d (%s)", i ? ", " : "", (int)e->items[i].number, e->items[i].name);
+            if (gone(v, e->items[i].number)) continue;
+            add(t, "%s%d (%s)", between, (int)e->items[i].number, e->items[i].name);
+            between = ", ";
         }
         return;
     }

@@ -189,7 +189,7 @@ class Core:
         unit = "" if v.unit == "1" else f" {v.unit}"
         allowed = f"{low:g} .. {high:g}{unit}"
         if v.type_name:
-            items = self.shown.enumerations[v.type_name]
+            items = self.shown.listed[v.type_name]
             allowed = ", ".join(f"{i.value} ({i.name})" for i in items)
         text = f"{v.name} = {value:g}{unit} is outside {allowed}; the value is not taken over."
         if v.unit == "K" and not v.relative and low <= value + 273.15 <= high:

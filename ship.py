@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from thrustwasher.model.registry import MODELS
-from thrustwasher.native import files, shipped
+from thrustwasher.native import files, mathematics, shipped
 from thrustwasher.native.digest import digest, sources
 from thrustwasher.native.entries import libraries as all_libraries
 from thrustwasher.native.files import to_stderr
@@ -63,6 +63,10 @@ def ship(kernels: Sequence[str]) -> None:
         about: Any = shipped.record(kernel)
         if not (about and same_tools and shipped.objects_of(kernel)):
             about = _write(kernel, *made(kernel))
+        elif about.get("mathematics") != mathematics.digest():
+            name = about["objects"]["file"].removesuffix(".tar.xz")
+            code = shipped.objects_of(kernel)
+            about |= _write_libraries(shipped.FOLDER, kernel, name, code, LIBRARIES)
         index["kernels"][kernel] = about
         list_all(index)
         keep |= {about["objects"]["file"], *(x["file"] for x in about["libraries"].values())}
@@ -86,13 +90,14 @@ def _write(kernel: str, code: Objects, took: float) -> dict[str, Any]:
         "sources": sorted(sources(kernel)),
         "seconds": round(took, 1),
         "objects": put(shipped.FOLDER / f"{name}.tar.xz", pack(code)),
-        "libraries": _write_libraries(shipped.FOLDER, kernel, name, code, LIBRARIES),
+        **_write_libraries(shipped.FOLDER, kernel, name, code, LIBRARIES),
     }
 
 
 def _write_libraries(
     folder: Path, kernel: str, name: str, code: Objects, platforms: Sequence[str]
 ) -> dict[str, Any]:
+    """Return the list's words on the libraries, and on the mathematics linked into them."""
     found = {}
     for platform, data in libraries(kernel, code, platforms).items():
         file = f"{name}-{platform}.{TARGETS[platform].extension}"
@@ -100,7 +105,7 @@ def _write_libraries(
             file = f"{FOR_BROWSERS}/{file}"
         (folder / file).parent.mkdir(exist_ok=True)
         found[platform] = {**put(folder / file, data), "file": file}
-    return found
+    return {"libraries": found, "mathematics": mathematics.digest()}
 
 
 def pack(
@@ -137,7 +142,7 @@ def relist(folder: Path, platforms: Sequence[str]) -> None:
             (folder / old["file"]).unlink()
         code = shipped.objects_in(shipped.unpack((folder / about["objects"]["file"]).read_bytes()))
         name = about["objects"]["file"].removesuffix(".tar.xz")
-        about["libraries"] = _write_libraries(folder, kernel, name, code, platforms)
+        about |= _write_libraries(folder, kernel, name, code, platforms)
     list_all(index, folder)
 
 

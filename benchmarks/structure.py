@@ -128,10 +128,14 @@ def lines_of(paths: Iterable[Path]) -> int:
 
 
 def shell_sources() -> list[Path]:
-    """Return the C files."""
+    """Return the C files written by hand."""
     folders = (ROOT / "fmu_src", PACKAGE / "native")
     return sorted(
-        path for folder in folders for end in ("*.c", "*.h") for path in folder.rglob(end)
+        path
+        for folder in folders
+        for end in ("*.c", "*.h")
+        for path in folder.rglob(end)
+        if "vendor" not in path.parts
     )
 
 

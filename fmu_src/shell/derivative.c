@@ -1,7 +1,6 @@
 /* Derivatives of outputs with respect to inputs, from the model's own equations; also with respect to
    tunable parameters and, until the initialization ends, all others: from these equations where the
    model has them, else as a difference of two solutions. */
-#include <math.h>
 #include <string.h>
 
 #include "kernel.h"
@@ -69,9 +68,22 @@ static int differentiate(Instance *m, double *seed, double *dout) {
     }
     if (rc >= 0 && rc < FIRST_FAILURE) return GOOD;
     m->work_fits = 0;
-    return fail(m, "%s at t = %g s has no derivative here%s: %s: %s", m->part.name, m->now.time,
-                rc == STATUS_SINGULAR ? ", at the fold" : "", status_text(rc)->name,
-                status_text(rc)->advice);
+    Text text = {0};
+    add(&text, "%s at t = ", m->part.name);
+    add_number(&text, m->now.time);
+    add(&text, " s has no derivative here%s: %s: %s", rc == STATUS_SINGULAR ? ", at the fold" : "",
+        status_text(rc)->name, status_text(rc)->advice);
+    tell(&m->log, BAD, LOG_ERROR, &text);
+    return BAD;
+}
+
+static int has_none(const Instance *m, const Variable *v) {
+    Text text = {0};
+    add(&text, "%s = ", v->name);
+    add_number(&text, m->now.par[v->slot]);
+    add(&text, " has no derivative here");
+    tell(&m->log, BAD, LOG_ERROR, &text);
+    return BAD;
 }
 
 /* The outputs with another value of a parameter; 0 if there are none. */
@@ -93,7 +105,7 @@ static int try_value(Instance *m, const Variable *v, double value, double *out) 
 static int add_difference(Instance *m, const Variable *v, double seed, double *dout) {
     double par[NPAR], out[2][AT_LEAST_ONE(NOUT)], x[2];
     const double at = m->now.par[v->slot], room = v->high / 2.0 - v->low / 2.0;
-    const double h = 1e-5 * (at != 0.0 ? fabs(at) : room < 1.0 ? room : 1.0);
+    const double h = 1e-5 * (at != 0.0 ? size_of(at) : room < 1.0 ? room : 1.0);
     if (has_table_for(m, v)) {
         return fail(m, "%s: no derivative with fidelity 'map', whose map is for one value", v->name);
     }
@@ -107,7 +119,7 @@ static int add_difference(Instance *m, const Variable *v, double seed, double *d
         memcpy(m->now.par, par, sizeof par);
     }
     m->work_fits = 0;
-    if (x[0] == x[1]) return fail(m, "%s = %g has no derivative here", v->name, at);
+    if (x[0] == x[1]) return has_none(m, v);
     for (int i = 0; i < NOUT; i++) dout[i] += seed * (out[1][i] - out[0][i]) / (x[1] - x[0]);
     return GOOD;
 }
@@ -126,7 +138,7 @@ static int may_move(Instance *m, const Variable *v) {
     const double at = *value;
     int may = 0;
     for (int side = -1; side < 2; side += 2) {
-        *value = at + side * 1e-6 * (at != 0.0 ? fabs(at) : 1.0);
+        *value = at + side * 1e-6 * (at != 0.0 ? size_of(at) : 1.0);
 #if HAS_RULES
         may |= is_inside(v, *value) && !tw_rule(m->now.par);
 #else
@@ -142,7 +154,7 @@ static int add_parameter(Instance *m, const Variable *v, double seed, double *do
     double along[AT_LEAST_ONE(NSEED)] = {0}, found[AT_LEAST_ONE(NOUT)] = {0};
     const int place = place_in_seed(v);
     if (place < 0 || has_table_for(m, v)) return add_difference(m, v, seed, dout);
-    if (!may_move(m, v)) return fail(m, "%s = %g has no derivative here", v->name, m->now.par[v->slot]);
+    if (!may_move(m, v)) return has_none(m, v);
     along[place] = seed;
     if (refresh_work(m)) return BAD;
     m->work_fits = 0; /* solved more sharply there */

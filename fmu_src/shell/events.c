@@ -1,5 +1,5 @@
 /* Events: a step ends where a Boolean output changes, for hosts that allow it. */
-#include <math.h>
+#include <float.h>
 #include <string.h>
 
 #include "shell.h"
@@ -15,9 +15,9 @@ int has_changed(const Instance *m) {
     return 0;
 }
 
-/* The first change as the model itself has located it [s]; infinite if it says none. */
+/* The first change as the model itself has located it [s]; past all times if it says none. */
 static double located(const Instance *m, double t) {
-    double first = INFINITY;
+    double first = DBL_MAX;
     for (int i = 0; i < N_SWITCHES; i++) {
         const Switch *s = &SWITCHES[i];
         int32_t now = m->now.solution.iout[s->slot], place = s->instant[now ? 0 : 1];
@@ -64,7 +64,7 @@ static void note_early_return(Snap *s, double t, double h) {
 
    Each trial starts from a copy of the solution at t: the kernels store every step that succeeds. */
 int follow_to_event(Instance *m, double t, double *h) {
-    const double whole = *h, near = RESOLUTION + 1e-15 * fabs(t);
+    const double whole = *h, near = RESOLUTION + 1e-15 * size_of(t);
     double given[2 * AT_LEAST_ONE(NINP)];
     memcpy(given, m->now.inp, sizeof given);
     memcpy(m->before, &m->now.solution, sizeof *m->before);

@@ -7,9 +7,10 @@ const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
 
 const char *fmi2GetVersion(void) { return fmi2Version; }
 
+/* The text is the format, its % doubled: some hosts take no arguments behind it. */
 static void send_message(const Log *log, int status, const char *category, const char *text) {
     ((fmi2CallbackLogger)log->logger)(log->environment, log->name, (fmi2Status)status, category,
-                                      "%s", text);
+                                      text);
 }
 
 fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2String fmuGUID,

@@ -1,5 +1,4 @@
 /* The lifecycle of an instance: from its start values over initialization to steps. */
-#include <math.h>
 #include <string.h>
 
 #include "kernel.h"
@@ -13,6 +12,7 @@ int reset(Instance *m) {
     m->unsolved = m->work_fits = m->last_step = m->table_ready = 0;
     m->happened = m->is_early = 0;
     m->warned = -1;
+    m->told_late = 0;
     for (int i = 0; i < N_VARIABLES; i++) {
         const Variable *v = &VARIABLES[i];
         if (v->store == STORE_PAR) m->now.par[v->slot] = m->part.starts[i];
@@ -24,7 +24,10 @@ int reset(Instance *m) {
 /* The host's name is copied: nobody says how long it lives. */
 void name_log(Log *log, const char *name, int on, int fmi) {
     log->fmi = fmi;
-    strncpy(log->name, name ? name : "", sizeof log->name - 1);
+    size_t n = name ? strlen(name) : 0;
+    if (n >= sizeof log->name) n = whole_letters(name, sizeof log->name - 1);
+    if (n > 0) memcpy(log->name, name, n);
+    log->name[n] = '\0';
     memset(log->on, on != 0, sizeof log->on);
 }
 
@@ -185,12 +188,15 @@ static int is_complete(Instance *m, const char *what, double t, uint32_t causes)
     }
     if (any < 0) return 1;
     m->now.latch = STATUS_BAD_INPUT;
+    Text text = {0};
+    add(&text, "%s at t = ", what);
+    add_number(&text, t);
     if (newest >= 0) {
-        fail(m, "%s at t = %g s: %s", what, t, m->refusal);
+        add(&text, " s: %s", m->refusal);
     } else {
-        fail(m, "%s at t = %g s: %s was refused before; set it again", what, t,
-             VARIABLES[any].name);
+        add(&text, " s: %s was refused before; set it again", VARIABLES[any].name);
     }
+    tell(&m->log, BAD, LOG_ERROR, &text);
     return 0;
 }
 
@@ -205,28 +211,30 @@ int leave_initialization(Instance *m) {
 }
 
 static int is_step(Instance *m, double t, double h) {
-    int finite = is_finite(t) && is_finite(h) && is_finite(t + h) && h > 0.0;
-    if (finite && t + h > t) return 1;
+    if (is_finite(t) && is_finite(h) && is_finite(t + h) && h > 0.0) return 1;
     Text text = {0};
     add(&text, "step from t = ");
     add_exact(&text, t);
     add(&text, " s by ");
     add_exact(&text, h);
     m->now.latch = STATUS_BAD_INPUT;
-    if (finite) {
-        add(&text, " s: the time does not change; its spacing is ");
-        add_exact(&text, nextafter(t, HUGE_VAL) - t);
-        fail(m, "%s s here", text.text);
-        return 0;
-    }
     fail(m, "%s s, allowed: finite, step > 0", text.text);
     return 0;
+}
+
+/* A step so short that the time stays as it is, as what is left of it at the end of a run. */
+static int stand_still(Instance *m, double t) {
+    memset(m->now.inp + NINP, 0, NINP * sizeof *m->now.inp);
+    m->now.time = t;
+    m->happened = m->is_early = 0;
+    return GOOD;
 }
 
 /* Step from t to t + h, or leave everything as it was but for the status that tells why. */
 int advance(Instance *m, double t, double h) {
     if (!is_step(m, t, h) || !is_complete(m, "no step", t, ~0u) || prepare(m)) return BAD;
     const double expected = m->now.time, asked = h;
+    if (t + h <= t) return stand_still(m, t);
     int rc = m->before ? follow_to_event(m, t, &h) : follow(m, t, h);
     if (rc) {
         m->now.latch = rc;
@@ -235,7 +243,7 @@ int advance(Instance *m, double t, double h) {
     }
     m->now.time = t + h;
     m->now.latch = m->unsolved = 0;
-    if (fabs(t - expected) > 1e-6 * asked) tell_late_step(m, t, expected);
+    tell_late_step(m, t, asked, expected);
     m->happened = has_changed(m);
     m->is_early = h < asked;
     if (N_SWITCHES > 0) tell_switches(m);

@@ -84,18 +84,29 @@ static void add_range(Text *t, const Variable *v, double low, double high) {
     if (strcmp(v->unit, "1") != 0) add(t, " %s", v->unit);
 }
 
+/* What is said of a number of a fidelity that is gone, or NULL. */
+static const char *gone(const Variable *v, double number) {
+    for (int i = 0; v->store == STORE_PAR && v->slot == RUNG && i < N_GONE_RUNGS; i++) {
+        if (GONE_RUNGS[i].number == number) return GONE_RUNGS[i].name;
+    }
+    return NULL;
+}
+
 static void add_allowed(Text *t, const Variable *v) {
     if (v->enumeration >= 0) {
         const Enumeration *e = &ENUMERATIONS[v->enumeration];
+        const char *between = "";
         for (int i = 0; i < e->n; i++) {
-            add(t, "%s%d (%s)", i ? ", " : "", (int)e->items[i].number, e->items[i].name);
+            if (gone(v, e->items[i].number)) continue;
+            add(t, "%s%d (%s)", between, (int)e->items[i].number, e->items[i].name);
+            between = ", ";
         }
         return;
     }
     add_range(t, v, v->low, v->high);
 }
 
-static void add_reason(Text *t, const Variable *v, double value) {
+static void add_reason(Text *t, const Instance *m, const Variable *v, double value) {
     add_quantity(t, v, value);
     add(t, " is outside ");
     add_allowed(t, v);
@@ -108,7 +119,11 @@ static void add_reason(Text *t, const Variable *v, double value) {
         add_number(t, value);
         add(t, " degC)?");
     }
-    if (value == 0.0) add(t, " An input that is not connected reads 0.");
+    if (value == 0.0 && v->cause == CAUSE_INPUT) {
+        add(t, " Some hosts set an input to 0 that is not connected: connect it to a constant, ");
+        add_quantity(t, v, m->part.starts[v - VARIABLES]);
+        add(t, " is its default.");
+    }
 }
 
 /* Why a value is not taken over; kept, for the steps that will not run without it. */
@@ -121,19 +136,27 @@ void tell_refusal(Instance *m, const Variable *v, double value) {
         add(&text, "%s is a fixed parameter%s; it can be set before the initialization ends",
             v->name, v->tunable ? " with fidelity 'map', made for one value" : "");
     } else {
-        add_reason(&text, v, value);
+        add_reason(&text, m, v, value);
     }
     memcpy(m->refusal, text.text, sizeof m->refusal);
     tell(&m->log, BAD, LOG_ERROR, &text);
 }
 
-void tell_late_step(const Instance *m, double t, double expected) {
+/* Warn once that time jumps, unless by a rounding error of the host's time. A host may count in single
+   precision: then the last 29 bits of its times are 0. */
+void tell_late_step(Instance *m, double t, double h, double expected) {
+    uint64_t bits;
+    memcpy(&bits, &t, sizeof bits);
+    const double spacing = bits & 0x1fffffffu ? 0x1p-52 : 0x1p-23;
+    const double latest = size_of(t) > size_of(expected) ? size_of(t) : size_of(expected);
+    if (m->told_late || size_of(t - expected) <= 1e-6 * h + 4.0 * spacing * latest) return;
+    m->told_late = 1;
     Text text = {0};
     add(&text, "step from t = ");
-    add_number(&text, t);
+    add_exact(&text, t);
     add(&text, " s, but the last one ended at ");
-    add_number(&text, expected);
-    add(&text, " s; the host's time counts");
+    add_exact(&text, expected);
+    add(&text, " s; the host's time counts, and this is said once");
     tell(&m->log, WARNING, LOG_WARNING, &text);
 }
 
@@ -174,7 +197,8 @@ static int tell_ranges(Instance *m) {
         const Variable *v = &VARIABLES[i];
         for (int k = 0; k < 2; k++) {
             const double *range = m->part.ranges[k][v->slot], value = m->now.inp[v->slot];
-            uint8_t *told = &m->beyond[k][v->slot], is_beyond = value < range[0] || value > range[1];
+            const double near = within(range[0], range[1], value);
+            uint8_t *told = &m->beyond[k][v->slot], is_beyond = near < range[0] || near > range[1];
             unverified |= k && is_beyond;
             if (is_beyond && !*told) {
                 Text text = begun(m, m->now.time);

@@ -18,10 +18,20 @@ static int hex(char c) {
     return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
+/* Does a text begin with file:, in letters of any size? */
+static int is_uri(const char *text) {
+    static const char scheme[] = "file:";
+    for (int i = 0; scheme[i]; i++) {
+        const char c = text[i] >= 'A' && text[i] <= 'Z' ? (char)(text[i] + 'a' - 'A') : text[i];
+        if (c != scheme[i]) return 0;
+    }
+    return 1;
+}
+
 /* The path in file:///x, file:/x, file://localhost/x or in a plain path. */
 static void take_resources(Instance *m, const char *location) {
     const char *from = location ? location : "";
-    int uri = !strncmp(from, "file:", 5);
+    int uri = is_uri(from);
     if (uri) from += 5;
     if (uri && !strncmp(from, "//", 2)) {
         const char *host = from + 2;
@@ -30,7 +40,7 @@ static void take_resources(Instance *m, const char *location) {
     }
     if (uri && from[0] == '/' && from[1] && from[2] == ':') from++; /* a drive of Windows */
     size_t n = 0;
-    while (*from && n + 1 < sizeof m->resources) {
+    while (*from && n + 1 < PATH_LENGTH) {
         int high = uri && *from == '%' ? hex(from[1]) : -1;
         int low = high >= 0 ? hex(from[2]) : -1;
         m->resources[n++] = low >= 0 ? (char)(16 * high + low) : *from;
@@ -43,7 +53,7 @@ static void take_resources(Instance *m, const char *location) {
 #ifdef _WIN32
 /* UTF-8 to UTF-16: the C library takes bytes for letters of its own code page. */
 static FILE *open_file(const char *path) {
-    wchar_t wide[sizeof ((Instance *)0)->resources + 32];
+    wchar_t wide[sizeof ((Instance *)0)->resources];
     size_t n = 0;
     for (const unsigned char *c = (const unsigned char *)path; *c && n + 2 < sizeof wide / 2;) {
         int more = *c >= 0xf0 ? 3 : *c >= 0xe0 ? 2 : *c >= 0xc0 ? 1 : 0;
@@ -62,6 +72,23 @@ static FILE *open_file(const char *path) {
 static FILE *open_file(const char *path) { return fopen(path, "rb"); }
 #endif
 
+/* The file of a name in the folder, which is written behind the folder for as long as that takes. */
+static FILE *open_resource(Instance *m, const char *name) {
+    const size_t n = strlen(m->resources);
+    snprintf(m->resources + n, sizeof m->resources - n, "/%s", name);
+    FILE *file = open_file(m->resources);
+    m->resources[n] = '\0';
+    return file;
+}
+
+/* The folder for messages: of a long one the end. */
+static const char *shown_folder(const Instance *m) {
+    const size_t n = strlen(m->resources), most = TEXT_LENGTH / 2;
+    const char *from = m->resources + (n > most ? n - most : 0);
+    while ((*from & 0xc0) == 0x80) from++; /* within a letter of UTF-8 */
+    return from;
+}
+
 /* Is what follows in a file its CRC-32, and then nothing? */
 static int is_whole(FILE *file, uint32_t crc) {
     unsigned char end[4];
@@ -74,10 +101,8 @@ static int is_whole(FILE *file, uint32_t crc) {
 
 /* 1: read, 0: damaged or not for this library, -1: there is no such file. */
 static int read_part(Instance *m) {
-    char path[sizeof m->resources + 32];
     Part *part = &m->part;
-    snprintf(path, sizeof path, "%s/part.bin", m->resources);
-    FILE *file = open_file(path);
+    FILE *file = open_resource(m, "part.bin");
     if (!file) return -1;
     int good = fread(part, sizeof *part, 1, file) == 1
         && is_whole(file, checksum(0, (const unsigned char *)part, sizeof *part))
@@ -92,18 +117,18 @@ int load_part(Instance *m, const char *location, const char *guid) {
     const Part *part = &m->part;
     take_resources(m, location);
     if (!m->resources[0]) {
-        return fail(m, "the host names no folder of resources (up to %d letters), from which "
-                    "part.bin is read: the FMU's name and start values", TEXT_LENGTH - 1);
+        return fail(m, "the host names no folder of resources (up to %d bytes), from which "
+                    "part.bin is read: the FMU's name and start values", PATH_LENGTH - 1);
     }
     int found = read_part(m);
     if (found <= 0) {
-        return fail(m, "part.bin in the folder %s is %s; unpack the FMU again", m->resources,
+        return fail(m, "part.bin in the folder %s is %s; unpack the FMU again", shown_folder(m),
                     found ? "missing" : "damaged, or of another build than this library");
     }
     if (guid && !strcmp(guid, part->guid)) return GOOD;
     return fail(m, "%s: the description has the identifier %s, part.bin in %s has %s; they are of "
                 "different builds, use both from one FMU", part->name, guid ? guid : "none",
-                m->resources, part->guid);
+                shown_folder(m), part->guid);
 }
 
 #if TABLE_ROOM > 0
@@ -134,10 +159,10 @@ static int read_numbers(FILE *file, double *table) {
 
 /* 1: the file had the table, 0: it had another one, -1: there is no such file, -2: damaged. */
 static int try_file(Instance *m, int k) {
-    char path[sizeof m->resources + 32];
+    char name[32];
     double *table = m->work + TABLE_AT;
-    snprintf(path, sizeof path, "%s/map-%d.bin", m->resources, k);
-    FILE *file = open_file(path);
+    snprintf(name, sizeof name, "map-%d.bin", k);
+    FILE *file = open_resource(m, name);
     if (!file) return -1;
     int found = -2;
     if (fread(table, sizeof *table, TABLE_HEADER, file) == TABLE_HEADER) {
@@ -159,9 +184,9 @@ int load_table(Instance *m) {
     }
     if (m->table_ready) return GOOD;
     m->now.latch = STATUS_BAD_INPUT;
-    if (found == -2) return fail(m, "a map in %s is damaged; unpack the FMU again", m->resources);
+    if (found == -2) return fail(m, "a map in %s is damaged; unpack the FMU again", shown_folder(m));
     return fail(m, "fidelity = 'map': no map was made for these parameters; make one with "
-                "`thrustwasher map build`, or use fidelity 'field' (looked in %s)", m->resources);
+                "`thrustwasher map build`, or use fidelity 'field' (looked in %s)", shown_folder(m));
 }
 
 #else

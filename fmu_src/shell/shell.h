@@ -10,6 +10,7 @@
 
 #define AT_LEAST_ONE(n) ((n) > 0 ? (n) : 1) /* C has no empty arrays */
 #define TEXT_LENGTH 1024
+#define PATH_LENGTH 4096
 #define NAME_LENGTH 128
 #define WORD_LENGTH 64
 
@@ -63,6 +64,7 @@ typedef struct {
     Part part;
     int32_t unsolved;  /* the failure of the solve at the present values, or 0 */
     int32_t warned;    /* the status the host was last told, -1: nothing yet */
+    int32_t told_late; /* the host was told that a step did not begin where the last one ended */
     uint8_t beyond[2][AT_LEAST_ONE(NINP)]; /* the inputs that it was told are outside their ranges */
     int32_t work_fits; /* `work` belongs to the present solution */
     int32_t last_step; /* what the last step returned */
@@ -72,7 +74,7 @@ typedef struct {
     void (*update)(void); /* the host's intermediateUpdate, or NULL; FMI 3 only ... */
     int32_t asks, shows;  /* ... it is called for inputs before a step, to read after it */
     int32_t table_ready; /* the table in `work` is that of the present parameters, or not wanted */
-    char resources[TEXT_LENGTH]; /* the folder, in UTF-8 */
+    char resources[PATH_LENGTH + WORD_LENGTH]; /* the folder, in UTF-8; room for a file's name */
     char refusal[TEXT_LENGTH];
     double work[AT_LEAST_ONE(NWORK)]; /* carries nothing between calls, the table aside */
 } Instance;
@@ -108,6 +110,9 @@ static inline int is_finite(double x) {
     memcpy(&bits, &x, sizeof bits);
     return bits << 1 < (uint64_t)0x7ff << 53;
 }
+
+/* By the compiler, not by a function that a host could have one of its own of. */
+static inline double size_of(double x) { return __builtin_fabs(x); }
 
 /* course.c */
 /* Rates of inputs for the next step; `orders` of derivatives, of which there is the first. */
@@ -154,6 +159,16 @@ static inline int may_set(const Instance *m, const Variable *v) {
         || (v->tunable && m->now.mode & (STEPPING | EVENTS) && !has_table_for(m, v));
 }
 
+/* A finite value outside a range by a rounding error is the end of the range: some units in the last
+   place of the larger end, and at most 1e-9 of the range. */
+static inline double within(double low, double high, double value) {
+    if (!is_finite(value) || (low <= value && value <= high)) return value;
+    const double end = value < low ? low : high, least = size_of(low), most = size_of(high);
+    const double scale = is_finite(high - low) ? least < most ? most : least : size_of(end);
+    const double range = 1e-9 * (high - low), ulps = 0x1p-49 * scale, room = ulps < range ? ulps : range;
+    return size_of(value - end) <= room ? end : value;
+}
+
 static inline int is_inside(const Variable *v, double value) {
     return is_finite(value) && v->low <= value && value <= v->high;
 }
@@ -177,8 +192,9 @@ typedef struct {
 int directional(Instance *m, const Direction *d, double *sensitivity);
 int adjoint(Instance *m, const Direction *d, double *sensitivity);
 
-/* text.c: sentences that grow piece by piece, and are cut where the memory ends */
-typedef struct { size_t n; char text[TEXT_LENGTH]; } Text;
+/* text.c: sentences that grow piece by piece, and are cut between letters where the memory ends */
+typedef struct { size_t n; int is_full; char text[TEXT_LENGTH]; } Text;
+size_t whole_letters(const char *text, size_t n); /* at most n bytes of UTF-8: no letter is cut */
 void add(Text *t, const char *format, ...);
 void add_number(Text *t, double value);
 void add_exact(Text *t, double value);
@@ -191,7 +207,7 @@ int choose_categories(Instance *m, int on, size_t n, const char *const names[]);
 void tell_failure(const Instance *m, int32_t status, double t, double h);
 void tell_rule(const Instance *m, const char *rule);
 void tell_refusal(Instance *m, const Variable *v, double value);
-void tell_late_step(const Instance *m, double t, double expected);
+void tell_late_step(Instance *m, double t, double h, double expected);
 void tell_switches(Instance *m);
 void tell_effort(const Instance *m);
 void tell_advice(Instance *m);

@@ -6,10 +6,23 @@
 
 #include "shell.h"
 
+size_t whole_letters(const char *text, size_t n) {
+    const unsigned char *c = (const unsigned char *)text;
+    size_t more = 0; /* bytes at the end that continue a letter */
+    while (more < n && more < 3 && (c[n - 1 - more] & 0xc0) == 0x80) more++;
+    const unsigned char first = more < n ? c[n - 1 - more] : 0;
+    const size_t wanted = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : first >= 0xc0 ? 1 : 0;
+    return wanted > more ? n - 1 - more : n;
+}
+
 static void add_list(Text *t, const char *format, va_list values) {
     size_t room = sizeof t->text - t->n;
+    if (t->is_full) return;
     int n = vsnprintf(t->text + t->n, room, format, values);
-    if (n > 0) t->n += (size_t)n < room ? (size_t)n : room - 1;
+    t->is_full = n >= 0 && (size_t)n >= room;
+    if (n > 0) t->n += t->is_full ? room - 1 : (size_t)n;
+    if (t->is_full) t->n = whole_letters(t->text, t->n);
+    t->text[t->n] = '\0';
 }
 
 void add(Text *t, const char *format, ...) {
@@ -19,11 +32,19 @@ void add(Text *t, const char *format, ...) {
     va_end(values);
 }
 
-/* A decimal comma of the host's language becomes a point. */
+/* The decimal sign of the host's language, of one byte or of more, becomes a point. */
 static void write_points(Text *t, size_t start) {
-    for (; start < t->n; start++) {
-        if (t->text[start] == ',') t->text[start] = '.';
+    size_t n = start;
+    for (size_t i = start; i < t->n; i++) {
+        const char c = t->text[i];
+        if ((c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || c == '-' || c == '+') {
+            t->text[n++] = c;
+        } else if (n > start && t->text[n - 1] != '.') {
+            t->text[n++] = '.';
+        }
     }
+    t->text[n] = '\0';
+    t->n = n;
 }
 
 /* Six digits, and the same everywhere: NaN has no sign. */
@@ -64,15 +85,17 @@ void add_quantity(Text *t, const Variable *v, double value) {
     if (strcmp(v->unit, "1") != 0) add(t, " %s", v->unit);
 }
 
-/* Errors and warnings are always sent, the rest when its category is switched on. */
+/* Errors and warnings are always sent, the rest when its category is switched on. To FMI 2 a text is
+   a format of printf, and # begins a variable: both signs are doubled there. */
 void tell(const Log *log, int status, int category, const Text *t) {
     if (!log->send || !log->logger) return;
     if (status == GOOD && !log->on[category] && !log->on[LOG_ALL]) return;
-    char text[TEXT_LENGTH];
-    memcpy(text, t->text, sizeof text);
-    for (char *c = text; *c; c++) {
-        if (*c == '#') *c = '.'; /* FMI 2 gives it a meaning */
+    char text[2 * TEXT_LENGTH], *to = text;
+    for (const char *c = t->text; *c; c++) {
+        if (log->fmi == 2 && (*c == '%' || *c == '#')) *to++ = *c;
+        *to++ = *c;
     }
+    *to = '\0';
     log->send(log, status, CATEGORIES[category].name, text);
 }
 
@@ -97,8 +120,11 @@ static int category(const char *name) {
 int choose_categories(Instance *m, int on, size_t n, const char *const names[]) {
     for (size_t i = 0; i < n; i++) {
         if (category(names[i]) < 0) {
-            return fail(m, "there is no category %.64s of messages in %s",
-                        names[i] ? names[i] : "NULL", m->part.name);
+            const char *name = names[i] ? names[i] : "NULL";
+            size_t n = strlen(name);
+            if (n > WORD_LENGTH) n = whole_letters(name, WORD_LENGTH);
+            return fail(m, "there is no category %.*s of messages in %s", (int)n, name,
+                        m->part.name);
         }
     }
     uint8_t *switched = m->log.on;

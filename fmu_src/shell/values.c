@@ -4,11 +4,16 @@
 #include "shell.h"
 
 /* The value at place i of a host's array; a byte stands for true unless it is 0. */
-static inline double read_value(int form, const void *values, size_t i) {
+static inline double read_form(int form, const void *values, size_t i) {
     if (form == FORM_DOUBLE) return ((const double *)values)[i];
     if (form == FORM_INT32) return ((const int32_t *)values)[i];
     if (form == FORM_INT64) return (double)((const int64_t *)values)[i];
     return form == FORM_BYTE && ((const unsigned char *)values)[i] != 0;
+}
+
+/* The same, taken as the end of the variable's range where only rounding put it outside. */
+static inline double read_value(const Variable *v, int form, const void *values, size_t i) {
+    return within(v->low, v->high, read_form(form, values, i));
 }
 
 static void write_value(const Kind *kind, void *values, size_t i, double value) {
@@ -91,14 +96,17 @@ int set_values(Instance *m, int call, const uint32_t *references, size_t n, cons
     if (!all_fit(m, call, references, n, kind, values, &found)) return BAD;
     for (size_t i = 0; i < n; i++) {
         const Variable *v = &VARIABLES[references[i]];
-        double value = read_value(kind->form, values, i);
+        double value = read_value(v, kind->form, values, i);
         if (may_set(m, v) && is_inside(v, value)) continue;
         tell_refusal(m, v, value);
         m->now.latch = STATUS_BAD_INPUT;
         refuse(m, references, n);
         return BAD;
     }
-    for (size_t i = 0; i < n; i++) take_over(m, references[i], read_value(kind->form, values, i));
+    for (size_t i = 0; i < n; i++) {
+        take_over(m, references[i],
+                  read_value(&VARIABLES[references[i]], kind->form, values, i));
+    }
     return GOOD;
 }
 

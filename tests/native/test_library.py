@@ -20,7 +20,17 @@ from thrustwasher.errors import EnvironmentProblem, ParameterError
 from thrustwasher.fmu.package.model_sources import PACKAGE
 from thrustwasher.fmu.shell import call_table, platform_libraries
 from thrustwasher.model.registry import find_spec
-from thrustwasher.native import binaries, callbacks, digest, emit, gate, lean, link, shipped
+from thrustwasher.native import (
+    binaries,
+    callbacks,
+    digest,
+    emit,
+    gate,
+    lean,
+    link,
+    mathematics,
+    shipped,
+)
 from thrustwasher.native.entries import called_modules
 from thrustwasher.native.targets import GLIBC, PLATFORMS
 
@@ -46,9 +56,11 @@ def test_a_library_needs_the_system_only_and_exports_all_of_fmi_and_nothing_else
     exports = found.exports - {"__dso_handle", "_mh_dylib_header"}
     assert exports == {*call_table.functions(2), *call_table.functions(3)}
     names = {name.lower() for name in found.needed}
-    assert names <= {"libc.so.6", "libm.so.6", "kernel32.dll", "/usr/lib/libsystem.b.dylib"} | {
+    assert names <= {"libc.so.6", "kernel32.dll", "/usr/lib/libsystem.b.dylib"} | {
         name for name in names if name.startswith("api-ms-win-crt-")
     }
+    assert not {n for n in names if "math" in n}
+    assert not found.imports & (mathematics.defined().keys() | {"sqrt", "ceil", "nextafter"})
     if link.find_linker().is_cross:
         asked = re.findall(rb"GLIBC_(\d+)\.(\d+)", made(platform))
         assert all((int(major), int(minor)) <= GLIBC for major, minor in asked)

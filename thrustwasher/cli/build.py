@@ -23,6 +23,8 @@ OPTIONS = {
     "--tol X": "relative error of the torque allowed in the map of a part file's washer, which is "
     "built and kept if there is none; default 0.01",
     "--terminals": "put the plugs into FMI 2.0 FMUs too, where some tools call them an error",
+    "--plain-outputs": "enumerations and Booleans are local variables, not outputs: for hosts that "
+    "read every output as a real number",
     "--sources": "native only: put in C sources too, the same FMU for any C99 compiler, as "
     "real-time hosts want it",
     "--json": "one JSON object with the paths",
@@ -87,6 +89,7 @@ def run(arguments: argparse.Namespace) -> int:
         terminals=arguments.terminals,
         oil=arguments.oil,
         c_sources=arguments.sources,
+        plain_outputs=arguments.plain_outputs,
     )
     specs = [spec for spec in _specs(arguments.models, parts) if oil and oil.parameters_for(spec)]
     if oil:

@@ -44,6 +44,7 @@ def build(
     terminals: bool = False,
     oil: str | Mapping[str, Any] | None = None,
     c_sources: bool = False,
+    plain_outputs: bool = False,
 ) -> list[Path]:
     """Build FMUs and return their paths, ``out/<target>-fmi<N>/<Model>.fmu``.
 
@@ -67,6 +68,8 @@ def build(
     oil : native only, the oil of all models that know one, as for ``thrustwasher.oil``; an FMU's
         start values follow it
     c_sources : native only, put in the folder sources too: the same FMU as C99 for any compiler
+    plain_outputs : enumerations and Booleans are local variables, not outputs: for hosts that read
+        every output as a real number
 
     Raises
     ------
@@ -84,7 +87,7 @@ def build(
     places: Sequence[str] = ()
     if target == "native":
         places = [this_platform().name] if local else chosen(platforms, say, specs)
-    order, paths = Order(target, fmi, places, say, local, c_sources), []
+    order, paths = Order(target, fmi, places, say, local, c_sources, plain_outputs), []
     for spec in specs:
         shown, folder = interface(spec), model_folder(spec, sources or source_folder())
         files = contents(shown, folder, order, reference=not local)
@@ -233,6 +236,7 @@ def contents(shown: Interface, folder: Path, order: Order, *, reference: bool) -
         derivatives=native and has_derivatives(spec),
         moving=native,
         compiled=compiled(in_c),
+        plain_outputs=order.plain_outputs,
     )
     try:
         results = reference_files(spec) if reference else {}

@@ -11,6 +11,7 @@ from operator import attrgetter
 from typing import Any, TypeVar
 
 from ..errors import ParameterError
+from ..numerics.span import within
 from ..units import meant
 from .spec import ModelSpec, Rule
 
@@ -169,15 +170,22 @@ def params_of(spec: ModelSpec, given: Any) -> Any:
 
 
 def check_ranges(params: Any) -> None:
-    """Raise ParameterError for the first field out of range; the message names it."""
+    """Raise ParameterError for the first field out of range; the message names it.
+
+    What only rounding put outside becomes the end of its range, in a frozen dataclass too.
+    """
     for f in fields(params):
-        check_value(f.name, getattr(params, f.name), f.metadata)
+        value = getattr(params, f.name)
+        taken = check_value(f.name, value, f.metadata)
+        if taken is not value:
+            object.__setattr__(params, f.name, taken)
 
 
-def check_value(name: str, value: Any, m: Mapping[str, Any], *, stated: bool = False) -> None:
-    """Raise ParameterError if a value is not allowed by a field's metadata.
+def check_value(name: str, value: Any, m: Mapping[str, Any], *, stated: bool = False) -> Any:
+    """Return a value that a field's metadata allow, else raise ParameterError.
 
-    ``stated``: it came with its unit, so that no other one was meant.
+    A real number that only rounding put outside comes back as the end of its range. ``stated``: it
+    came with its unit, so that no other one was meant.
     """
     if m["kind"] == "enumeration":
         good = isinstance(value, str) and value in m["options"]
@@ -185,6 +193,8 @@ def check_value(name: str, value: Any, m: Mapping[str, Any], *, stated: bool = F
         good = isinstance(value, bool) or value in (0, 1)
     else:
         is_number = isinstance(value, int | float) and not isinstance(value, bool)
+        if is_number and m["kind"] == "real":
+            value = within(m["min"], m["max"], value)
         good = is_number and m["min"] <= value <= m["max"]  # False for NaN too
         if m["kind"] == "integer":
             good = good and value == int(value)
@@ -196,6 +206,7 @@ def check_value(name: str, value: Any, m: Mapping[str, Any], *, stated: bool = F
                 float(value), m["unit"], m["min"], m["max"], difference=bool(m.get("relative"))
             )
         raise ParameterError(f"{name} = {value!r}{unit}, allowed: {allowed(m)}{hint}")
+    return value
 
 
 def check_number(
@@ -203,12 +214,13 @@ def check_number(
 ) -> float:
     """Return ``value`` as a float, or raise ParameterError naming it, its unit and its range.
 
+    One that only rounding put outside comes back as the end of the range.
     ``stated``: it came with its unit, so that no other one was meant.
     """
     try:
         if isinstance(value, bool | str):
             raise TypeError
-        number = float(value)
+        number = within(low, high, float(value))
     except (TypeError, ValueError):
         raise ParameterError(f"{name} = {value!r}, a number in {unit} is required") from None
     except OverflowError:

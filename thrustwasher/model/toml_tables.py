@@ -181,7 +181,7 @@ def read_value(where: str, key: str, value: Any, meta: Any) -> Any:
         found = quantity(where, key, value, meta["unit"])
         if has_unit(value):
             with within(where):
-                check_value(key, found, meta, stated=True)
+                found = check_value(key, found, meta, stated=True)
         return found
     required = {"integer": int, "boolean": bool, "enumeration": str}[meta["kind"]]
     if not isinstance(value, required) or (required is int and isinstance(value, bool)):

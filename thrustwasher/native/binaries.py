@@ -11,11 +11,33 @@ from dataclasses import dataclass
 from ..errors import EnvironmentProblem
 
 ALLOWED = {
-    "ELF": r"(libc\.so\.6|libm\.so\.6|ld-linux-.*)",
+    "ELF": r"(libc\.so\.6|ld-linux-.*)",
     "PE": r"(kernel32|api-ms-win-crt-[a-z]+-l1-1-0|ucrtbase)\.dll",
     "MachO": r"/usr/lib/libSystem\.B\.dylib",
     "WASM": r"",  # a module for browsers needs nothing
 }
+# Functions that a library may take from the C library: memory, text and files. No mathematics: a
+# host may have functions of these names.
+IMPORTS = frozenset(
+    """
+    calloc free memchr memcmp bcmp memcpy memmove memset bzero __bzero
+    memset_pattern8 memset_pattern16
+    strchr strcmp strlen strncmp strncpy strtod strtol atoi snprintf vsnprintf
+    fclose fgetc fopen fread
+    """.split()
+)
+# Of compilers and linkers: how a library is set up and taken down. The lines from the third on are
+# of Windows, where each name is taken from one DLL and from no other place.
+_STARTS = frozenset(
+    """
+    __cxa_finalize __gmon_start__ _ITM_deregisterTMCloneTable _ITM_registerTMCloneTable
+    dyld_stub_binder
+    DeleteCriticalSection EnterCriticalSection GetLastError InitializeCriticalSection
+    LeaveCriticalSection Sleep TlsGetValue VirtualProtect VirtualQuery __acrt_iob_func
+    __stdio_common_vfprintf __stdio_common_vsprintf _execute_onexit_table _exit
+    _initialize_onexit_table _initterm _initterm_e _register_onexit_function _wfopen abort fwrite
+    """.split()
+)
 # What linkers show beside what is asked for: zig's for macOS; the memory, its free part and the
 # table of functions of WebAssembly, and what sets up its C library.
 _OWN = {"__dso_handle", "_mh_dylib_header", "memory", "__heap_base", "__indirect_function_table"}
@@ -34,18 +56,23 @@ _TRIE = {0x80000022: 40, 0x80000033: 8}  # DYLD_INFO_ONLY, DYLD_EXPORTS_TRIE: wh
 
 @dataclass(frozen=True, slots=True)
 class Linked:
-    """Libraries needed, names exported."""
+    """Libraries needed, names taken from them, names exported."""
 
     format: str
     needed: frozenset[str]
+    imports: frozenset[str]
     exports: frozenset[str]
 
 
 def check(data: bytes, *, exports: Iterable[str]) -> None:
-    """Stop if a library needs more than libc and libm, or does not export just the given names."""
+    """Stop if a library needs more than memory, text and files of the C library, or shows others.
+
+    ``exports``: just the names that it has to show.
+    """
     found, required = read(data), set(exports)
     allowed = re.compile(ALLOWED[found.format], re.I if found.format == "PE" else 0)
     problems = [f"it needs {n}" for n in sorted(found.needed) if not allowed.fullmatch(n)]
+    problems += [f"it needs {n}" for n in sorted(found.imports - IMPORTS - _STARTS)]
     problems += [f"it exports {name}" for name in sorted(found.exports - required - _OWN)]
     problems += [f"it does not export {name}" for name in sorted(required - found.exports)]
     if problems:
@@ -74,7 +101,7 @@ def read(data: bytes) -> Linked:
         return _elf(data)
     if data[:4] == _WASM:
         needed = frozenset(name for name, _ in _wasm_imports(data))
-        return Linked("WASM", needed, frozenset(_wasm_exports(data)))
+        return Linked("WASM", needed, needed, frozenset(_wasm_exports(data)))
     return _pe(data) if data[:2] == b"MZ" else _macho(data)
 
 
@@ -138,13 +165,14 @@ def _macho_undefined(code: bytes) -> set[str]:
 def _elf(data: bytes) -> Linked:
     sections, needed = _elf_sections(data), set()
     exports = {name for name, bound, home in _elf_symbols(data, _DYNSYM) if home and bound}
+    imports = {name for name, _, home in _elf_symbols(data, _DYNSYM) if name and home == 0}
     for section in sections:
         if section[1] == _DYNAMIC:
             start, names = section[4], sections[section[6]][4]
             for tag, value in struct.iter_unpack("<QQ", data[start : start + section[5]]):
                 if tag == _NEEDED:
                     needed.add(_text(data, names + value))
-    return Linked("ELF", frozenset(needed), frozenset(exports))
+    return Linked("ELF", frozenset(needed), frozenset(imports), frozenset(exports))
 
 
 def _pe(data: bytes) -> Linked:
@@ -162,17 +190,21 @@ def _pe(data: bytes) -> Linked:
     def directory(number: int) -> int:
         return _word(data, optional + 112 + 8 * number)
 
-    needed, exports = set(), set()
+    needed, imports, exports = set(), set(), set()
     entry = place(directory(_IMPORT))
     while name := _word(data, entry + 12):
         needed.add(_text(data, place(name)))
+        thunk = place(_word(data, entry))
+        while address := struct.unpack_from("<Q", data, thunk)[0]:
+            imports.add(_text(data, place(address) + 2))  # behind a hint of two bytes
+            thunk += 8
         entry += 20
     if directory(_EXPORT):
         shown = place(directory(_EXPORT))
         number, names = _word(data, shown + 24), place(_word(data, shown + 32))
         for address in struct.unpack_from(f"<{number}I", data, names):
             exports.add(_text(data, place(address)))
-    return Linked("PE", frozenset(needed), frozenset(exports))
+    return Linked("PE", frozenset(needed), frozenset(imports), frozenset(exports))
 
 
 def _macho(data: bytes) -> Linked:
@@ -183,7 +215,8 @@ def _macho(data: bytes) -> Linked:
         elif command in _TRIE:
             start, length = struct.unpack_from("<II", data, place + _TRIE[command])
             exports |= {name.removeprefix("_") for name in _trie(data[start : start + length])}
-    return Linked("MachO", frozenset(needed), frozenset(exports))
+    imports = _macho_undefined(data)
+    return Linked("MachO", frozenset(needed), frozenset(imports), frozenset(exports))
 
 
 def _trie(data: bytes) -> set[str]:

@@ -1,24 +1,24 @@
-"""What a kernel may need from the machine it runs on: libm and three memory functions."""
+"""What a kernel may need: the mathematical functions linked with it, and memory functions."""
 
 import re
 from collections.abc import Iterable
 from typing import Any
 
 from ..errors import EnvironmentProblem
+from . import mathematics
 from .binaries import undefined
 
-# The list grows by a reviewed line, never by a pattern. The C standard's names, of doubles; and the
-# stack probe of Windows for frames above 4 kB, which the linker puts into the library itself. The
-# third line is macOS's: memset of eight or sixteen bytes at once, in its C library since 10.5.
-ALLOWED = frozenset(
+# The list grows by a reviewed line, never by a pattern. The stack probe of Windows for frames above
+# 4 kB is put into the library by the linker itself. The third line is macOS's: memset of eight or
+# sixteen bytes at once, in its C library since 10.5.
+MEMORY = frozenset(
     """
-    exp log log10 log2 log1p expm1 exp2 pow erf erfc tanh sinh cosh asinh sin cos tan sincos
-    __sincos_stret asin acos atan atan2 sqrt fmod floor ceil cbrt hypot
     memset memcpy memmove bzero __bzero
     ___chkstk_ms
     memset_pattern8 memset_pattern16
     """.split()
 )
+ALLOWED = MEMORY | mathematics.defined().keys()
 MACHINES = re.compile(r"llvm\.(x86|aarch64|arm)\.")
 # Beginnings of a symbol -> what is behind it and what to write instead.
 CAUSES = (

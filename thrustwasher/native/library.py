@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import EnvironmentProblem
-from . import binaries, files, link, shipped
+from . import binaries, files, link, mathematics, shipped
 from .digest import HERE
 from .entries import Kind, entries, symbols
 from .files import Note, to_stderr
@@ -50,7 +50,8 @@ def _found(kernel: str) -> Addresses:
 
 
 def _kept_file(kernel: str, platform: Platform) -> Path:
-    return kept_folder(kernel) / f"{shipped.short(kernel)}.{platform.extension}"
+    name = f"{shipped.short(kernel)}-{mathematics.digest()}.{platform.extension}"
+    return kept_folder(kernel) / name
 
 
 def _made(kernel: str, platform: Platform, path: Path) -> Addresses:
@@ -119,9 +120,14 @@ def linked_objects(
     linker: link.Linker | None = None,
     note: Note = to_stderr,
 ) -> bytes:
-    """Return C files linked with a kernel's objects, checked for what they need and export."""
+    """Return C files linked with a kernel's objects and the mathematical functions these call.
+
+    What it needs and exports is checked.
+    """
     levels = platform.levels
     parts = {f"kernel_{level}.o": content for (_, level), content in code.items()}
+    wanted = {symbol for content in code.values() for symbol in binaries.undefined(content)}
+    parts |= mathematics.sources(wanted)
     defines = [f"TW_LEVEL={levels[0].name}"] if len(levels) == 1 else []
     how: dict[str, Any] = {"linker": linker, "note": note, "defines": defines}
     made = link.shared_library({**sources, **parts}, platform=platform, name=name, **how)

@@ -9,7 +9,7 @@ import sys
 import tempfile
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib import metadata
 from pathlib import Path
@@ -20,7 +20,12 @@ from .files import Note, locked, to_stderr, user_cache
 from .targets import PLATFORMS, Level, Platform
 
 # -s: no symbols, no paths. Same files, same bytes: wherever the folder lies, whenever it is made.
-COMMON = ("-Os", "-std=c99", "-ffp-contract=off", "-fvisibility=hidden", "-s", "-I.")
+COMMON = (
+    *("-Os", "-std=c99", "-ffp-contract=off", "-fno-math-errno", "-fvisibility=hidden"),
+    *("-s", "-I."),
+)
+# A module for browsers: zig's C library would bring mathematics once more.
+ALONE = ("-nostdlib", "-Wl,--no-entry")
 # What a processor must have for a level beyond the first one of its platform.
 FEATURES = {"v3": ("avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe")}
 SHORT, LONG = 6.0, 60.0  # seconds until something is printed, at the first build and at later ones
@@ -108,13 +113,17 @@ def shared_library(
 ) -> bytes:
     """Compile and link C files and objects to a shared library; EnvironmentProblem if that fails.
 
+    No mathematical library is linked: what is needed of it is among the files.
+
     ``files``: name -> content; ``.c`` is compiled, ``.o`` linked, headers are found. ``name``,
     without extension, stands inside the file on macOS only. ``defines``: "NAME" or "NAME=VALUE".
     """
     output = f"{name}.{platform.extension}"
-    flags = [*(["-shared"] if platform.format != "WASM" else []), *platform.flags]
+    kind = ALONE if platform.format == "WASM" else ("-shared",)
+    flags = [*kind, *platform.flags]
     if platform.format == "MachO":
         flags.append(f"-Wl,-install_name,@rpath/{output}")
+    platform = replace(platform, libraries=())
     return build(files, output, [*flags, *(f"-D{d}" for d in defines)], platform, linker, note)
 
 

@@ -14,6 +14,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from . import mathematics
 from .digest import HERE, PACKAGE, digest, digest_of, read
 from .files import checksum
 
@@ -72,7 +73,8 @@ def _listed(kernel: str, *place: str) -> Path | None:
 
 def library_file(kernel: str, platform: str) -> Path | None:
     """Return the shipped library of a kernel module for Python, None if there is none to use."""
-    return _listed(kernel, "libraries", platform)
+    made_of = (record(kernel) or {}).get("mathematics")
+    return _listed(kernel, "libraries", platform) if made_of == mathematics.digest() else None
 
 
 def has_objects(kernel: str) -> bool:

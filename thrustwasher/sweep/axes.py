@@ -44,7 +44,7 @@ class Place:
         given = value if isinstance(value, str) else float(value)
         relative = bool(self.meta.get("relative"))
         number = parse_quantity(given, self.unit, self.name, difference=relative)
-        check_value(self.name, number, self.meta, stated=has_unit(value))
+        number = check_value(self.name, number, self.meta, stated=has_unit(value))
         return int(number) if self.kind == "integer" else number
 
 

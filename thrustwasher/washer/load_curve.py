@@ -183,8 +183,8 @@ def load_curve(
     """
     rung = rung_named(SPEC, fidelity)
     nodes = resolve_grid(rung, grid)
-    check_number("load_min", load_min, "N", 1.0, 1e4)
-    check_number("load_max", load_max, "N", load_min, 1e4)
+    load_min = check_number("load_min", load_min, "N", 1.0, 1e4)
+    load_max = check_number("load_max", load_max, "N", load_min, 1e4)
     if load_min == load_max:
         raise ParameterError(
             f"load_max = {load_max:g} N, allowed: above load_min; solve_washer gives one load"

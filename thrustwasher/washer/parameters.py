@@ -189,7 +189,7 @@ def _over_pressure(given: dict[str, Any]) -> dict[str, Any]:
     values = {k: v for k, v in given.items() if k not in NEWTONS}
     for name, value in own.items():
         unit, low, high, _ = NEWTONS[name]
-        check_number(name, value, unit, low, high)
+        full[name] = check_number(name, value, unit, low, high)
         if OVER_PRESSURE[name] in values:
             raise ParameterError(
                 f"{name} beside {OVER_PRESSURE[name]}, allowed: a law over the load or one over "

@@ -22,7 +22,7 @@ from thrustwasher.fmu.package.model_sources import source_folder
 from thrustwasher.fmu.shell import c_sources
 from thrustwasher.fmu.stepper import Instance
 from thrustwasher.model.registry import all_specs, find_spec
-from thrustwasher.native import portable
+from thrustwasher.native import binaries, portable
 
 FAST = "OilSump"
 NAMES = [spec.name for spec in all_specs(helpers=True)]
@@ -69,6 +69,21 @@ def compiled(name, fmi, compiler, *options):
     done = subprocess.run(list(map(str, line)), capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
     return packed(own, folder / fmu.name)
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_the_functions_have_their_plain_names_with_any_version_of_the_headers(fmi, tmp_path):
+    """Headers before 2.0.4 put the prefix in front whatever else is said."""
+    own = unpacked(with_sources(FAST, fmi), tmp_path / "unpacked")
+    for header in headers().glob(f"fmi{fmi}*.h"):
+        text = header.read_text().replace("_OVERRIDE_FUNCTION_PREFIX", "_UNKNOWN_TO_ALL")
+        (tmp_path / header.name).write_text(text)
+    (library,) = (own / "binaries").rglob("*.so")
+    flags = ["-shared", "-fPIC", f"-DFMI{fmi}_OVERRIDE_FUNCTION_PREFIX", f"-I{tmp_path}"]
+    files = sorted((own / "sources").glob("*.c"))
+    line = [tool("gcc"), "-O0", "-std=c99", *flags, "-o", library, *files, "-lm"]
+    subprocess.run(list(map(str, line)), check=True)
+    assert f"fmi{fmi}GetVersion" in binaries.read(library.read_bytes()).exports
 
 
 def packed(folder, fmu):

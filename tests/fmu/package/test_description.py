@@ -56,7 +56,9 @@ def test_every_variable_is_written_as_it_is_listed(spec):
         assert element.get("variability") == v.variability
         (body,) = element
         assert body.tag == v.type
-        for attribute, value in (("min", v.low), ("max", v.high), ("start", v.start)):
+        gone = v.type_name == "Fidelity" and spec.successors
+        ends = () if gone else (("min", v.low), ("max", v.high))
+        for attribute, value in (*ends, ("start", v.start)):
             given = body.get(attribute)
             if v.type != "Boolean":
                 assert (None if given is None else float(given)) == value, (v.name, attribute)
@@ -295,3 +297,46 @@ def test_an_engine_drives_the_input_shaft_and_the_output_shaft_drives_a_vehicle(
         "input_shaft": ("engine_torque_input", "inflow"),
         "output_shaft": ("load_torque_input", "outflow"),
     }
+
+
+@each_spec
+def test_each_parameter_has_a_second_name_with_its_group_in_fmi_3_and_a_group_in_fmi_2(spec):
+    """All but the fidelity and, of a shift, the oil's temperature; no name occurs twice."""
+    shown = interface(spec)
+    plain = [v.name for v in shown.parameters]
+    elements = {e.get("name"): e for e in written(spec, 3).find("ModelVariables")}
+    second = {n: a.get("name") for n in plain for a in elements[n].findall("Alias")}
+    listed = written(spec).findall("VendorAnnotations/Tool/Groups/Group")
+    grouped = {n: g.get("name") for g in listed for n in g.get("parameters").split()}
+    assert grouped == {n: name.split(".")[0] for n, name in second.items()}
+    names = [*(v.name for v in shown.variables), *second.values()]
+    assert len(set(names)) == len(names) and all(n.count(".") == 1 for n in second.values())
+    if spec is not TOY:
+        assert set(plain) - second.keys() <= {"fidelity", "oil_temperature"}
+
+
+@each_spec
+@each_fmi
+def test_only_rungs_that_there_are_stand_in_the_list(spec, fmi):
+    path = {2: "TypeDefinitions/SimpleType[@name='Fidelity']/Enumeration/Item"}
+    path[3] = "TypeDefinitions/EnumerationType[@name='Fidelity']/Item"
+    numbers = {name: i for i, name in enumerate(spec.fidelities, 1)}
+    found = {e.get("name"): int(e.get("value")) for e in written(spec, fmi).findall(path[fmi])}
+    assert found == {n: i for n, i in numbers.items() if n not in spec.successors}
+
+
+@each_spec
+@each_fmi
+def test_plain_outputs_are_real_and_the_others_local(spec, fmi):
+    schema = etree.XMLSchema(etree.parse(SCHEMAS / f"fmi{fmi}" / f"fmi{fmi}ModelDescription.xsd"))
+    tree, shown = written(spec, fmi, plain_outputs=True), interface(spec)
+    assert schema.validate(tree), schema.error_log
+    found = {e.get("name"): e.get("causality") for e in tree.find("ModelVariables")}
+    wanted = {v.name: "output" if v.type == "Real" else "local" for v in shown.outputs}
+    assert {name: found[name] for name in wanted} == wanted
+    first = 3 - fmi  # FMI 2 counts from 1
+    listed = {v.reference + first for v in shown.outputs if v.type == "Real"}
+    kinds = {2: ("Outputs/Unknown", "InitialUnknowns/Unknown"), 3: ("Output", "InitialUnknown")}
+    for kind in kinds[fmi]:
+        places = tree.findall(f"ModelStructure/{kind}")
+        assert {int(e.get("index") or e.get("valueReference")) for e in places} == listed

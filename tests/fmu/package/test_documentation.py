@@ -30,7 +30,7 @@ SAID = {
     "pythonfmu.txt": b"MIT",
 }
 BOTH = {"license.txt", "overview.txt"}
-NATIVE = {*BOTH, "numba.txt", "llvmlite.txt", "llvm.txt", "fmi-headers.txt"}
+NATIVE = {*BOTH, "numba.txt", "llvmlite.txt", "llvm.txt", "fmi-headers.txt", "musl.txt"}
 _pages = {}
 
 

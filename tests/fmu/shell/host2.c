@@ -21,6 +21,7 @@ EACH(DECLARE)
 
 void open_library(void *library) { EACH(FIND) }
 
+/* A host whose logger takes no arguments behind the text would see "%s"; ## stands for #. */
 static void logger(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status,
                    fmi2String category, fmi2String format, ...)
 {
@@ -29,8 +30,14 @@ static void logger(fmi2ComponentEnvironment environment, fmi2String name, fmi2St
     va_start(values, format);
     vsnprintf(text, sizeof text, format, values);
     va_end(values);
+    char *to = text;
+    for (const char *c = text; *c; c++) {
+        *to++ = *c;
+        if (c[0] == '#' && c[1] == '#') c++;
+    }
+    *to = '\0';
     hear(environment == (void *)&GetVersion ? name : "lost", status, category,
-         strcmp(format, "%s") == 0 ? text : "a format");
+         strcmp(format, "%s") == 0 ? "%s" : text);
 }
 
 void *make(const char *name, const char *guid, int logging, const char *oddity)

@@ -1,5 +1,6 @@
 """Every function in every mode, walked through from the one table; and all that is no good call."""
 
+import shutil
 import struct
 import zlib
 
@@ -238,12 +239,28 @@ def test_without_its_part_there_is_no_instance_and_the_folder_is_named(fmi, spoi
 
 
 @both
-@pytest.mark.parametrize("folder", ["file://", "file:", "/" * 2000])
+@pytest.mark.parametrize("folder", ["file://", "file:", "/" * 5000])
 def test_a_host_that_names_no_folder_is_refused_and_told_what_is_read_there(fmi, folder):
     (reply,) = run(fmi, toy_library(), f"make toy {GUID} 0\n", resources=folder)
     assert reply.status == 3 and len(reply.messages) == 1
     assert "names no folder of resources" in reply.messages[0]
     assert "the FMU's name and start values" in reply.messages[0]
+
+
+@both
+@pytest.mark.parametrize("scheme", ["", "file://", "FILE://", "File:", "file://localhost"])
+def test_a_folder_of_any_length_is_taken_and_shown(fmi, scheme, tmp_path):
+    """Over 1 023 bytes, by a URI whose scheme ignores case; the message shows how it ends."""
+    folder = tmp_path.joinpath(*["a#b" * 60] * 7)
+    folder.mkdir(parents=True)
+    script = f"make toy {GUID} 0\n"
+    where = scheme + (str(folder).replace("#", "%23") if scheme else str(folder))
+    (reply,) = run(fmi, toy_library(), script, resources=where)
+    assert reply.status == 3
+    assert f"{'a#b' * 60}/{'a#b' * 60} is missing; unpack the FMU again" in reply.messages[0]
+    shutil.copy(toy_library().parent / c_tables.PART, folder)
+    (reply,) = run(fmi, toy_library(), script, resources=where)
+    assert (reply.status, reply.messages) == (0, [])
 
 
 def summed(data):

@@ -70,3 +70,29 @@ def test_300_steps_are_the_cores_to_the_bit(model, fmi):
 def test_the_washers_steps_are_the_cores_to_the_bit():
     twin = run_of(find_spec("washer"), 7, 30)
     twin.check(run(2, model_library("washer"), twin.script))
+
+
+# One argument or two: functions of the C library's that a host may have of its own.
+OWN = """
+#define OF_ONE(f) double f(double x); double f(double x) { return x - x + 42.0; }
+#define OF_TWO(f) double f(double x, double y); double f(double x, double y) { return x - y; }
+OF_ONE(exp) OF_ONE(exp2) OF_ONE(expm1) OF_ONE(log) OF_ONE(log1p) OF_ONE(log2) OF_ONE(log10)
+OF_ONE(sin) OF_ONE(cos) OF_ONE(tan) OF_ONE(asin) OF_ONE(acos) OF_ONE(atan) OF_ONE(asinh)
+OF_ONE(sinh) OF_ONE(cosh) OF_ONE(tanh) OF_ONE(erf) OF_ONE(erfc) OF_ONE(cbrt) OF_ONE(sqrt)
+OF_ONE(floor) OF_ONE(ceil) OF_ONE(fabs)
+OF_TWO(pow) OF_TWO(fmod) OF_TWO(hypot) OF_TWO(atan2) OF_TWO(nextafter)
+void sincos(double x, double *a, double *b);
+void sincos(double x, double *a, double *b) { *a = *b = x; }
+"""
+
+
+@pytest.mark.parametrize(
+    "model", ["clutch", "gearmesh", pytest.param("washer", marks=pytest.mark.slow)]
+)
+def test_a_host_with_mathematical_functions_of_its_own_changes_no_bit(model, tmp_path):
+    """It is linked so that libraries see its names before those of the C library."""
+    (tmp_path / "own.c").write_text(OWN)
+    script = run_of(find_spec(model), 3, 30).script
+    own = ("-O1", "-fno-builtin", "-rdynamic", str(tmp_path / "own.c"))
+    plain, found = (run(2, model_library(model), script, flags=f) for f in (("-O1",), own))
+    assert found == plain

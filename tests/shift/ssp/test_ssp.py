@@ -1,5 +1,6 @@
 """A shift as an SSP package: valid, complete, and the same run under another master."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -150,3 +151,19 @@ def test_a_master_that_passes_values_on_until_they_agree_runs_the_shift_of_this_
     for figure in FIGURES:
         key = f"transmission.{figure}"
         assert row[key] == pytest.approx(own[key][-1], rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", ["mein gang", "Gang-ä", "a&b", "shift.v2", "1st", "変速"])
+def test_the_system_has_a_name_that_masters_take_and_the_title_keeps_the_words(name, tmp_path):
+    path = tmp_path / f"{name}.toml"
+    path.write_text('base = "msl"\ntitle = "My words"\n', "utf-8")
+    made = files(
+        plan(prepared(load_scene(path)), {}), tool="thrustwasher", date="2026-01-01T00:00Z"
+    )
+    from lxml import etree
+
+    for file in ("SystemStructure.ssd", "Parts.ssd"):
+        root = etree.fromstring(made[file])
+        assert re.fullmatch("[A-Za-z][A-Za-z0-9_]*", root.get("name"))
+        assert root.find("ssd:System", NS).get("name") == root.get("name")
+        assert root.get("description") == f"{name}: My words"

@@ -89,6 +89,13 @@ class Interface:
         return next((v.slot for v in self.outputs if v.type_name == "SolverStatus"), None)
 
     @cached_property
+    def listed(self) -> dict[str, tuple[Item, ...]]:
+        """The enumerations without the rungs that are gone, whose numbers are still taken."""
+        gone = self.spec.successors
+        found = {"Fidelity": tuple(i for i in self.enumerations["Fidelity"] if i.name not in gone)}
+        return {**self.enumerations, **found}
+
+    @cached_property
     def point(self) -> tuple[Variable, ...]:
         """What a message about an event says of the operating point."""
         return tuple(v for v in self.variables if v in self.inputs or v.name in EVENT_OUTPUTS)

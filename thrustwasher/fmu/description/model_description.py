@@ -2,7 +2,7 @@
 
 import os
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -12,6 +12,7 @@ from ...templates import filled
 from ...units import UNITS, exponents
 from ..model_kernels import package_version
 from ..package.model_sources import PACKAGE
+from .groups import grouped_names, groups
 from .interface import Interface, Variable
 
 HERE = Path(__file__).parent
@@ -45,13 +46,16 @@ def description(
     derivatives: bool = False,
     moving: bool = False,
     compiled: Sequence[str] = (),
+    plain_outputs: bool = False,
 ) -> bytes:
     """Return the model description.
 
     ``derivatives``: the binary has directional ones; ``moving``: it lets inputs move within a step;
-    ``compiled``: files in the folder sources that are compiled, which FMI 2 lists here.
+    ``compiled``: files in the folder sources that are compiled, which FMI 2 lists here;
+    ``plain_outputs``: outputs are real numbers, the others local.
     """
-    found = shown.variables
+    found, names = shown.variables, [v.name for v in shown.parameters]
+    hidden = {v for v in shown.outputs if plain_outputs and v.type != "Real"}
 
     def between(v: Variable) -> Attributes:
         is_there = v.store == "out" or (moving and v.causality == "input")
@@ -69,8 +73,14 @@ def description(
         units=units(found),
         types=types(found),
         kinds=TYPES,
-        structure=structure(shown),
-        variables=[(v, head_attributes(v) | between(v), value_attributes(v)) for v in found],
+        structure=structure(shown, hidden),
+        enumerations=shown.listed,
+        groups=groups(shown.spec, names),
+        second_names=grouped_names(shown.spec, names),
+        variables=[
+            (v, head_attributes(v, v in hidden) | between(v), value_attributes(v) | _span(shown, v))
+            for v in found
+        ],
     )
 
 
@@ -152,13 +162,13 @@ def types(found: tuple[Variable, ...]) -> list[tuple[str, Attributes]]:
     return [(name, REAL_TYPES[name]) for name in sorted(filter(None, used))]
 
 
-def head_attributes(v: Variable) -> Attributes:
+def head_attributes(v: Variable, is_hidden: bool = False) -> Attributes:
     """Return what a variable of any type says of itself."""
     return {
         "name": v.name,
         "valueReference": v.reference,
         "description": v.help,
-        "causality": v.causality,
+        "causality": "local" if is_hidden else v.causality,
         "variability": v.variability,
         "initial": v.initial,
     }
@@ -183,8 +193,20 @@ def value_attributes(v: Variable) -> Attributes:
     }
 
 
-def structure(shown: Interface) -> list[tuple[str, str, list[Any]]]:
+def _span(shown: Interface, v: Variable) -> Attributes:
+    """Return the least and the largest number of an enumeration that is listed."""
+    if v.type_name is None:
+        return {}
+    numbers = [item.value for item in shown.listed[v.type_name]]
+    return {"min": min(numbers), "max": max(numbers)}
+
+
+def structure(
+    shown: Interface, hidden: Collection[Variable] = ()
+) -> list[tuple[str, str, list[Any]]]:
     """Return name of the list in FMI 2, of an element in FMI 3, and pairs: output, what it needs.
+
+    Hidden outputs are left out.
 
     While running an output depends on the inputs that act at once, when it is initialized also on
     every parameter. Without a list the standard reads "depends on everything".
@@ -192,7 +214,7 @@ def structure(shown: Interface) -> list[tuple[str, str, list[Any]]]:
     parameters = {v.name for v in shown.parameters}
 
     def needs(more: set[str]) -> list[Any]:
-        known = [(v, more.union(v.depends)) for v in shown.outputs]
+        known = [(v, more.union(v.depends)) for v in shown.outputs if v not in hidden]
         return [(v, [k for k in shown.variables if k.name in names]) for v, names in known]
 
     return [

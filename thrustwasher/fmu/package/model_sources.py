@@ -44,7 +44,8 @@ def model_folder(spec: ModelSpec, sources: Path) -> Path:
 class Order(NamedTuple):
     """What kind of FMU is built.
 
-    ``local``: compiled for the processor of this machine; ``c_sources``: with the folder sources.
+    ``local``: compiled for the processor of this machine; ``c_sources``: with the folder sources;
+    ``plain_outputs``: what is no real number is local, not an output.
     """
 
     target: str
@@ -53,6 +54,7 @@ class Order(NamedTuple):
     note: Note
     local: bool = False
     c_sources: bool = False
+    plain_outputs: bool = False
 
 
 def identifier(
@@ -69,7 +71,8 @@ def identifier(
     content = shown.variables, shown.enumerations, spec.terminals, own
     hashed = hashlib.sha256(repr(content).encode())
     hashed.update(f"{content_digest(spec)} {package_version()} {tools}".encode())
-    hashed.update(f"{order.target} {order.fmi}{' C' if order.c_sources else ''}".encode())
+    options = f"{' C' if order.c_sources else ''}{' plain' if order.plain_outputs else ''}"
+    hashed.update(f"{order.target} {order.fmi}{options}".encode())
     beside = shared or source_folder()
     for root in (*OWN, folder, *(beside / name for name in SHARED)):
         for file in sorted(f for f in root.rglob("*") if f.suffix in TEXTS and f.is_file()):

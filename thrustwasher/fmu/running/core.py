@@ -5,6 +5,7 @@ from dataclasses import fields
 from enum import IntEnum
 from functools import partial
 from math import isfinite
+from struct import pack, unpack
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from ...model.prepare import fill_table, wants_table
 from ...model.registry import kernel_of
 from ...model.rungs import gone_rung
 from ...native.load import bound
+from ...numerics.span import within
 from ..description.interface import Interface, Variable
 from ..model_kernels import content_digest
 from .snapshot import ARRAYS, Snapshot
@@ -36,6 +38,16 @@ class Mode(IntEnum):
     INITIALIZING = 1
     STEPPING = 2
     TERMINATED = 3
+
+
+def rounding_of(t: float, other: float) -> float:
+    """Return how far rounding may move times [s] apart: some spacings of the later one.
+
+    A host may count in single precision; then its times are numbers of that.
+    """
+    (bits,) = unpack("<Q", pack("<d", t))
+    spacing = 2.0**-52 if bits & 0x1FFFFFFF else 2.0**-23
+    return 4.0 * spacing * max(abs(t), abs(other))
 
 
 class Core:
@@ -74,6 +86,7 @@ class Core:
         self.refused: dict[int, str] = {}
         self.events: list[str] = []  # what happened in the last step
         self.late = ""  # what is said if the last step did not begin where the one before ended
+        self._told_late = False
         self._seen = [0 for _ in shown.switches]  # at the last communication point
         for v in self.variables:
             if v.start is not None:
@@ -83,7 +96,8 @@ class Core:
         """Take over all values or, if one is not allowed, none (ParameterError)."""
         taken = []
         found = [self._find(reference, kind) for reference in references]
-        for v, value in zip(found, values, strict=True):
+        for v, given in zip(found, values, strict=True):
+            value = within(*v.bounds, given)
             problem = self._problem(v, value)
             if problem:
                 self.latch = Status.BAD_INPUT
@@ -175,13 +189,17 @@ class Core:
         unit = "" if v.unit == "1" else f" {v.unit}"
         allowed = f"{low:g} .. {high:g}{unit}"
         if v.type_name:
-            items = self.shown.enumerations[v.type_name]
+            items = self.shown.listed[v.type_name]
             allowed = ", ".join(f"{i.value} ({i.name})" for i in items)
         text = f"{v.name} = {value:g}{unit} is outside {allowed}; the value is not taken over."
         if v.unit == "K" and not v.relative and low <= value + 273.15 <= high:
             text += f" Did you mean {value + 273.15:g} K ({value:g} degC)?"
-        if value == 0.0:
-            text += " An input that is not connected reads 0."
+        if value == 0.0 and v.causality == "input":
+            usual = f"{v.name} = {v.start:g}{unit}"
+            text += (
+                " Some hosts set an input to 0 that is not connected: connect it to a constant, "
+            )
+            text += f"{usual} is its default."
         return text
 
     def prepare(self) -> None:
@@ -256,25 +274,23 @@ class Core:
         if not (0.0 < h < np.inf and -np.inf < t + h < np.inf):
             self.latch = Status.BAD_INPUT
             raise ParameterError(f"step from t = {t!r} s by {h!r} s, allowed: finite, step > 0")
-        if t + h == t:
-            self.latch, spacing = Status.BAD_INPUT, float(np.nextafter(t, np.inf)) - t
-            raise ParameterError(
-                f"step from t = {t!r} s by {h!r} s: the time does not change; its spacing is "
-                f"{spacing!r} s here"
-            )
         self._check_complete("step", t, "input", "parameter")
         if not self.prepared:
             self.prepare()
         before, self.time = self.time, t
+        self.late = ""
+        if t + h == t:  # what is left of a run at its end: nothing moves
+            self.rates[:], self.events = 0.0, []
+            return
         rc = self._follow(h)
         if rc:
             self.time, self.latch = before, rc
             raise SolveError(self._story(rc, f"t = {t:g} s, step {h:g} s"))
         self.time, self.latch, self._unsolved = t + h, 0, ""
-        self.late = ""
-        if abs(t - before) > 1e-6 * h:
-            self.late = f"step from t = {t:g} s, but the last one ended at {before:g} s; "
-            self.late += "the host's time counts"
+        if not self._told_late and abs(t - before) > 1e-6 * h + rounding_of(t, before):
+            self._told_late = True
+            self.late = f"step from t = {t!r} s, but the last one ended at {before!r} s; "
+            self.late += "the host's time counts, and this is said once"
         if self._seen:
             self.events = self.note_switches()
 
@@ -365,7 +381,7 @@ class Core:
                 zip(self.shown.inputs, self._ranges[k], strict=True)
             ):
                 value, unit = self.inp.item(v.slot), f" {v.unit}".removesuffix(" 1")
-                beyond = value < low or value > high
+                beyond = not low <= within(low, high, value) <= high
                 unverified |= bool(k) and beyond
                 if beyond and not self._beyond[k][i]:
                     span = f"is outside {low:g} .. {high:g}{unit}, {words}"

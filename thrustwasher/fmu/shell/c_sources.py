@@ -84,7 +84,8 @@ def _names(model: str, files: Mapping[str, bytes]) -> str:
             "#define THRUSTWASHER_NAMES_H",
             "",
             *(
-                f"#ifndef FMI{fmi}_FUNCTION_PREFIX\n"
+                f"#if !defined(FMI{fmi}_FUNCTION_PREFIX) "
+                f"&& !defined(FMI{fmi}_OVERRIDE_FUNCTION_PREFIX)\n"
                 f"#define FMI{fmi}_FUNCTION_PREFIX {model}_\n"
                 "#endif"
                 for fmi in c_tables.VERSIONS

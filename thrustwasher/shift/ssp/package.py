@@ -12,7 +12,7 @@ from typing import Any
 from ...model.spec import ModelSpec
 from ...templates import filled
 from ...units import exponents
-from .system_structure import BORDER, PASSED_ON, Component, Structure
+from .system_structure import BORDER, PASSED_ON, Component, Structure, identifier
 
 HERE = Path(__file__).parent
 
@@ -28,6 +28,8 @@ def files(system: Structure, *, tool: str, date: str, fmi: int = 2) -> dict[str,
     units |= {s.unit for p in system.components for s in p.spec.outputs if s.kind == "real"}
     given = {
         **system._asdict(),
+        "name": identifier(system.scene.name),
+        "title": system.title,
         "tool": tool,
         "date": date,
         "fmi": fmi,

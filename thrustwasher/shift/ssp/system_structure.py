@@ -10,6 +10,8 @@ do with the values in a package, and some do nothing. Those that read them were 
 output after they have set the inputs it depends on: ``PASSED_ON`` is for them.
 """
 
+import re
+import unicodedata
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
@@ -59,6 +61,30 @@ class Structure(NamedTuple):
     components: list[Component]
     links: list[Link]
     border: list[Border]
+
+    @property
+    def title(self) -> str:
+        """The scene's title, behind its name where the system has another one."""
+        scene = self.scene
+        is_told = identifier(scene.name) == scene.name or scene.name in scene.title
+        return scene.title if is_told else f"{scene.name}: {scene.title}"
+
+
+def identifier(name: str) -> str:
+    """Return a name that every master takes, for a scene of any name.
+
+    Letters of ASCII, digits and underscores, a letter first.
+
+    Examples
+    --------
+    >>> identifier("mein gang"), identifier("Gang-\u00e4"), identifier("1st"), identifier("shift")
+    ('mein_gang', 'Gang_a', 's_1st', 'shift')
+    """
+    plain = unicodedata.normalize("NFKD", name)
+    plain = re.sub(
+        r"\W", "_", "".join(c for c in plain if not unicodedata.combining(c)), flags=re.A
+    )
+    return plain if re.match("[A-Za-z]", plain) else f"s_{plain}"
 
 
 def prepared(scene: Scene) -> Scene:

@@ -185,8 +185,10 @@ W_SURFACE = W_VARIED_STAGES + N_STAGES * NY
     W_RING_SHARE,  # of the rings in a power that is given
     W_GIVEN,
 ) = (W_SURFACE + i * MAX_RINGS for i in range(1, 11))
-# 1: the power of a face is given; that at no slip [W], and how it grows with the slip.
-W_GIVEN_POWER, W_GIVEN_SLOPE, W_MEMORY = W_GIVEN + 1, W_GIVEN + 2, W_GIVEN + 3
+# 1: the power of a face is given; that at no slip [W], and how it grows with the slip. Then the
+# bend of a substep's unknown for the film (rosenbrock), and its change.
+W_GIVEN_POWER, W_GIVEN_SLOPE, W_BEND, W_BEND_CHANGE = (W_GIVEN + i for i in range(1, 5))
+W_MEMORY = W_GIVEN + 5
 NWORK = W_MEMORY + N_MEMORY
 
 (

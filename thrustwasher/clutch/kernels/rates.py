@@ -71,6 +71,23 @@ def film_rate(
 
 
 @kernel
+def film_bend(par: Array, load: float, u: float) -> float:
+    """Return how a closing film's ease of flow grows with the film ratio: a third of d ln/du.
+
+    The ease is that of ``film_rate``: rate = ease x what the asperities leave to the film. 0 for a
+    pack that opens, whose film follows no flow.
+    """
+    if not moves_film(par) or load < L.OPEN_PRESSURE * par[L.D_AREA]:
+        return 0.0
+    flow, slope = gap_flow(u)
+    cdf = 0.5 * math.erfc(-max(u, -30.0) * INV_SQRT2)
+    grows = slope / (flow + par[L.D_SEEPAGE])
+    if cdf >= LEAST_CDF:
+        grows -= INV_SQRT2PI * math.exp(-0.5 * min(u * u, 1400.0)) / cdf
+    return max(grows / 3.0, 0.0)
+
+
+@kernel
 def pack_slopes(
     par: Array, load: float, slip: float, drum: float, u: float, temperature: float
 ) -> tuple[

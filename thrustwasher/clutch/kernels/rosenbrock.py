@@ -6,6 +6,11 @@ RODAS (order 4, six stages, embedded order 3) of Hairer & Wanner, Solving Ordina
 Equations II, VI.4. The heat of a ring is linear but for its friction power, which depends on film
 ratio and interface temperature alone, and for the cooling, which depends on the film ratio: every
 stage is a 2 x 2 system for each ring, whatever the number of conduction modes.
+
+A film is squeezed out through the cube of its thickness: in its ratio u a substep may shrink it by
+a few per cent only. The unknown of a substep is therefore q(u), so bent that the ease of flow is
+constant along it at the substep's start: 1 - 2 b q = 1/(1 + b (u - u_0))^2 with b a third of the
+ease's logarithmic slope, which for u^3 is exact and for a settled or opening film is u itself.
 """
 
 import math
@@ -16,7 +21,7 @@ from ...numerics.arrays import copy
 from ...numerics.jit import Array, kernel
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
-from .rates import kept_of, n_unknowns, pack_rates, ring_of, surfaces
+from .rates import film_bend, kept_of, n_unknowns, pack_rates, ring_of, surfaces
 
 Ramp = tuple[float, float, float, float, float, float, float, float]
 GAMMA = 0.25
@@ -41,16 +46,49 @@ ALPHA = np.array([0.0, 0.386, 0.21, 0.63, 1.0, 1.0])  # of the stages, share of 
 DRIFT = np.array([0.25, -0.1043, 0.1035, -0.0362, 0.0, 0.0])  # weight of the rates' drift
 NUDGE = 1e-3  # share of a substep after which the drift of the rates is read
 
-TOLERANCE_FILM = 1e-6  # error of a substep, of film ratio + 1
-TOLERANCE_HEAT = 1e-4  # K
+TOLERANCE_FILM = 1e-5  # error of a substep, of film ratio + 1
+LATE = 2e-4  # of the interval: by so much a substep's film may be early or late
+TOLERANCE_HEAT = 1e-4  # K, also of the energy, in the warmth of the pack's steel
 TOLERANCE_RISE = 1e-3  # K, of a lumped pack's interface when conduction modes are on top
-SHARE_IN_RINGS = 0.1  # of the tolerance that a pack in rings may use
+SHARE_IN_RINGS = 0.3  # of the tolerance that a pack in rings may use
+FAR = 5.0  # of film ratio + 1: a substep after a refused one goes no further at the first rate
 
 
 @kernel
 def is_moving(ramp: Ramp) -> bool:
     """Tell if the inputs at the end of an interval differ from those at its start."""
     return ramp[0] != ramp[3] or ramp[1] != ramp[4] or ramp[2] != ramp[5] or ramp[6] != ramp[7]
+
+
+@kernel
+def unbent(q: float, bend: float) -> float:
+    """Return the change of the film ratio that belongs to the unknown q; nan where there is none.
+
+    q = (1 - 1/w^2)/(2 bend), w = 1 + bend (u - u_0): dq/du = 1/w^3, 1 at the substep's start.
+    """
+    rest = 1.0 - 2.0 * bend * q
+    if not rest > 0.0:
+        return math.nan
+    w = 1.0 / math.sqrt(rest)
+    return 2.0 * q * w * w / (1.0 + w)
+
+
+@kernel
+def bend_rates(par: Array, work: Array, kept: int, u: float) -> None:
+    """Turn the rates and slopes at ``work[kept:]``, at the film ratio ``u``, to those of q."""
+    bend = work[L.W_BEND]
+    if bend == 0.0:
+        return
+    w = 1.0 + bend * (u - work[np.uintp(L.W_NOW + L.Y_FILM)])
+    steep = 1.0 / (w * w * w)
+    work[np.uintp(kept + L.R_RATE_U)] -= 3.0 * bend / w * work[np.uintp(kept + L.R_RATE)]
+    work[np.uintp(kept + L.R_RATE)] *= steep
+    work[np.uintp(kept + L.R_RATE_F)] *= steep
+    for k in range(int(par[L.D_RINGS])):
+        ring = kept + L.R_RINGS + k * L.N_OF_RING
+        work[np.uintp(ring + L.R_RATE_T)] *= steep
+        work[np.uintp(ring + L.R_POWER_U)] /= steep
+        work[np.uintp(ring + L.R_COOL_U)] /= steep
 
 
 @kernel
@@ -77,6 +115,7 @@ def _rates(par: Array, ramp: Ramp, x: float, work: Array, base: int, place: int)
         for i in range(1, n):
             cooled = ring[np.uintp(L.D_DECAY + i)] * work[np.uintp(base + heat + i)]
             work[np.uintp(L.W_RATE + heat + i)] = ring[np.uintp(L.D_GAIN + i)] * power - cooled
+    bend_rates(par, work, kept, work[np.uintp(base + L.Y_FILM)])
     work[np.uintp(L.W_RATE + L.Y_FILM)] = work[np.uintp(kept + L.R_RATE)]
     work[np.uintp(L.W_RATE + L.Y_ENERGY)] = total
 
@@ -165,6 +204,8 @@ def substep(par: Array, ramp: Ramp, x: float, share: float, duration: float, wor
     s = 1.0 / (GAMMA * h)
     moving = is_moving(ramp)
     last = L.W_STAGES + (L.N_STAGES - 1) * L.NY
+    now, film = work[np.uintp(L.W_NOW + L.Y_FILM)], np.uintp(L.W_TRIAL + L.Y_FILM)
+    bend = work[L.W_BEND] = film_bend(par, ramp[0] + (ramp[3] - ramp[0]) * x, now)
     if moving:  # the drift of the rates is differenced; it goes where the last stage will be
         _rates(par, ramp, x + NUDGE * share, work, L.W_NOW, L.DRIFTED)
         copy(work[L.W_RATE :], work[last : last + n])
@@ -177,11 +218,14 @@ def substep(par: Array, ramp: Ramp, x: float, share: float, duration: float, wor
     for k in range(L.N_STAGES):
         if k > 0:
             for i in range(n):
-                value = work[np.uintp(L.W_NOW + i)]
+                value = work[np.uintp(L.W_NOW + i)] if i != L.Y_FILM else 0.0
                 for j in range(k):
                     value += A[k, j] * work[np.uintp(L.W_STAGES + j * L.NY + i)]
                 work[np.uintp(L.W_TRIAL + i)] = value
+            q = work[film]
+            work[film] = now + unbent(q, bend)
             _rates(par, ramp, x + ALPHA[k] * share, work, L.W_TRIAL, k)
+            work[film] = q
         stage = L.W_STAGES + k * L.NY
         for i in range(n):
             value = work[np.uintp(L.W_RATE + i)]
@@ -193,18 +237,26 @@ def substep(par: Array, ramp: Ramp, x: float, share: float, duration: float, wor
         solve_stage(par, s, work, stage)
     for i in range(n):
         work[np.uintp(L.W_TRIAL + i)] += work[np.uintp(last + i)]
-    return _error(par, work, last)
+    work[film] = now + unbent(work[film], bend)
+    return _error(par, work, last, duration)
 
 
 @kernel
-def _error(par: Array, work: Array, last: int) -> float:
-    """Return the error of a substep, its last stage, in units of the tolerance."""
-    film = work[np.uintp(last + L.Y_FILM)] / (
-        TOLERANCE_FILM * (1.0 + abs(work[np.uintp(L.W_TRIAL + L.Y_FILM)]))
-    )
+def _error(par: Array, work: Array, last: int, duration: float) -> float:
+    """Return the error of a substep, its last stage, in units of the tolerance.
+
+    An error of the film counts less where it moves: it is then a matter of when it is where.
+    """
+    ratio = work[np.uintp(L.W_TRIAL + L.Y_FILM)]
+    w = 1.0 + work[L.W_BEND] * (ratio - work[np.uintp(L.W_NOW + L.Y_FILM)])
+    steep = 1.0 / (w * w * w)
+    begins = abs(work[np.uintp(L.W_KEPT + L.R_RATE)])
+    ends = abs(work[np.uintp(L.W_KEPT + (L.N_STAGES - 1) * L.N_RATES + L.R_RATE)])
+    allowed = TOLERANCE_FILM * (1.0 + abs(ratio)) * steep + LATE * duration * min(begins, ends)
+    film = work[np.uintp(last + L.Y_FILM)] / allowed
     n, is_lumped = 1 + int(par[L.D_MODES]), par[L.D_FIRST] == 0.0
     tolerance = TOLERANCE_RISE if is_lumped and n > 1 else TOLERANCE_HEAT
-    error = abs(film)
+    error = max(abs(film), abs(work[np.uintp(last + L.Y_ENERGY)]) * par[L.D_GAIN] / TOLERANCE_HEAT)
     for k in range(int(par[L.D_RINGS])):
         heat = 0.0
         for i in range(n):
@@ -237,4 +289,9 @@ def attempt(
     factor = 6.0 if error < 1e-5 else min(6.0, max(0.1, 0.9 / math.sqrt(math.sqrt(error))))
     if error <= 1.0 or share <= least:
         return True, factor, OK
-    return False, min(factor, 0.9), OK
+    rate = abs(work[np.uintp(L.W_KEPT + L.R_RATE)])
+    near = FAR * (1.0 + abs(work[np.uintp(L.W_NOW + L.Y_FILM)]))
+    factor = min(factor, 0.9)
+    if near < factor * share * duration * rate:
+        factor = near / (share * duration * rate)
+    return False, factor, OK

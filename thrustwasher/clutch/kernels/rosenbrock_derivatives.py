@@ -12,8 +12,8 @@ from ...numerics.arrays import clear, copy
 from ...numerics.jit import Array, kernel
 from . import layout as L
 from . import rosenbrock
-from .rates import kept_of, n_unknowns, pack_rates, ring_of, surfaces
-from .rosenbrock import Ramp, cooled_by_film, factorise, is_moving, solve_stage
+from .rates import film_bend, kept_of, n_unknowns, pack_rates, ring_of, surfaces
+from .rosenbrock import Ramp, cooled_by_film, factorise, is_moving, solve_stage, unbent
 
 Change = tuple[float, float, float, float]
 APART = 1e-5  # relative distance of the neighbouring states
@@ -62,6 +62,7 @@ def _change_slopes(par: Array, ramp: Ramp, change: Change, x: float, work: Array
     drum = ramp[6] + (ramp[7] - ramp[6]) * x
     load_change, slip_change, drum_change = change[0] * x, change[1] * x, change[3] * x
     clear(work[L.W_BENT : L.W_VARIED])
+    work[L.W_BEND_CHANGE] = bend_change = 0.0
     u, film = work[np.uintp(L.W_NOW + L.Y_FILM)], work[np.uintp(L.W_VARIED + L.Y_FILM)]
     surfaces(par, work, L.W_VARIED, L.W_SURFACE_CHANGE)
     size = max(
@@ -90,9 +91,13 @@ def _change_slopes(par: Array, ramp: Ramp, change: Change, x: float, work: Array
             work,
             L.W_NEIGHBOUR,
         )
-        half = 0.5 / e
+        half, bend = 0.5 / e, film_bend(par, load, u + e * film)
+        bend_change += half * bend
+        rate = 3.0 * bend * work[np.uintp(L.W_NEIGHBOUR + L.R_RATE)]
+        work[np.uintp(L.W_NEIGHBOUR + L.R_RATE_U)] -= rate
         for i in range(L.R_RINGS + int(par[L.D_RINGS]) * L.N_OF_RING):
             work[np.uintp(L.W_BENT + i)] += half * work[np.uintp(L.W_NEIGHBOUR + i)]
+    work[L.W_BEND_CHANGE] = bend_change
 
 
 @kernel
@@ -135,6 +140,9 @@ def _drift(
     rate = _changed_rates(par, work, place, film, change, at)
     copy(work[L.W_POWER_CHANGE :], work[L.W_SURFACE : L.W_SURFACE + int(par[L.D_RINGS])])
     rate_0 = _changed_rates(par, work, 0, film, change, x)
+    kept = L.W_KEPT + place * L.N_RATES + L.R_RATE
+    faster = work[np.uintp(kept)] - work[np.uintp(L.W_KEPT + L.R_RATE)]
+    rate += 3.0 * work[L.W_BEND] * faster * film
     per = 1.0 / (rosenbrock.NUDGE * h)
     work[np.uintp(L.W_VARIED_DRIFT + L.Y_FILM)] = (rate - rate_0) * per
     work[np.uintp(L.W_VARIED_DRIFT + L.Y_ENERGY)] = 0.0
@@ -151,6 +159,14 @@ def _drift(
 
 
 @kernel
+def _change_of_film(work: Array, gone: float, change: float) -> float:
+    """Return the change of the film ratio after it has ``gone`` so far; ``change``: of q."""
+    w = 1.0 + work[L.W_BEND] * gone
+    turned = 0.5 * gone * gone * (2.0 + w) * work[L.W_BEND_CHANGE]
+    return work[np.uintp(L.W_VARIED + L.Y_FILM)] + w * w * w * change + turned
+
+
+@kernel
 def _stage(par: Array, change: Change, x: float, at: float, h: float, k: int, work: Array) -> None:
     """Fill the right side of the change of stage ``k``; W_BENT: changes of the slopes."""
     base, own = L.W_VARIED_STAGES + k * L.NY, L.W_STAGES + k * L.NY
@@ -161,8 +177,15 @@ def _stage(par: Array, change: Change, x: float, at: float, h: float, k: int, wo
             value += rosenbrock.A[k, j] * work[np.uintp(L.W_VARIED_STAGES + j * L.NY + i)]
         work[np.uintp(L.W_RATE + i)] = value
     surfaces(par, work, L.W_RATE, L.W_SURFACE_CHANGE)
-    now = work[np.uintp(L.W_RATE + L.Y_FILM)]
+    first, q = work[np.uintp(L.W_VARIED + L.Y_FILM)], 0.0
+    for j in range(k):
+        q += rosenbrock.A[k, j] * work[np.uintp(L.W_STAGES + j * L.NY + L.Y_FILM)]
+    gone = unbent(q, work[L.W_BEND])
+    w = 1.0 + work[L.W_BEND] * gone
+    now = _change_of_film(work, gone, work[np.uintp(L.W_RATE + L.Y_FILM)] - first) / (w * w * w)
     rate = _changed_rates(par, work, k, now, change, at)
+    turned = gone * work[L.W_BEND_CHANGE] - work[L.W_BEND] * first
+    rate -= 3.0 * work[np.uintp(L.W_KEPT + k * L.N_RATES + L.R_RATE)] / w * turned
     film = work[np.uintp(own + L.Y_FILM)]
     surfaces(par, work, own, L.W_SURFACE)
     bent = work[np.uintp(L.W_BENT + L.R_RATE_U)] * film
@@ -215,6 +238,7 @@ def follow(
         _change_slopes(par, ramp, change, x, work)
     else:
         clear(work[L.W_BENT : L.W_VARIED])
+        work[L.W_BEND_CHANGE] = 0.0
     _drift(par, change, x, share, h, L.DRIFTED if is_moving(ramp) else 0, work)
     factorise(par, s, work)
     for k in range(L.N_STAGES):
@@ -226,5 +250,8 @@ def follow(
         value = work[np.uintp(L.W_VARIED_STAGES + last * L.NY + i)]
         for j in range(last):
             value += rosenbrock.A[last, j] * work[np.uintp(L.W_VARIED_STAGES + j * L.NY + i)]
+        if i == L.Y_FILM:
+            gone = work[np.uintp(L.W_TRIAL + i)] - work[np.uintp(L.W_NOW + i)]
+            value = _change_of_film(work, gone, value) - work[np.uintp(L.W_VARIED + i)]
         work[np.uintp(L.W_VARIED + i)] += value
     work[np.uintp(L.W_VARIED + L.Y_FILM)] += jump

@@ -48,3 +48,17 @@ def pumped_flow(
         * square
         / (12.0 * viscosity * math.log(outer / inner))
     )
+
+
+def parting_time(force: float, drag: float, clear: float, start: float, end: float) -> float:
+    """Return the time [s] in which a spring parts two smooth faces from ``start`` to ``end`` [m].
+
+    The spring's force falls from ``force`` [N] to 0 at the clearance ``clear`` [m]; the film draws
+    oil in against drag v/h^3, v the speed [m/s] and ``drag`` [N m2 s]. The integral of
+    drag/(force h^3 (1 - h/c)) is drag/force (-1/(2 h^2) - 1/(c h) + ln(h/(c - h))/c^2).
+    """
+
+    def gone(h: float) -> float:
+        return -0.5 / h**2 - 1.0 / (clear * h) + math.log(h / (clear - h)) / clear**2
+
+    return drag / force * (gone(end) - gone(start))

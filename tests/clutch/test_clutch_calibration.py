@@ -1,6 +1,7 @@
 """The friction law fitted: its constants come back, and what points leave open is named."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -23,7 +24,7 @@ LOAD = np.where(np.arange(40) % 2, 1e3, 3e3)
 EXACT = friction_over(law_values(TRUE_PACK), SLIP * RADIUS)
 SCATTER = 1e-3
 HOT = 373.15  # K
-BOUNDARY = ClutchParams(friction_law="wang", friction_data="boundary")
+BOUNDARY = replace(PACK, friction_data="boundary", friction_temperature_slope=0.0)
 
 
 def noisy(seed, exact=EXACT):
@@ -45,6 +46,7 @@ def told(found):
 def test_the_law_over_arrays_is_that_of_the_kernels(changes):
     pack = ClutchParams(friction_law="wang", **changes)
     speeds = [0.0, 3.0, 15.0, 16.0, 100.0, 5000.0]
+    pack = replace(pack, friction_temperature_slope=0.0)
     wanted = [solve_clutch(pack, load=1e3, speed=w).friction_coefficient for w in speeds]
     found = friction_over(law_values(pack), np.array(speeds) * RADIUS)
     assert found == pytest.approx(wanted, rel=1e-14)
@@ -146,7 +148,7 @@ def test_a_bound_is_named_with_what_would_free_it():
 
 def test_constants_not_told_stay_near_those_given():
     slow = np.linspace(0.1, 1.1, 20) / RADIUS
-    exact = solve_clutch(PACK, load=1e3, speed=5.0).friction_coefficient
+    exact = friction_over(law_values(PACK), np.array([5.0 * RADIUS]))[0]
     found = fitted(np.full(20, exact), speed=slow, fit=("plough_weight", "hardness_ratio"))
     assert found.params.hardness_ratio == pytest.approx(PACK.hardness_ratio, abs=1e-6)
     assert found.params.plough_weight == pytest.approx(PACK.plough_weight, abs=1e-6)
@@ -184,7 +186,7 @@ def test_the_band_is_narrow_at_the_points_and_endless_where_none_are():
 
 def test_the_fitted_pack_can_be_solved_and_the_result_is_json():
     found = fitted(noisy(1), load=LOAD)
-    mu = solve_clutch(found.params, load=1e3, speed=SLIP[9]).friction_coefficient
+    mu = friction_over(law_values(found.params), SLIP[9:10] * RADIUS)[0]
     assert noisy(1)[9] - mu == pytest.approx(found.residuals[9], abs=1e-12)
     few = fitted(EXACT[::15], speed=SLIP[::15])
     plain = json.loads(json.dumps(few.as_dict(), allow_nan=False))
@@ -193,7 +195,23 @@ def test_the_fitted_pack_can_be_solved_and_the_result_is_json():
         friction_law="wang", shear_temperature_slope=1e-3, reference_temperature=350.0
     )
     assert "measured at reference_temperature (350 K)" in str(fitted(noisy(8), warm))
-    assert "Temperature" not in str(found)
+    assert "Temperature" not in str(fitted(pack=replace(PACK, friction_temperature_slope=0.0)))
+
+
+def test_the_change_of_friction_with_temperature_is_fitted_to_points_at_several():
+    oil = np.linspace(243.15, 403.15, 40)
+    pack = replace(TRUE_PACK, friction_temperature_slope=-2e-3)
+    friction = [
+        solve_clutch(pack, load=1e3, speed=0.0, oil_temperature=t).friction_coefficient for t in oil
+    ]
+    fit = ("friction_temperature_slope", "shear_floor", "stick_speed", "decay_speed")
+    exact = np.array(friction) * EXACT / EXACT[0]  # the slowest point is below stick_speed
+    found = fitted(exact, TRUE_PACK, oil_temperature=oil, fit=fit)
+    wanted = {n: getattr(pack, n) for n in fit}
+    assert {n: getattr(found.params, n) for n in fit} == pytest.approx(wanted, rel=1e-6)
+    assert "-0.2 % per kelvin" in str(found)
+    one = fitted(EXACT, TRUE_PACK, oil_temperature=353.15, fit=fit[:2])
+    assert "one temperature" in one["friction_temperature_slope"].reason
 
 
 @pytest.mark.parametrize(
@@ -231,6 +249,7 @@ def test_hopeless_questions_get_an_honest_answer(slip, mu, fit, width):
         ({"fit": ("plough_wight",)}, "did you mean plough_weight"),
         ({"fit": ("constant_friction",)}, "friction_law 'wang'"),
         ({"pack": BOUNDARY}, "oil_temperature is missing, required with"),
+        ({"fit": ("friction_temperature_slope",)}, "oil_temperature is missing, required with"),
         ({"pack": BOUNDARY, "oil_temperature": 260.0}, "twice the shear of the settled film"),
     ],
 )

@@ -103,6 +103,20 @@ class ClutchParams:
     friction_scale: float = quantity(
         1.0, "1", 0.1, 2.0, "factor on the coefficient of the law of friction", tunable=True
     )
+    friction_temperature_slope: float = quantity(
+        -1e-3,
+        "1/K",
+        -3e-3,
+        3e-3,
+        "relative change of friction per kelvin, of any law, within -20 .. 150 degC",
+    )
+    reference_temperature: float = quantity(
+        353.15,
+        "K",
+        233.15,
+        523.15,
+        "interface temperature the law of friction holds at",
+    )
     constant_friction: float = quantity(
         0.12,
         "1",
@@ -164,14 +178,6 @@ class ClutchParams:
         "relative change of s/s_m per kelvin (0: none, as published)",
         read_by=OF_WANG,
     )
-    reference_temperature: float = quantity(
-        313.15,
-        "K",
-        233.15,
-        523.15,
-        "interface temperature the speed law of s/s_m holds at",
-        read_by=OF_WANG,
-    )
     roughness: float = quantity(8.41e-6, "m", 1e-8, 1e-4, "combined RMS roughness of lining, steel")
     contact_modulus: float = quantity(2.7e7, "Pa", 1e5, 1e11, "contact modulus of the lining")
     asperity_density: float = quantity(7e7, "1/m2", 1e5, 1e12, "lining's asperities per area")
@@ -198,6 +204,15 @@ class ClutchParams:
     groove_width: float = quantity(2e-3, "m", 1e-5, 0.1, "width of a groove at its foot")
     groove_depth: float = quantity(4e-4, "m", 1e-5, 0.01, "depth of the grooves")
     initial_film: float = quantity(1.5e-4, "m", 1e-6, 1e-2, "film thickness of the open pack")
+    separating_force: float = quantity(
+        100.0,
+        "N",
+        0.0,
+        1e5,
+        "force that parts two closed plates (springs, waviness), 0 at initial_film; counts in a "
+        "pack that is not pressed",
+        read_by=WITH_FILM,
+    )
     starts_pressed: bool = flag(
         False, "film is settled at the start (False: pack starts open)", of_a_run=True
     )

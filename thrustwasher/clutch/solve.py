@@ -32,7 +32,6 @@ LININGS = {  # law of friction -> lining that it stands for, Pa on the land that
     "table": ("an organic lining", 3e6),
     "wang": ("a lining of sintered bronze", 6e6),
 }
-LEAST_PRESSURE = 2e4  # Pa, an estimate: lightest pressure that friction over slip is measured at
 __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
 
 
@@ -296,12 +295,12 @@ def _light(params: ClutchParams, load: float, fidelity: str) -> list[str]:
     """Return a line if friction of a pressed pack stands for one that is hardly pressed."""
     pressure = load * params.faces / params.lining_area
     held = params.friction_data == "total" and fidelity in ("field", "fine")
-    if not held or not k.OPEN_PRESSURE <= pressure < LEAST_PRESSURE:
+    if not held or not k.OPEN_PRESSURE <= pressure < k.LIGHT_PRESSURE:
         return []
     return [
         f"load = {load:g} N is {pressure:.3g} Pa on the faces: friction of settled packs is "
-        f"measured above some {LEAST_PRESSURE:g} Pa; shear of the oil beside it is left out, with "
-        "friction_data = 'boundary' it counts"
+        f"measured above some {k.LIGHT_PRESSURE:g} Pa; shear of the oil beside it is left out, "
+        "with friction_data = 'boundary' it counts"
     ]
 
 

@@ -11,7 +11,8 @@ from thrustwasher.errors import Status
 from thrustwasher.model.parameters import as_numbers
 from thrustwasher.native.load import bound
 
-PACK = ClutchParams(friction_law="constant")  # its capacity is proportional to the load
+# Its capacity is proportional to the load.
+PACK = ClutchParams(friction_law="constant", friction_temperature_slope=0.0)
 USUAL = (1e3, 5e5)  # N: loads that a case is brought into
 
 

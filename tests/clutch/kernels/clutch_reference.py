@@ -41,6 +41,31 @@ def table_friction(p, speed):
     return float(np.interp(speed, at, [getattr(p, f"table_friction_{k}") for k in range(6)]))
 
 
+def warmed(p, temperature):
+    """Friction over that at the reference temperature."""
+    within = min(max(temperature, 253.15), 423.15)
+    return 1.0 + p.friction_temperature_slope * (within - p.reference_temperature)
+
+
+def lift(p, u, eta, speed):
+    """Pressure [Pa] by which what the grooves pile up before the lands parts the faces."""
+    if not p.groove_count:
+        return 0.0
+    a = math.pi * (p.outer_radius + p.inner_radius) / p.groove_count - p.groove_width
+    b, h, d = p.outer_radius - p.inner_radius, max(u, 0.0) * p.roughness, p.groove_depth
+    step = 6.0 * eta * speed * d * a / ((h + d) ** 3 * a / p.groove_width + h**3)
+    share = sum(math.tanh(min(j * math.pi * a / (2.0 * b), 30.0)) / j**3 for j in range(1, 999, 2))
+    share *= 8.0 * b / (math.pi**3 * a)
+    share *= p.groove_count * a * b / math.pi / (p.outer_radius**2 - p.inner_radius**2)
+    return share * max(0.0, step / 2.0 - 1e5)
+
+
+def torn(suction):
+    """How much faster the faces part than oil that bears any suction lets them."""
+    q = min(suction / 1e5, 0.97)
+    return 1.0 if q <= 2.0 / 3.0 else 1.0 / (13.5 * q * (1.0 - q) ** 2)
+
+
 def thinned(p, eta, speed, temperature):
     """Share of the shear stress that oil heated by its own shear keeps; Gavis & Laurence 1968."""
     d = 1e-3
@@ -107,14 +132,18 @@ class Reference:
         flow = (1.0 - 0.9 * math.exp(-0.56 * u)) * (u * sigma) ** 3
         flow += 12.0 * p.permeability * p.lining_thickness
         ease = 2.0 / (3.0 * math.pi * eta * self.group * self.grooves * ndtr(u))
-        rate = -ease * flow * (load - carried) / sigma
-        if load < 1e3 * self.area:
-            rate = (p.initial_film / sigma - u) / 0.05
-        share = min(1.0, carried / max(load, 1e3 * self.area))
+        speed, pressed = abs(slip) * self.radius, load >= 1e3 * self.area
+        closes = load - carried
+        if not pressed:
+            parted = p.separating_force + lift(p, u, eta, speed) * self.area
+            closes = -carried - parted * (1.0 - u * sigma / p.initial_film)
+        rate = -ease * flow * closes / sigma * torn(-closes / self.area)
+        least = load if pressed else 2e4 * self.area - 19.0 * load
+        share = min(1.0, carried / least)
+        normal = min(carried, load + 1e5 * self.area)
         touching = min(1.0, math.pi**2 * self.count**2 * height_integral(2.0, u))
-        speed = abs(slip) * self.radius
         mu = friction(p, speed) if p.friction_law == "wang" else table_friction(p, speed)
-        contact = p.faces * mu * share * load * self.radius
+        contact = p.faces * mu * warmed(p, temperature) * normal * self.radius
         open_for = p.land_share / gap * (1.0 - touching)
         open_for += (1.0 - p.land_share) / (gap + p.groove_depth)
         shear = p.faces * eta * abs(slip) * math.pi / 2.0 * self.fourth * open_for

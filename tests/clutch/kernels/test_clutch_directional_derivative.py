@@ -20,6 +20,8 @@ OPTIONS = {
     "friction_law": list(FRICTION_LAWS),
     "kink_width": [0.0, 0.3],
     "shear_temperature_slope": [0.0, -1e-3, 3e-3],
+    "friction_temperature_slope": [0.0, -1e-3, 2e-3],
+    "separating_force": [0.0, 100.0],
     "starts_pressed": [False, True],
     "film_dynamics": [True, True, True, False],
     "shear_heating": [False, True],
@@ -132,6 +134,32 @@ def test_a_moving_film_is_followed_over_the_stretch_it_has_just_passed(rung, n):
         unit.step(point)
         if unit.work[L.W_SUBSTEPS] == 1.0:
             assert disagreement(unit, point, scale).max() < 1e-6
+            compared += 1
+    assert compared > n // 4
+
+
+def released(unit, rng):
+    """Press a pack and let it go; return a point on the way and scales of change."""
+    load, oil = 10.0 ** rng.uniform(3.0, 4.0), rng.uniform(245.0, 400.0)
+    slip, n = rng.uniform(5.0, 300.0), int(rng.integers(2, 40))
+    for i in range(n + 1):
+        point = np.array([max(load * (1.0 - i / 8.0), 2.0), slip, oil, 90.0 + i])
+        if i < n:
+            unit.step(point, dt=1e-3)
+    return point, [0.1 * point[0], 0.1 * slip, 10.0, 50.0]
+
+
+@pytest.mark.parametrize(("rung", "n"), [("field", 60), ("fine", 20)])
+def test_the_film_of_a_pack_let_go_is_followed_the_same_way(rung, n):
+    rng = np.random.default_rng(8)
+    compared = 0
+    for _ in range(n):
+        fixed = {"input_course": "linear", "film_dynamics": True, "starts_pressed": True}
+        unit = random_pack(rng, [rung], **fixed)
+        point, scale = released(unit, rng)
+        unit.step(point)
+        if unit.work[L.W_SUBSTEPS] == 1.0:
+            assert disagreement(unit, point, scale).max() < 2e-6
             compared += 1
     assert compared > n // 4
 

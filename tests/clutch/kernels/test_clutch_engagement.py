@@ -148,15 +148,6 @@ def test_oil_shear_is_the_published_one_down_to_touching_mean_planes_and_fades_s
     assert sheared_share(cdf[-6.0], -6.0)[0] == pytest.approx(12.0 * cdf[-6.0] ** 2, rel=1e-6)
 
 
-def test_a_pack_opens_with_its_time_constant():
-    pack = Pack(starts_pressed=True)
-    pack.step(6000.0, 0.0, 1e-6)
-    pressed = pack.out[k.O_FILM]
-    pack.step(0.0, 0.0, 0.05)
-    assert pack.out[k.O_FILM] == pytest.approx(8.8e-5 + (pressed - 8.8e-5) / math.e, rel=1e-5)
-    assert pack.out[k.O_CAPACITY] == 0.0
-
-
 POINTS = st.tuples(
     st.sampled_from([0.0, 5.0, 9.8, 9.9, 5898.0, 1e6]) | st.floats(0.0, 2e4),
     st.sampled_from([0.0, 1e-9, -350.0, 5000.0, -5000.0]) | st.floats(-500.0, 500.0),

@@ -7,7 +7,9 @@ of them: at most two of these four can be fitted at once. Load does not act at a
 
 ``friction_data`` of the pack says what the law describes. "total": the points as they are.
 "boundary": the points less the shear of the settled film, at their ``oil_temperature``. A table
-gives way to the law, ``friction_scale`` to 1: the law is that of the points.
+gives way to the law, ``friction_scale`` to 1: the law is that of the points. Where their
+``oil_temperature`` is given, friction changes with it by ``friction_temperature_slope``, which can
+be fitted too.
 """
 
 from collections.abc import Mapping
@@ -86,11 +88,18 @@ class LawCalibration(Calibration):
         if self.params.friction_data == "total":
             lines = ["Points and law: total friction of a settled pack, shear of its oil included."]
         lines.append(f"Load: {self.load_test.text}.")
-        if self.params.shear_temperature_slope != 0.0:
-            warm = self.params.reference_temperature
+        warm, slope = self.params.reference_temperature, self.params.friction_temperature_slope
+        if np.all(self._problem.warmer == 0.0):
+            acts = self.params.shear_temperature_slope != 0.0 or slope != 0.0
+            if acts:
+                lines.append(
+                    f"Temperature: the points count as measured at reference_temperature "
+                    f"({warm:g} K); friction changes away from it."
+                )
+        else:
             lines.append(
-                f"Temperature: the points count as measured at reference_temperature ({warm:g} K); "
-                "shear_temperature_slope acts away from it."
+                f"Temperature: friction changes by {100 * slope:.2g} % per kelvin of a point's "
+                f"oil_temperature; the law is that of reference_temperature ({warm:g} K)."
             )
         return lines
 
@@ -120,7 +129,7 @@ class FrictionFit(FrictionProblem):
             bends = np.diff(self.measured[np.argsort(self.speed, kind="stable")], 2)
             scatter[:] = float(np.sqrt(np.mean(bends**2) / 6.0)) if len(bends) else 0.0
         grave, hidden = [rising(self)], ""
-        if not self.is_constant:
+        if not self.is_constant and law.WARMTH not in self.names:
             grave = [out_of_reach(self, scatter, side) for side in (1, -1)] + grave
             hidden = hidden_fall(self, best, first)
         far, poor = self.misses(best, judged, scatter)

@@ -16,6 +16,7 @@ from ...calibration.measured import Measured
 from ...calibration.model_fit import ModelProblem
 from ...errors import ParameterError
 from ...numerics.jit import Array
+from ..kernels.layout import TEMPERATE
 from ..kernels.pack_friction import ploughing, settled_slope, viscous_slopes
 from ..parameters import ClutchParams
 from ..solve import prepare
@@ -23,6 +24,7 @@ from ..solve import prepare
 SHAPE = ("plough_weight", "shear_floor", "stick_speed", "decay_speed")
 WANG_CONSTANTS = (*SHAPE, "hardness_ratio", "indentation")
 CONSTANT_LAW = ("constant_friction",)
+WARMTH = "friction_temperature_slope"  # of either law; needs points at several temperatures
 LARGEST_FRICTION = 2.0
 SPEEDS, LINEAR = ("stick_speed", "decay_speed"), ("plough_weight", "shear_floor")
 N_STICK, N_DECAY, N_OTHER = 10, 7, 3  # values of each constant that the coarse search tries
@@ -36,7 +38,7 @@ STEEPEST = 1.0 - 1e-9  # the derivative over the indentation is infinite at 1
 
 def law_values(params: ClutchParams) -> dict[str, float]:
     """Return every number the law depends on, by the name of its parameter."""
-    names = (*WANG_CONSTANTS, *CONSTANT_LAW, "kink_width", "adhesion_factor")
+    names = (*WANG_CONSTANTS, *CONSTANT_LAW, WARMTH, "kink_width", "adhesion_factor")
     return {name: float(getattr(params, name)) for name in names}
 
 
@@ -92,8 +94,8 @@ def friction_slopes(values: Mapping[str, float], speed: Array, names: Sequence[s
 
     At the sharp corner the derivative over stick_speed is that from below it.
     """
-    if tuple(names) == CONSTANT_LAW:
-        return np.ones((len(speed), 1))
+    if set(names) <= {*CONSTANT_LAW, WARMTH}:
+        return np.column_stack([np.full(speed.shape, float(n != WARMTH)) for n in names])
     x, floor, hardness = (values[n] for n in ("indentation", "shear_floor", "hardness_ratio"))
     plough, adhesion = shares(values)
     decay, by_stick, by_decay = _decay(values, speed)
@@ -110,6 +112,7 @@ def friction_slopes(values: Mapping[str, float], speed: Array, names: Sequence[s
         "hardness_ratio": -adhesion * shear / hardness,
         "indentation": values["plough_weight"] * plough_by_x
         + adhesion * shear * x / (root * (1.0 + root)),
+        WARMTH: 0.0,  # the law is that of the reference temperature
     }
     return np.column_stack([np.broadcast_to(slopes[name], speed.shape) for name in names])
 
@@ -149,9 +152,15 @@ class FrictionProblem(ModelProblem):
             raise ParameterError("friction: allowed: without other outputs, all points of one pack")
         params = points.plan.params[0]
         law_of = "wang" if params.friction_law == "table" else params.friction_law
-        acting = CONSTANT_LAW if law_of == "constant" else WANG_CONSTANTS
+        own, usual = (CONSTANT_LAW,) * 2 if law_of == "constant" else (WANG_CONSTANTS, SHAPE)
+        acting, warm = (*own, WARMTH), "oil_temperature" in given
         words = f"under friction_law {law_of!r}, which does not depend on load: {', '.join(acting)}"
-        names = chosen_names(acting[: len(SHAPE)] if fit is None else fit, acting, words)
+        names = chosen_names(usual if fit is None else fit, acting, words)
+        if WARMTH in names and not warm:
+            raise ParameterError(
+                f"oil_temperature is missing, required with {WARMTH}: the temperature each point "
+                "was measured at"
+            )
         load, mu, mean = points.input("load"), points.value, points.value.mean()
         most, shear = LARGEST_FRICTION, np.zeros(len(mu))
         _refuse(points, "load", load, load == 0.0, "above 0 N")
@@ -162,7 +171,7 @@ class FrictionProblem(ModelProblem):
             )
         params = replace(params, friction_law=law_of, friction_scale=1.0)
         if params.friction_data == "boundary":
-            if "oil_temperature" not in given:
+            if not warm:
                 raise ParameterError(
                     "oil_temperature is missing, required with friction_data = 'boundary': shear "
                     "of the oil is taken off the measured friction"
@@ -174,7 +183,10 @@ class FrictionProblem(ModelProblem):
                 "leave the point out, or take friction_data = 'total'"
             )
             _refuse(points, "friction", mu, shear > 0.5 * mu, cure)
-        plan = replace(points.plan, params=(params,))
+        plan = replace(points.plan, params=(params,), inputs=points.plan.inputs.copy())
+        if not warm:  # then they count as measured where the law holds
+            place = [s.name for s in plan.spec.inputs].index("oil_temperature")
+            plan.inputs[:, place] = params.reference_temperature
         return replace(points, plan=plan, value=mu - shear), names
 
     @classmethod
@@ -183,6 +195,8 @@ class FrictionProblem(ModelProblem):
         if name in SPEEDS:
             slip = np.abs(points.input("speed")) * points.plan.params[0].friction_radius
             return float(slip.max()) or 1.0
+        if name == WARMTH:
+            return 1e-3
         return float(points.value.mean()) if name in CONSTANT_LAW else 1.0
 
     @classmethod
@@ -206,17 +220,34 @@ class FrictionProblem(ModelProblem):
         """Load of the points [N]; the law does not know it."""
         return self.points.input("load")
 
+    @cached_property
+    def warmer(self) -> Array:
+        """Temperature of the points over the law's [K], as far as friction changes with it."""
+        warm = np.clip(self.points.input("oil_temperature"), *TEMPERATE)
+        return np.asarray(warm - self.points.plan.params[0].reference_temperature)
+
     def curve(self, guess: Array) -> Array:
-        """Return the coefficients [-] at the measured slip speeds."""
-        return self.curve_over(self.values(guess), self.speed)
+        """Return the coefficients [-] at the measured slip speeds and temperatures."""
+        return self.at_points(self.values(guess))
+
+    def at_points(self, values: Mapping[str, float]) -> Array:
+        """Return the coefficients [-] of a law at the measured points."""
+        warm = 1.0 + values[WARMTH] * self.warmer
+        return np.asarray(self.curve_over(values, self.speed) * warm)
 
     def curve_over(self, values: Mapping[str, float], speed: Array) -> Array:
-        """Return the coefficients [-] of a law at slip speeds [m/s]."""
+        """Return the coefficients [-] of a law at slip speeds [m/s], at its temperature."""
         return friction_over(values, speed, self.is_constant)
 
     def slopes_of_curve(self, guess: Array) -> Array:
         """Return the derivatives of the curve, (points, constants)."""
-        return friction_slopes(self.values(guess), self.speed, self.names)
+        values = self.values(guess)
+        slopes = friction_slopes(values, self.speed, self.names)
+        slopes = slopes * (1.0 + values[WARMTH] * self.warmer)[:, None]
+        if WARMTH in self.names:
+            own = self.curve_over(values, self.speed) * self.warmer
+            slopes[:, self.names.index(WARMTH)] = own
+        return slopes
 
     def starts(self, first: Array) -> list[Array]:
         """Return the best points of a coarse search; the two weights follow by linear fits."""
@@ -247,6 +278,8 @@ class FrictionProblem(ModelProblem):
         values: Any = [first, *np.geomspace(max(low, 2.0), high, N_OTHER)]
         if name in LINEAR:
             return [0.5]
+        if name == WARMTH:
+            return [first]
         if name == "stick_speed":  # between neighbouring speeds the sum of squares is smooth
             middles = 0.5 * (speeds[1:] + speeds[:-1])
             ranks = np.linspace(0.0, 1.0, N_STICK)
@@ -269,6 +302,9 @@ class FrictionProblem(ModelProblem):
     def why_not(self, best: Array, i: int) -> tuple[str, bool]:
         """Return what the points' speeds leave out."""
         name, fastest, slowest = self.names[i], self.speed.max(), self.speed.min()
+        if name == WARMTH:
+            told = float(np.ptp(self.warmer)) > 0.0
+            return ("" if told else "all points have one temperature"), False
         stick = self.values(best)["stick_speed"]
         if name in ("shear_floor", *SPEEDS) and fastest <= stick:
             return (

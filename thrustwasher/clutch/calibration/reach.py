@@ -59,13 +59,13 @@ def out_of_reach(problem: FrictionProblem, scatter: Array, side: int) -> str:
     ``scatter`` is the standard deviation of ``friction``, (points,).
     """
     measured = problem.measured
-    edge = friction_over(_corner(problem, side), problem.speed)
+    edge = problem.at_points(_corner(problem, side))
     beyond = side * (measured - edge) > np.maximum(SCATTERS * scatter, MATERIAL * measured.mean())
     if not beyond.any():
         return ""
 
     def reached(values: Mapping[str, float]) -> bool:
-        gap = side * (measured - friction_over(values, problem.speed))
+        gap = side * (measured - problem.at_points(values))
         return bool(np.all(gap <= 1e-12))
 
     count, total = int(np.count_nonzero(beyond)), len(beyond)
@@ -103,7 +103,7 @@ def _corner(problem: FrictionProblem, side: int) -> dict[str, float]:
     """Return the law's numbers for its most (1) or least (-1) friction within the ranges."""
     ends = zip(problem.names, problem.low.tolist(), problem.high.tolist(), strict=True)
     base: dict[str, float] = dict(problem.base)
-    return base | {n: high if GROWS[n] * side > 0 else low for n, low, high in ends}
+    return base | {n: high if GROWS[n] * side > 0 else low for n, low, high in ends if n in GROWS}
 
 
 def _fall_left(values: Mapping[str, float], speed: float) -> float:

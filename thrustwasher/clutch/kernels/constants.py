@@ -15,6 +15,7 @@ from . import layout as L
 from .pack_friction import ploughing
 
 SUMMED = 31.0 / 32.0 * 1.0369277551433699  # of 1/j^5 over odd j
+SUMMED_CUBES = 7.0 / 8.0 * 1.2020569031595943  # of 1/j^3 over odd j
 N_ODD = 13  # tanh(j pi/2) is 1 to rounding beyond
 NUSSELT = 4.86  # Nusselt number of laminar flow in a slot, one wall heated
 
@@ -60,6 +61,32 @@ def derive_film(par: Array) -> None:
     par[L.D_SUPPLY] = par[L.P_OIL_FLOW] / par[L.P_FACES]
     par[L.D_OPEN_RATIO] = par[L.P_INITIAL_FILM] / sigma
     par[L.D_GROOVE_RATIO] = par[L.P_GROOVE_DEPTH] / sigma
+    par[L.D_PARTING] = par[L.P_SEPARATING_FORCE] / par[L.D_AREA]
+    derive_lift(par)
+
+
+@kernel
+def derive_lift(par: Array) -> None:
+    """Fill what slip piles up before the lands, and the share of it that parts the faces.
+
+    The pressure on a pad a (along the slip) by b that is 1 at one end and 0 around is on average
+    8 b/(pi^3 a) sum over odd j of tanh(j pi a/(2 b))/j^3. Derived in docs/theory/clutch/release.md.
+    """
+    ri, ro, n = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS], par[L.P_GROOVE_COUNT]
+    par[L.D_LIFT] = par[L.D_LIFT_SHARE] = par[L.D_PAD_RATIO] = 0.0
+    if n == 0.0:
+        return
+    sigma, width = par[L.P_ROUGHNESS], par[L.P_GROOVE_WIDTH]
+    along, across = math.pi * (ro + ri) / n - width, ro - ri
+    total = SUMMED_CUBES
+    for i in range(N_ODD):
+        j = 2.0 * i + 1.0
+        total -= 2.0 / (math.exp(min(j * math.pi * along / across, 700.0)) + 1.0) / (j * j * j)
+    mean = 8.0 * across / (math.pi * math.pi * math.pi * along) * total
+    par[L.D_LIFT_SHARE] = mean * n * along * across / par[L.D_AREA]
+    par[L.D_PAD_RATIO] = width / along
+    step = par[L.P_GROOVE_DEPTH] * width / (sigma * sigma * sigma)
+    par[L.D_LIFT] = 3.0 * par[L.D_RADIUS] * step
 
 
 @kernel

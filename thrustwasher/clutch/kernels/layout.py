@@ -11,6 +11,8 @@ from ...tribology.holding.memory import N_MEMORY
     P_FRICTION_LAW,
     P_FRICTION_DATA,
     P_FRICTION_SCALE,
+    P_FRICTION_TEMPERATURE_SLOPE,
+    P_REFERENCE_TEMPERATURE,
     P_CONSTANT_FRICTION,
     P_TABLE_FRICTION_0,
     P_TABLE_SPEED_1,
@@ -32,7 +34,6 @@ from ...tribology.holding.memory import N_MEMORY
     P_DECAY_SPEED,
     P_KINK_WIDTH,
     P_SHEAR_TEMPERATURE_SLOPE,
-    P_REFERENCE_TEMPERATURE,
     P_ROUGHNESS,
     P_CONTACT_MODULUS,
     P_ASPERITY_DENSITY,
@@ -44,6 +45,7 @@ from ...tribology.holding.memory import N_MEMORY
     P_GROOVE_WIDTH,
     P_GROOVE_DEPTH,
     P_INITIAL_FILM,
+    P_SEPARATING_FORCE,
     P_STARTS_PRESSED,
     P_FILM_DYNAMICS,
     P_SHEAR_HEATING,
@@ -68,7 +70,7 @@ from ...tribology.holding.memory import N_MEMORY
     P_PROBING,
     P_FIDELITY,
     N_PARAM,
-) = range(64)
+) = range(66)
 
 N_MODES = 8  # of heat conduction across half a steel plate
 
@@ -90,9 +92,13 @@ N_MODES = 8  # of heat conduction across half a steel plate
     D_SUPPLY,
     D_OPEN_RATIO,
     D_GROOVE_RATIO,
+    D_PARTING,
+    D_LIFT,
+    D_LIFT_SHARE,
+    D_PAD_RATIO,
     D_MODES,
-) = range(N_PARAM, N_PARAM + 17)
-D_DECAY = N_PARAM + 17  # decay rate [1/s] of each mode, from the second place on
+) = range(N_PARAM, N_PARAM + 21)
+D_DECAY = N_PARAM + 21  # decay rate [1/s] of each mode, from the second place on
 D_GAIN = D_DECAY + 1 + N_MODES  # their rise [K/s] per W into a face
 N_PACK = D_GAIN + 1 + N_MODES
 # Behind them the rings the pack is resolved into: their number, the place of the first one's
@@ -143,11 +149,11 @@ W_DURATION = W_SUBSTEPS + 3  # the step [s] that all this belongs to
 # Slope of the film ratio over the load where it settles with it; how well a face is cooled
 # [W/(m2 K)].
 W_SETTLED_LOAD, W_COOLING = W_SUBSTEPS + 4, W_SUBSTEPS + 5
-# Rates and their slopes at a point: film rate, its slopes over film ratio and load; then for each
-# ring the power of a face [W], its slopes over film ratio, temperature, load of the pack, slip and
-# drum speed, the slope of the film rate over the ring's temperature, the cooling of a face [W/K],
-# its slopes over film ratio and load, the plate's mean temperature above the oil's [K].
-R_RATE, R_RATE_U, R_RATE_F, R_RINGS = range(4)
+# Rates and their slopes at a point: film rate, its slopes over film ratio, load and slip; then for
+# each ring the power of a face [W], its slopes over film ratio, temperature, load of the pack, slip
+# and drum speed, the slope of the film rate over the ring's temperature, the cooling of a face
+# [W/K], its slopes over film ratio and load, the plate's mean temperature above the oil's [K].
+R_RATE, R_RATE_U, R_RATE_F, R_RATE_S, R_RINGS = range(5)
 (
     R_POWER,
     R_POWER_U,
@@ -222,4 +228,6 @@ LINEAR_COURSE = 2  # input_course
 HOT_LIMIT = 523.0  # K
 LEAST_RATIO = -3.0  # film ratio below which rough faces are pressed out of the models' reach
 OPEN_PRESSURE = 1e3  # Pa; a pack pressed less than this is open
-OPENING_TIME = 0.05  # s
+LIGHT_PRESSURE = 2e4  # Pa, an estimate: lightest that friction over slip is measured at
+AMBIENT = 1e5  # Pa; oil is drawn apart, and torn, by no more
+TEMPERATE = (253.15, 423.15)  # K; beyond, friction stays as it is at the nearer one

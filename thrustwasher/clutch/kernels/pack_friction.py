@@ -65,16 +65,29 @@ def tabled(par: Array, speed: float) -> tuple[float, float]:
 
 @kernel
 def coefficient_slopes(par: Array, slip: float, temperature: float) -> tuple[float, float, float]:
-    """Return the coefficient of boundary friction [-], its slopes over temperature and |slip|."""
-    scale = par[L.P_FRICTION_SCALE]
+    """Return the coefficient of boundary friction [-], its slopes over temperature and |slip|.
+
+    Every law is that of ``reference_temperature``: ``friction_temperature_slope`` changes it in
+    proportion, within TEMPERATE.
+    """
+    scale, slope = par[L.P_FRICTION_SCALE], par[L.P_FRICTION_TEMPERATURE_SLOPE]
+    change = scale * slope
+    if slope != 0.0:
+        within = min(max(temperature, L.TEMPERATE[0]), L.TEMPERATE[1])
+        scale *= 1.0 + slope * (within - par[L.P_REFERENCE_TEMPERATURE])
+        if within != temperature:
+            change = 0.0
     if par[L.P_FIDELITY] == L.CLOSED or par[L.P_FRICTION_LAW] == L.CONSTANT_LAW:
-        return scale * par[L.P_CONSTANT_FRICTION], 0.0, 0.0
+        mu = par[L.P_CONSTANT_FRICTION]
+        return scale * mu, change * mu, 0.0
     if par[L.P_FRICTION_LAW] == L.TABLE_LAW:
         mu, steepness = tabled(par, abs(slip) * par[L.D_RADIUS])
-        return scale * mu, 0.0, scale * steepness * par[L.D_RADIUS]
-    ratio, slope, steepness = shear_slopes(par, slip, temperature)
+        return scale * mu, change * mu, scale * steepness * par[L.D_RADIUS]
+    ratio, warmer, steepness = shear_slopes(par, slip, temperature)
     adhesion = scale * par[L.D_ADHESION]
-    return scale * par[L.D_PLOUGH] + adhesion * ratio, adhesion * slope, adhesion * steepness
+    mu = scale * par[L.D_PLOUGH] + adhesion * ratio
+    by_t = adhesion * warmer + change * (par[L.D_PLOUGH] + par[L.D_ADHESION] * ratio)
+    return mu, by_t, adhesion * steepness
 
 
 @kernel
@@ -96,18 +109,21 @@ def load_share(par: Array, load: float, u: float) -> tuple[float, float, float, 
     """Return the share L [-] of the load that asperities carry at the film ratio ``u``; slopes.
 
     (L, dL/du, dL/dload, their pressure over the whole face [Pa], its slope over u). They never
-    carry more than the load, also where a film that still opens presses them harder. An open pack
-    counts as pressed with OPEN_PRESSURE.
+    carry more than the load. A pack pressed with less than OPEN_PRESSURE counts as pressed with
+    more, up to LIGHT_PRESSURE without load: so far the law of friction is that of the whole pack.
     """
     height, slope = contact_integral(u)
     scale = par[L.D_PRESSURE] * par[L.P_LAND_SHARE]
     pressure, rise = scale * height, scale * slope
     whole = load / par[L.D_AREA]
-    least = max(whole, L.OPEN_PRESSURE)
+    least, steep = whole, 1.0 / par[L.D_AREA]
+    if whole < L.OPEN_PRESSURE:
+        steep *= 1.0 - L.LIGHT_PRESSURE / L.OPEN_PRESSURE
+        least = L.LIGHT_PRESSURE + steep * load
     if pressure >= least * SETTLED:
         return 1.0, 0.0, 0.0, pressure, rise
     share = pressure / least
-    by_load = -share / load if whole > L.OPEN_PRESSURE else 0.0
+    by_load = -share / load if whole >= L.OPEN_PRESSURE else -share * steep / least
     return share, rise / least, by_load, pressure, rise
 
 
@@ -142,16 +158,20 @@ def pack_torques(
 
     The law of friction is that of a settled pack, shear of its oil included: shear beside it counts
     for the load that asperities do not carry. All of it counts where the law is that of the
-    asperities alone.
+    asperities alone. Where the faces part, the film's suction presses asperities too.
     """
     carried = load_share(par, load, u)
-    share, share_u, share_f, _, _ = carried
+    share, share_u, share_f, pressure, rise = carried
     mu, mu_t, mu_s = coefficient_slopes(par, slip, temperature)
-    lever = par[L.P_FACES] * par[L.D_RADIUS]
-    normal, grows = lever * share * load, 0.0
-    if load < L.OPEN_PRESSURE * par[L.D_AREA] or share >= 1.0:
-        grows = lever * share
-    contact = (normal * mu, lever * mu * share_u * load, normal * mu_t, normal * mu_s, mu * grows)
+    lever, whole = par[L.P_FACES] * par[L.D_RADIUS], load / par[L.D_AREA]
+    normal, normal_u, grows = lever * share * load, lever * share_u * load, 0.0
+    if pressure > whole * (2.0 - SETTLED) or whole < L.OPEN_PRESSURE:
+        normal, normal_u = lever * pressure * par[L.D_AREA], lever * rise * par[L.D_AREA]
+        if pressure > whole + L.AMBIENT:
+            normal, normal_u, grows = lever * (load + L.AMBIENT * par[L.D_AREA]), 0.0, lever
+    elif share >= 1.0:
+        grows = lever
+    contact = (normal * mu, mu * normal_u, normal * mu_t, normal * mu_s, mu * grows)
     full, by_u, by_t, by_s, by_d, eta, eta_t, area, area_u = viscous_slopes(
         par, slip, drum, u, temperature
     )

@@ -17,6 +17,7 @@ from . import layout as L
 from .pack_friction import coefficient_slopes, cooling_slope, pack_torques
 
 LEAST_CDF = 1e-3
+MOST_TORN = 0.97  # of one atmosphere, mean suction
 
 
 @kernel
@@ -46,17 +47,76 @@ def n_unknowns(par: Array) -> int:
 
 
 @kernel
+def groove_lift(par: Array, u: float, eta: float, slip: float) -> tuple[float, float, float, float]:
+    """Return the mean pressure [Pa] by which grooves part the faces; slopes over u, eta, |slip|.
+
+    Slip piles oil up before a land and draws it away behind: +- P/2 about that of the rims, and so
+    nothing on average, until the oil behind is torn: it bears one atmosphere only. Derived in
+    docs/theory/clutch/release.md.
+    """
+    thick = max(u, 0.0)
+    deep = thick + par[L.D_GROOVE_RATIO]
+    resists = deep * deep * deep + par[L.D_PAD_RATIO] * thick * thick * thick
+    piled = par[L.D_LIFT] * eta * abs(slip) / resists
+    if piled <= L.AMBIENT:
+        return 0.0, 0.0, 0.0, 0.0
+    share = par[L.D_LIFT_SHARE]
+    steep = 0.0
+    if u > 0.0:
+        steep = -3.0 * (deep * deep + par[L.D_PAD_RATIO] * u * u) / resists * piled
+    return (
+        share * (piled - L.AMBIENT),
+        share * steep,
+        share * piled / eta,
+        share * piled / abs(slip),
+    )
+
+
+@kernel
+def torn(suction: float) -> tuple[float, float]:
+    """Return how much faster [-] faces part than untorn oil lets them, and its slope [1/Pa].
+
+    ``suction``: mean of the film's [Pa > 0]. A narrow pad's parabola reaches one atmosphere at a
+    mean of 2/3 of it; from there on a cavity grows from its middle: 1/(9 (1 - q)^2) over 3 q/2, q
+    the mean suction in atmospheres. Held from q = MOST_TORN on: nothing but mass resists there.
+    Derived in docs/theory/clutch/release.md.
+    """
+    q = suction / L.AMBIENT
+    if q <= 2.0 / 3.0:
+        return 1.0, 0.0
+    if q >= MOST_TORN:
+        return 1.0 / (13.5 * MOST_TORN * (1.0 - MOST_TORN) * (1.0 - MOST_TORN)), 0.0
+    factor = 1.0 / (13.5 * q * (1.0 - q) * (1.0 - q))
+    return factor, factor * (2.0 / (1.0 - q) - 1.0 / q) / L.AMBIENT
+
+
+@kernel
 def film_rate(
-    par: Array, pressure: float, u: float, carried: float, carried_slope: float, eta: float
-) -> tuple[float, float, float]:
-    """Return du/dt [1/s] of the film ratio; slopes over u and pressure.
+    par: Array,
+    pressure: float,
+    u: float,
+    carried: float,
+    carried_slope: float,
+    eta: float,
+    slip: float,
+) -> tuple[float, float, float, float, float]:
+    """Return du/dt [1/s] of the film ratio; slopes over u, pressure, eta and |slip|.
 
     The film carries what the asperities do not: d h_T/dt = cdf(u) dh/dt is what flows out between
-    the rough faces and through the lining (Darcy). An open pack returns to its clearance. Where
-    the faces overlap by more than 3 sigma the cdf is held: the film there follows in no time.
+    the rough faces and through the lining (Darcy). Where the faces overlap by more than 3 sigma the
+    cdf is held: the film there follows in no time. Where asperities press more than the load, the
+    film draws in oil the same way, by suction. A pack that is not pressed is parted by its
+    asperities, by springs and by its grooves until it has its clearance.
     """
-    if pressure < L.OPEN_PRESSURE:
-        return (par[L.D_OPEN_RATIO] - u) / L.OPENING_TIME, -1.0 / L.OPENING_TIME, 0.0
+    squeezed, squeezed_u, by_eta, by_slip = pressure - carried, -carried_slope, 0.0, 0.0
+    opens = pressure < L.OPEN_PRESSURE
+    if opens:
+        lift, lift_u, by_eta, by_slip = groove_lift(par, u, eta, slip)
+        lift += par[L.D_PARTING]
+        left = 1.0 - u / par[L.D_OPEN_RATIO]
+        squeezed = -carried - lift * left
+        squeezed_u = -carried_slope - lift_u * left + lift / par[L.D_OPEN_RATIO]
+        by_eta, by_slip = -by_eta * left, -by_slip * left
     flow, flow_slope = gap_flow(u)
     cdf = 0.5 * math.erfc(-max(u, -30.0) * INV_SQRT2)
     cdf_slope = INV_SQRT2PI * math.exp(-0.5 * min(u * u, 1400.0))
@@ -64,10 +124,17 @@ def film_rate(
         cdf, cdf_slope = LEAST_CDF, 0.0
     ease = par[L.D_CLOSING] / (eta * cdf)
     open_for = flow + par[L.D_SEEPAGE]
-    squeezed = pressure - carried
+    gives = open_for
+    if squeezed < 0.0:
+        factor, steep = torn(-squeezed)
+        gives *= factor - steep * squeezed
+        open_for *= factor
+        flow_slope *= factor
     rate = -ease * open_for * squeezed
-    slope = -ease * (flow_slope * squeezed - open_for * carried_slope) - rate * cdf_slope / cdf
-    return rate, slope, -ease * open_for
+    slope = -ease * (flow_slope * squeezed + gives * squeezed_u) - rate * cdf_slope / cdf
+    by_squeezed = -ease * gives
+    by_eta = by_squeezed * by_eta - rate / eta
+    return rate, slope, 0.0 if opens else by_squeezed, by_eta, by_squeezed * by_slip
 
 
 @kernel
@@ -91,7 +158,7 @@ def film_bend(par: Array, load: float, u: float) -> float:
 def pack_slopes(
     par: Array, load: float, slip: float, drum: float, u: float, temperature: float
 ) -> tuple[
-    tuple[float, float, float],
+    tuple[float, float, float, float, float],
     tuple[float, float, float, float, float, float],
     tuple[float, float, float],
     float,
@@ -99,11 +166,14 @@ def pack_slopes(
 ]:
     """Return the rates of a pack of one temperature, and how they change.
 
-    (du/dt, its slopes over u and load), (power of a face [W], its slopes over u, T, load, |slip|
-    and drum), (cooling of a face [W/K], its slopes over u and load), viscosity and its slope.
+    (du/dt, its slopes over u, load, eta and |slip|), (power of a face [W], its slopes over u, T,
+    load, |slip| and drum), (cooling of a face [W/K], its slopes over u and load), viscosity and its
+    slope.
     """
     contact, viscous, carried, oil = pack_torques(par, load, slip, drum, u, temperature)
-    rate, rate_u, rate_p = film_rate(par, load / par[L.D_AREA], u, carried[3], carried[4], oil[0])
+    rate, rate_u, rate_p, by_eta, by_slip = film_rate(
+        par, load / par[L.D_AREA], u, carried[3], carried[4], oil[0], slip
+    )
     faces, width = par[L.P_FACES], par[L.P_SPEED_SMOOTHING]
     speed = abs(slip) / faces
     smooth = math.tanh(abs(slip) / width)
@@ -120,7 +190,7 @@ def pack_slopes(
     cooling, over = cooling_slope(par, carried[0])
     cooling, over = cooling * par[L.D_AREA], over * par[L.D_AREA]
     return (
-        (rate, rate_u, rate_p / par[L.D_AREA]),
+        (rate, rate_u, rate_p / par[L.D_AREA], by_eta, by_slip),
         power,
         (cooling, over * carried[1], over * carried[2]),
         oil[0],
@@ -194,7 +264,7 @@ def pack_rates(
 
     ``u``: film ratio; the rings' temperatures are those in W_SURFACE.
     """
-    rate, rate_u, rate_f, mean, first = 0.0, 0.0, 0.0, 0.0, 1.0
+    rate, rate_u, rate_f, rate_s, own, mean, first = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0
     at, rings = to + L.R_RINGS, int(par[L.D_RINGS])
     moves = moves_film(par)
     for k in range(rings):
@@ -211,15 +281,18 @@ def pack_rates(
         mean += weight * eta
         if k == 0:
             first, rate, rate_u, rate_f = eta, film[0], film[1], film[2] * share
+            own, rate_s = (film[3] + rate / eta) * eta_t, film[4] * sign_of(slip)
     if moves:
-        opens = load < L.OPEN_PRESSURE * par[L.D_AREA]
-        thick = 1.0 if opens else first / mean
-        rate, rate_u, rate_f = rate * thick, rate_u * thick, rate_f * thick
+        thick = first / mean
+        rate, rate_u, rate_f, rate_s = rate * thick, rate_u * thick, rate_f * thick, rate_s * thick
         for k in range(rings):
             place = np.uintp(at + k * L.N_OF_RING + L.R_RATE_T)
-            work[place] = 0.0 if opens else -rate * work[place] / mean
+            work[place] = -rate * work[place] / mean
+        if load < L.OPEN_PRESSURE * par[L.D_AREA]:
+            work[np.uintp(at + L.R_RATE_T)] += own * thick
     work[np.uintp(to + L.R_RATE)] = rate
     work[np.uintp(to + L.R_RATE_U)], work[np.uintp(to + L.R_RATE_F)] = rate_u, rate_f
+    work[np.uintp(to + L.R_RATE_S)] = rate_s
     if work[L.W_GIVEN] != 0.0:
         _give_power(par, slip, work, at)
 

@@ -40,6 +40,7 @@ def _changed_rates(
         power += own[L.R_POWER_S] * change[1] * at
         power += own[L.R_POWER_D] * change[3] * at
         work[np.uintp(L.W_POWER_CHANGE + k)] = power
+    rate += work[np.uintp(kept + L.R_RATE_S)] * change[1] * at
     return rate + work[np.uintp(kept + L.R_RATE_F)] * change[0] * at
 
 

@@ -16,7 +16,7 @@ def at(speed):
 
 
 def braked(steps):
-    """Bring a shaft from 5 rad/s to rest; return the mesh, (speed, torque, heat, energy) by step."""
+    """Bring a shaft to rest; return the mesh, (speed, torque, heat, energy) of each step."""
     mesh, speed, rows = Part("gearmesh", "field"), 5.0, []
     mesh.par[[L.P_HOLDING, L.P_COUPLING_INERTIA, L.P_COUPLING_AGE]] = M.GIVEN, INERTIA, 0.0
     for _ in range(steps):

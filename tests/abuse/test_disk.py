@@ -99,6 +99,7 @@ def test_a_sweep_whose_table_does_not_fit_is_not_solved_again(out, monkeypatch):
     assert table.read_bytes() == whole
 
 
+@pytest.mark.slow  # a sweep shows it in short
 def test_a_map_whose_lines_fill_the_disk_goes_on_later(out, tmp_path, monkeypatch):
     from thrustwasher.washer.kernels.map import map_layout as L
     from thrustwasher.washer.map.look_up import WasherMap

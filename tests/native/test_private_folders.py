@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from thrustwasher.native import files
-from thrustwasher.native.trust import doubt_of
+from thrustwasher.native.ownership import doubt_of
 from thrustwasher.numerics import jit
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="modes of folders are POSIX")

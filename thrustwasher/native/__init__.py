@@ -14,7 +14,7 @@
 ``link``       C files and objects to a shared library; which platform this machine is
 ``files``      files written at once, in folders that are the user's alone
 ``drafts``     files and folders on their way: locked, flushed, those of dead processes removed
-``trust``      who could change a folder
+``ownership``  who could change a folder
 ``library``    the library of this machine that Python loads
 ``load``       a kernel function of that library as a Python function
 =============  ==========================================================================

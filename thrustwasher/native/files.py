@@ -25,7 +25,7 @@ from pathlib import Path
 
 from ..errors import EnvironmentProblem, naming
 from .drafts import draft_in, flush
-from .trust import doubt_of
+from .ownership import doubt_of
 
 Note = Callable[[str], None]
 VARIABLE = "XDG_CACHE_HOME"

@@ -82,7 +82,7 @@ class ShiftResult(Tabled):
     @property
     def steps(self) -> int:
         """The number of communication steps."""
-        return round((self.time[-1] - self.time[0]) / self.step)
+        return round(float(self.time[-1] - self.time[0]) / self.step)
 
     @property
     def figures(self) -> dict[str, float | None]:

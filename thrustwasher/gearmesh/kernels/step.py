@@ -92,13 +92,16 @@ def step(
         given, _, _ = hold_drag(
             coupling_of(par), mem, speed, dt, work[L.F_TORQUE], capacity_of(work)
         )
+        less = (given - work[L.F_TORQUE]) * speed  # of heat than sliding would make
         out[L.F_TORQUE], out[L.F_POWER] = given, given * speed
+        out[L.F_OIL_HEAT] += less
+        out[L.F_OIL_ENERGY] += less * dt
         if chatters(mem):
             status = CHATTER
     if dt > 0.0 and status < 10:
         state[L.S_STARTED] = 1.0
         state[L.S_BULK], state[L.S_STORED] = work[L.F_BULK], work[L.F_STORED]
-        state[L.S_OIL_ENERGY] = work[L.F_OIL_ENERGY]
+        state[L.S_OIL_ENERGY] = out[L.F_OIL_ENERGY]
     iout[L.IO_STATUS] = status
     return status if status >= 10 else 0
 
@@ -122,8 +125,10 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
     if knows(coupling_of(par), mem, mem[M.STEP]) and speed != mem[M.SLIP]:
         given, holds, slope = hold_drag(coupling_of(par), mem, speed, 0.0, own, capacity_of(work))
         if holds:
+            less = dout[L.F_POWER]
             dout[L.F_TORQUE] = slope * seed[L.I_SPEED]
             dout[L.F_POWER] = dout[L.F_TORQUE] * speed + given * seed[L.I_SPEED]
+            dout[L.F_OIL_HEAT] += dout[L.F_POWER] - less
     return OK if are_finite(dout) else NOT_FINITE
 
 

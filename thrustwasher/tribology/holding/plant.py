@@ -29,6 +29,7 @@ ENOUGH, MANY = 2.5, 20.0  # weight of the samples to judge by; from which on les
 CONTRAST, CONTRAST_OF_MANY = 0.25, 0.5  # squares left at the best age over those at the next one
 EXPLAINED = 0.5  # squares left at the best age over all
 FAINT = 1e-6  # of the largest slip: a step that moves it by less is not that of a plant
+ROUNDING = 1e-12  # of the largest slip: a host that takes it from two speeds rounds it by less
 UNSURE = 0.03  # relative standard deviation of the inertia
 SEEN = 4.0  # steps that a sample is made of
 STRANGE = 0.2  # of what the capacity does to the slip: more that is not explained is a new plant
@@ -114,6 +115,8 @@ def identify(mem: Array, slip: float) -> None:
     if not most > EXCITED * unit:
         return
     scale = min(1.0, LEVER * unit / most)
+    if abs(y) * mem[M.STEP] < ROUNDING * mem[M.MOST_SLIP]:  # rounding answers no torque
+        y = 0.0
     y *= scale
     for d in range(N_AGES):
         x = -scale * _second_difference(mem, M.TORQUE + d)

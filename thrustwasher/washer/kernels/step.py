@@ -19,7 +19,7 @@ from .ladder import set_held, start_terms, stored_heat
 from .layout import N_PARAM, NINP, NIOUT, NOUT
 from .map.map_layout import DATA, MAGIC, PARAMS, ROOM, SIZE
 from .map.map_step import N_MAP_WORK, NOT_HERE, map_sens, map_step
-from .outputs import outputs_at
+from .outputs import MOST_MARGIN, outputs_at, stick_margin
 from .parameter_derivative import SHARES, add_share_slope
 from .regime_and_status import BOUNDARY, broken_rule, change_of, is_bad, judge, point_of
 from .solve import is_distressed, keep_solution, solve
@@ -135,14 +135,37 @@ def step(
     speed, torque = inp[L.I_SPEED], out[L.O_TORQUE]
     given, _, _ = hold_drag(coupling_of(par), mem, speed, dt, torque, abs(torque))
     if given != torque:
-        if torque != 0.0:
-            out[L.O_COEFFICIENT] *= abs(given / torque)
-        out[L.O_TORQUE], out[L.O_POWER] = given, given * speed
+        _hold_outputs(workspace_of(par, work), work[BY_MAP] == 1.0, given, speed, out)
+        out[L.O_ENERGY] += (given - torque) * speed * dt
+        out[L.O_OIL_ENERGY] = out[L.O_ENERGY] - out[L.O_STORED_HEAT]
+        if dt > 0.0:
+            _keep_book(out, state)
     if chatters(mem):
         iout[L.IO_STATUS] = CHATTER
         if par[L.P_THERMAL_MODE] == L.TRANSIENT and dt > 0.0:
             out[L.O_ADVISED] = min(out[L.O_ADVISED], LESS * dt)
     return status
+
+
+@kernel
+def _hold_outputs(w: Workspace, by_map: bool, given: float, speed: float, out: Array) -> None:
+    """Let what hangs on the friction torque [N m] belong to the one that is given.
+
+    What a torque below that of sliding makes less of heat reaches the oil less; gap 2 holds what it
+    holds.
+    """
+    torque = out[L.O_TORQUE]
+    if torque != 0.0:
+        share = abs(given / torque)
+        out[L.O_COEFFICIENT] *= share
+        if out[L.O_STICK_MARGIN] < MOST_MARGIN * share:
+            out[L.O_STICK_MARGIN] /= share
+        else:
+            out[L.O_STICK_MARGIN] = MOST_MARGIN
+    elif not by_map:
+        out[L.O_STICK_MARGIN] = stick_margin(model_of(w), fields_of(w), given)
+    out[L.O_OIL_HEAT] += (given - torque) * speed
+    out[L.O_TORQUE], out[L.O_POWER] = given, given * speed
 
 
 @kernel
@@ -238,9 +261,29 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
         speed, change = inp[L.I_SPEED], seed[L.I_SPEED]
         given, holds, slope = hold_drag(coupling_of(par), mem, speed, 0.0, torque, abs(torque))
         if holds:
+            _hold_changes(workspace_of(par, work).outputs, given, slope * change, dout)
+            less = dout[L.O_POWER]
             dout[L.O_TORQUE] = slope * change
             dout[L.O_POWER] = slope * change * speed + given * change
+            dout[L.O_OIL_HEAT] += dout[L.O_POWER] - less
     return status
+
+
+@kernel
+def _hold_changes(own: Array, given: float, rise: float, dout: Array) -> None:
+    """Change what hangs on the torque, ``own`` and ``dout`` of sliding, to a torque that holds.
+
+    ``rise``: its change [N m].
+    """
+    if own[L.O_TORQUE] == 0.0 or given == 0.0:
+        return
+    share = abs(given / own[L.O_TORQUE])
+    more = rise / given - dout[L.O_TORQUE] / own[L.O_TORQUE]
+    dout[L.O_COEFFICIENT] = share * (dout[L.O_COEFFICIENT] + own[L.O_COEFFICIENT] * more)
+    margin, dmargin = own[L.O_STICK_MARGIN], dout[L.O_STICK_MARGIN]
+    dout[L.O_STICK_MARGIN] = 0.0
+    if margin < MOST_MARGIN * share:
+        dout[L.O_STICK_MARGIN] = (dmargin - margin * more) / share
 
 
 @kernel

@@ -1,0 +1,47 @@
+"""Teeth that hold their shaft: heat and slopes are those of the torque that they give."""
+
+import numpy as np
+import pytest
+from kernel_part import Part
+
+from thrustwasher.errors import Status
+from thrustwasher.gearmesh.kernels import layout as L
+from thrustwasher.tribology.holding import memory as M
+
+H, INERTIA, OUTSIDE = 1e-3, 1e-2, 0.3  # s, kg m2, N m
+
+
+def at(speed):
+    return 100.0, speed, 363.15
+
+
+def braked(steps):
+    """Bring a shaft to rest; return the mesh, (speed, torque, heat, energy) of each step."""
+    mesh, speed, rows = Part("gearmesh", "field"), 5.0, []
+    mesh.par[[L.P_HOLDING, L.P_COUPLING_INERTIA, L.P_COUPLING_AGE]] = M.GIVEN, INERTIA, 0.0
+    for _ in range(steps):
+        assert mesh.step(at(speed), H) == Status.OK
+        names = ("friction_torque", "oil_heat", "oil_energy")
+        rows.append((speed, *(mesh[n] for n in names)))
+        speed += H * (OUTSIDE - mesh["friction_torque"]) / INERTIA
+    return mesh, np.array(rows).T
+
+
+def test_energy_is_the_work_of_the_torque_that_acted():
+    _, (speed, torque, heat, energy) = braked(80)
+    assert torque[-1] == pytest.approx(OUTSIDE, rel=1e-6) and abs(speed[-1]) < 1e-12
+    np.testing.assert_allclose(heat, torque * speed, rtol=1e-9, atol=1e-14)
+    np.testing.assert_allclose(energy, np.cumsum(torque * speed * H), rtol=1e-9)
+
+
+def test_the_slope_of_the_heat_is_that_of_the_output():
+    mesh, _ = braked(80)
+    near, step, found = 1e-5, 1e-8, []
+    for v in (near - step, near + step, near):
+        mesh.step(at(v))
+        found.append(mesh["oil_heat"])
+    inp, seed, dout = np.zeros(mesh.k.NINP), np.zeros(mesh.k.NINP), np.zeros(mesh.k.NOUT)
+    inp[:3], seed[L.I_SPEED] = at(near), 1.0
+    assert mesh.k.sens(mesh.par, inp, mesh.state, mesh.work, seed, dout) == Status.OK
+    slope = dout[mesh.reals.index("oil_heat")]
+    assert slope == pytest.approx((found[1] - found[0]) / (2.0 * step), rel=1e-4)

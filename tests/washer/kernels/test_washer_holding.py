@@ -1,0 +1,77 @@
+"""A washer that holds its shaft: heat, margin and slopes are those of the torque that it gives."""
+
+import numpy as np
+import pytest
+from kernel_part import Part
+
+from thrustwasher.errors import Status
+from thrustwasher.tribology.holding import memory as M
+from thrustwasher.washer.kernels import layout as L
+
+H, INERTIA, OUTSIDE = 1e-3, 1e-3, 0.05  # s, kg m2, N m
+
+
+def holding():
+    """Return a washer that knows its shaft; a part by itself holds nothing."""
+    washer = Part("washer", "map")
+    washer.par[L.P_HOLDING : L.P_COUPLING_AGE + 1] = M.GIVEN, INERTIA, 0.0
+    return washer
+
+
+def at(speed):
+    return 300.0, speed, 2e-3, 363.15
+
+
+@pytest.fixture(scope="module")
+def braked():
+    """A shaft from 5 rad/s to rest: (speed, torque, energy, oil energy, margin) of each step."""
+    washer, speed, rows = holding(), 5.0, []
+    for _ in range(160):
+        assert washer.step(at(speed), H) == Status.OK
+        names = ("friction_torque", "energy", "oil_energy", "stick_margin", "oil_heat")
+        rows.append((speed, *(washer[n] for n in names)))
+        speed += H * (OUTSIDE - washer["friction_torque"]) / INERTIA
+    return np.array(rows).T
+
+
+def test_energy_is_the_work_of_the_torque_that_acted(braked):
+    speed, torque, energy, oil_energy, _, oil_heat = braked
+    assert torque[-1] == pytest.approx(OUTSIDE, rel=1e-6) and abs(speed[-1]) < 1e-12
+    work = np.cumsum(torque * speed * H)
+    np.testing.assert_allclose(energy, work, rtol=1e-12)
+    np.testing.assert_allclose(oil_energy, work, rtol=1e-12)
+    np.testing.assert_allclose(oil_heat, torque * speed, rtol=1e-12, atol=1e-15)
+
+
+def test_gap_2_holds_what_it_holds_however_small_the_torque():
+    """The margin is that of the torque which is given: the same hold over a smaller torque."""
+    held = holding()
+    speed = 5.0
+    while held.state[L.S_MEMORY + M.HELD] == 0.0:
+        assert held.step(at(speed), H) == Status.OK
+        last, speed = speed, speed + H * (OUTSIDE - held["friction_torque"]) / INERTIA
+    sliding = Part("washer", "map")
+    assert sliding.step(at(last), H) == Status.OK
+    small, large = abs(held["friction_torque"]), abs(sliding["friction_torque"])
+    assert small < 0.9 * large
+    assert held["stick_margin"] * small == pytest.approx(sliding["stick_margin"] * large, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["friction_torque", "stick_margin", "friction_coefficient"])
+def test_slopes_of_a_washer_that_holds_are_those_of_its_outputs(name):
+    washer, speed = holding(), 5.0
+    for _ in range(60):
+        washer.step(at(speed), H)
+        speed += H * (OUTSIDE - washer["friction_torque"]) / INERTIA
+    assert washer.state[L.S_MEMORY + M.HELD] > 0.0
+    near, step, found = 1e-5, 1e-8, []
+    for v in (near - step, near + step, near):
+        washer.step(at(v))
+        found.append(washer[name])
+    dout, seed = np.zeros(washer.k.NOUT), np.zeros(washer.k.NSEED)
+    seed[L.I_SPEED] = 1.0
+    inp = np.zeros(washer.k.NINP)
+    inp[:4] = at(near)
+    assert washer.k.sens(washer.par, inp, washer.state, washer.work, seed, dout) == Status.OK
+    slope = dout[washer.reals.index(name)]
+    assert slope == pytest.approx((found[1] - found[0]) / (2.0 * step), rel=1e-4)

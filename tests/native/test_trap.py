@@ -195,7 +195,7 @@ def test_the_trap_catches(host, tmp_path):
 @pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.fmi3)])
 @pytest.mark.parametrize("spec", all_specs(), ids=lambda spec: spec.key)
 def test_a_library_knows_no_lock_and_no_jump(spec, fmi):
-    """What it asks for, by name: nothing of threads, no longjmp, no other memory, no mathematics."""
+    """What it asks for, by name: nothing of threads, no longjmp, no mathematics."""
     if sys.platform != "linux":
         needed.missing("the library of this machine is no ELF file")
     (file,) = (library(spec, fmi)[0] / "binaries").rglob("*.so")

@@ -18,9 +18,13 @@ from typing import Any
 import numpy as np
 
 from thrustwasher import solve_losses
+from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.fmu.shell.c_sources import source_files
 from thrustwasher.losses.kernels.loss_laws import starved, thinned
 from thrustwasher.losses.parameters import LossesParams
+from thrustwasher.model.registry import all_specs
+from thrustwasher.native.files import zipped
 from thrustwasher.shift import load_scene, run_sequence, run_shift
 from thrustwasher.shift.scene.places import scene_scatter
 from thrustwasher.shift.scene.scene_file import known_bands
@@ -251,6 +255,24 @@ def shift(scene: str = "planetary", master: str | None = None, losses: bool = Tr
 def _jacobi() -> str:
     lock = shift(master="jacobi").figures["lock_time"]
     return f"`thrustwasher shift --master jacobi` locks at {lock:.9f} s in this version.\n"
+
+
+@made("c-sources", slow=True)
+def _c_sources() -> str:
+    rows = []
+    for spec in all_specs():
+        found = source_files(interface(spec), 2, lambda _: None)
+        room = re.search(r"MODULE_SIZE (\d+)u", found["module.h"].decode())
+        assert room
+        rows.append(
+            [
+                f"`{spec.name}`",
+                f"{len(found['module.c']) / 1e3:.0f} kB",
+                f"{len(zipped(found)) / 1e3:.0f} kB",
+                f"{int(room[1]) / 1e3:.1f} kB",
+            ]
+        )
+    return table(["FMU", "module.c", "sources, in the zip", "the kernels' stack, constants"], rows)
 
 
 @made("losses-shift")

@@ -37,6 +37,8 @@ _EXACT = {
     "m2/s": ("mm2/s",),
 }
 LEAST_PERCENT = 2.0  # 1.5 is rather a share that is too large than 1.5 %
+ULPS = 8  # units in the last place, of the end of a range that is larger: by these a value may ...
+SHARE = 1e-9  # ... leave the range, and at most by this share of it
 _PRETTY = {"um": "µm", "us": "µs", "degC": "°C"}
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 
@@ -101,6 +103,26 @@ def has_unit(value: Any) -> bool:
     """
     match = _NUMBER.fullmatch(value) if isinstance(value, str) else None
     return bool(match and match[2].strip())
+
+
+def into_range(low: float, high: float, value: float) -> float:
+    """Return a number; the end of the range in place of one that only rounding put outside.
+
+    -40 degC typed in a unit of one's own may come as 233.14999999999998 K. Other numbers, and
+    those that are not finite, come back as they are. C code of FMUs does the same.
+
+    Examples
+    --------
+    >>> into_range(233.15, 473.15, 233.14999999999998), into_range(233.15, 473.15, 233.149)
+    (233.15, 233.149)
+    """
+    if low <= value <= high or not math.isfinite(value):
+        return value
+    end = low if value < low else high
+    known = math.isfinite(high - low)
+    scale = max(abs(low), abs(high)) if known else abs(end)
+    room = ULPS * math.ulp(1.0) * scale
+    return end if abs(value - end) <= min(room, SHARE * (high - low)) else value
 
 
 def meant(value: float, unit: str, low: float, high: float, *, difference: bool = False) -> str:

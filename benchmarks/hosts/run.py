@@ -280,12 +280,23 @@ def version(bench: Bench, host: Host) -> str | None:
     return number[0] if number else ""
 
 
+def write_into(page: Path, rows: list[tuple[str, ...]]) -> None:
+    """Put the rows, without what hosts said, between the page's marks."""
+    lines = ["| host | version | FMI | what was run | result |", "|---|---|---|---|---|"]
+    lines += [f"| {' | '.join(row)} |" for row in rows]
+    text = "\n".join(lines)
+    block = re.compile(r"(?s)(<!-- hosts -->\n\n).*?(\n\n<!-- end -->)")
+    written = block.sub(lambda m: f"{m[1]}{text}{m[2]}", page.read_text("utf-8"))
+    page.write_text(written, "utf-8")
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path)
     parser.add_argument("--bin", type=Path, nargs="*", default=[])
     parser.add_argument("--only", nargs="*", choices=[host.name for host in HOSTS])
-    chosen = parser.parse_args()
+    parser.add_argument("--page", type=Path, help="write the table of what ran into this page")
+    chosen, rows = parser.parse_args(), []
     print("| host | version | FMI | what was run | result | messages |\n|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as scratch:
         bench = Bench(chosen.folder, chosen.bin, Path(scratch))
@@ -298,6 +309,9 @@ def main() -> None:
             for row in host.run(bench):
                 told = f"{row.fmi} | {row.ran} | {row.result} | {row.messages}"
                 print(f"| {host.name} | {number} | {told} |", flush=True)
+                rows.append((host.name, number, str(row.fmi), row.ran, row.result))
+    if chosen.page:
+        write_into(chosen.page, rows)
 
 
 if __name__ == "__main__":

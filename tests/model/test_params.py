@@ -6,8 +6,9 @@ from dataclasses import fields
 import pytest
 
 from thrustwasher import ParameterError, WasherParams
-from thrustwasher.model.parameters import as_numbers
+from thrustwasher.model.parameters import as_numbers, check_number
 from thrustwasher.model.registry import HELPERS, MODELS, find_spec, kernel_of
+from thrustwasher.units import UNITS
 from thrustwasher.washer.kernels import layout
 from thrustwasher.washer.parameters import BODIES, MATERIAL
 
@@ -33,7 +34,8 @@ def test_values_out_of_range_are_refused_by_name(spec, f):
     about, bad = f.metadata, [math.nan, "something", None]
     if about["kind"] in ("real", "integer"):
         low, high = about["min"], about["max"]
-        bad += [math.inf, -math.inf, low - 1e-6 - abs(low), high * 1.01 + 1e-9]
+        beyond = 1e-6 + 1e-8 * (high - low)  # more than rounding
+        bad += [math.inf, -math.inf, low - abs(low) - beyond, high * 1.01 + 1e-9]
         allowed = [f"{high:g}"] if about["kind"] == "real" else []
     else:
         allowed = [repr(name) for name in about.get("options", ())]
@@ -43,6 +45,27 @@ def test_values_out_of_range_are_refused_by_name(spec, f):
         message = str(caught.value)
         assert message.startswith(f"{f.name} = {value!r}") and "allowed" in message
         assert all(text in message for text in allowed)
+
+
+@each_model
+def test_every_end_of_a_range_typed_in_a_display_unit_is_taken(spec):
+    """Many of them come back a rounding error outside their range."""
+    ranges = [(s.name, s.unit, *s.range) for s in spec.inputs]
+    real = [f for f in fields(spec.params) if f.metadata["kind"] == "real"]
+    ranges += [(f.name, f.metadata["unit"], f.metadata["min"], f.metadata["max"]) for f in real]
+    for name, unit, low, high in ranges:
+        for size, zero in UNITS.get(unit, {}).values():
+            for end in (low, high):
+                for typed in ((end - zero) / size * size + zero, end * (1.0 + 4e-16)):
+                    taken = check_number(name, typed, unit, low, high)
+                    assert low <= taken <= high and taken == pytest.approx(end, rel=1e-14)
+
+
+def test_parameters_that_rounding_put_outside_are_the_ends_of_their_ranges():
+    low = WasherParams.__dataclass_fields__["oil_density"].metadata["min"]
+    assert WasherParams(oil_density=math.nextafter(low, 0.0)).oil_density == low
+    with pytest.raises(ParameterError, match="oil_density"):
+        WasherParams(oil_density=low * (1.0 - 1e-9))
 
 
 @each_model

@@ -11,8 +11,7 @@ from operator import attrgetter
 from typing import Any, TypeVar
 
 from ..errors import ParameterError
-from ..numerics.span import within
-from ..units import meant
+from ..units import into_range, meant
 from .spec import ModelSpec, Rule
 
 T = TypeVar("T")
@@ -194,7 +193,7 @@ def check_value(name: str, value: Any, m: Mapping[str, Any], *, stated: bool = F
     else:
         is_number = isinstance(value, int | float) and not isinstance(value, bool)
         if is_number and m["kind"] == "real":
-            value = within(m["min"], m["max"], value)
+            value = into_range(m["min"], m["max"], value)
         good = is_number and m["min"] <= value <= m["max"]  # False for NaN too
         if m["kind"] == "integer":
             good = good and value == int(value)
@@ -220,7 +219,7 @@ def check_number(
     try:
         if isinstance(value, bool | str):
             raise TypeError
-        number = within(low, high, float(value))
+        number = into_range(low, high, float(value))
     except (TypeError, ValueError):
         raise ParameterError(f"{name} = {value!r}, a number in {unit} is required") from None
     except OverflowError:

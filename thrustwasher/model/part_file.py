@@ -98,7 +98,7 @@ class PartFile:
     def model(self) -> ModelSpec:
         """The model as its FMU shows it: this part's name and values, inputs inside its box."""
         names = [s.name for s in self.spec.inputs]
-        starts = {s.name: self.inside(s.name, s.start or 0.0) for s in self.spec.inputs}
+        starts = {s.name: self.inside(s.name, s.in_fmus) for s in self.spec.inputs}
         course = tuple((t, *map(self.inside, names, row)) for t, *row in self.spec.course)
         return tailored(
             self.spec,

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, Status
-from ..numerics.span import within
+from ..units import into_range
 from .parameters import as_numbers, check_rules
 from .registry import MODELS, find_model
 from .rungs import rung_named
@@ -114,7 +114,7 @@ def course_of(
         )
     bad = ~((array >= low) & (array <= high))
     if bad.any():
-        ends = [within(low, high, value) for value in array.tolist()]
+        ends = [into_range(low, high, value) for value in array.tolist()]
         array = np.array(ends)  # a copy: what was given stays as it is
         bad = ~((array >= low) & (array <= high))
     if bad.any():

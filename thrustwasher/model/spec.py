@@ -32,7 +32,8 @@ class Signal:
     """One input or output.
 
     ``kind`` is "real", "boolean", "integer" or "enumeration" (then ``type`` names the enumeration,
-    e.g. "Regime", "SolverStatus"). ``start`` is for inputs only. ``depends`` lists the inputs that
+    e.g. "Regime", "SolverStatus"). ``start`` is for inputs only, and ``first``, where FMUs start at
+    another value, so that a first run shows a working point. ``depends`` lists the inputs that
     enter an output at once, at the same time point; an output that is an integral of the past
     has none. ``events``, of a Boolean output, says what happens when it becomes true, then false;
     ``instants`` names the outputs that tell when [s], where there are any.
@@ -49,6 +50,7 @@ class Signal:
     high: float | None = None
     nominal: float | None = None
     start: float | None = None
+    first: float | None = None
     depends: tuple[str, ...] = ()
     relative: bool = False  # a temperature difference, no absolute temperature
     optional: bool = False  # an input that may be left out: it is at its start then
@@ -58,6 +60,11 @@ class Signal:
     verified: tuple[float, ...] = ()
     late: bool = False  # an input that came later: its value reference follows all others
     at_zero: str = ""  # another input, whose value counts where this one is 0
+
+    @property
+    def in_fmus(self) -> float:
+        """The start value of an input in FMUs."""
+        return (self.start or 0.0) if self.first is None else self.first
 
     @property
     def usual(self) -> float:
@@ -202,6 +209,9 @@ def tailored(
         "kind": spec.kind or spec.name,
         "course": (),
         "default_fidelity": parameters.get("fidelity", spec.default_fidelity),
-        "inputs": tuple(replace(s, start=starts.get(s.name, s.start)) for s in spec.inputs),
+        "inputs": tuple(
+            replace(s, start=starts[s.name], first=None) if s.name in starts else s
+            for s in spec.inputs
+        ),
     }
     return replace(spec, **(own | more))

@@ -8,9 +8,8 @@ import numpy as np
 
 from ..errors import ParameterError, suggestion
 from ..model.scatter import Place
-from ..numerics.span import within
 from ..scatter.target import Figure
-from ..units import format_quantity, parse_quantity
+from ..units import format_quantity, into_range, parse_quantity
 from .designs import Array, Row
 
 MOST_GOALS = 2
@@ -188,7 +187,7 @@ def _variable(name: str, given: str | tuple[float, float], places: Mapping[str, 
     if len(ends) != 2:
         raise ParameterError(f"vary {name}={given}: allowed: low:high, e.g. {name}=1:2")
     low, high = (parse_quantity(x, place.unit, name, difference=place.relative) for x in ends)
-    low, high = (within(place.low, place.high, value) for value in (low, high))
+    low, high = (into_range(place.low, place.high, value) for value in (low, high))
     for text, value in zip(ends, (low, high), strict=True):
         if not place.low <= value <= place.high:
             raise ParameterError(f"vary {name}: {text}, allowed: {place.range_text}")

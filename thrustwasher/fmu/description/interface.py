@@ -190,7 +190,7 @@ def _entries(spec: ModelSpec) -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 def _input(signal: Signal) -> dict[str, Any]:
-    return _signal(signal, causality="input", initial=None, start=signal.start or 0.0)
+    return _signal(signal, causality="input", initial=None, start=signal.in_fmus)
 
 
 def _enumerations(spec: ModelSpec) -> dict[str, tuple[Item, ...]]:

@@ -15,7 +15,7 @@ from ...model.prepare import fill_table, wants_table
 from ...model.registry import kernel_of
 from ...model.rungs import gone_rung
 from ...native.load import bound
-from ...numerics.span import within
+from ...units import into_range
 from ..description.interface import Interface, Variable
 from ..model_kernels import content_digest
 from .snapshot import ARRAYS, Snapshot
@@ -97,7 +97,7 @@ class Core:
         taken = []
         found = [self._find(reference, kind) for reference in references]
         for v, given in zip(found, values, strict=True):
-            value = within(*v.bounds, given)
+            value = into_range(*v.bounds, given)
             problem = self._problem(v, value)
             if problem:
                 self.latch = Status.BAD_INPUT
@@ -381,7 +381,7 @@ class Core:
                 zip(self.shown.inputs, self._ranges[k], strict=True)
             ):
                 value, unit = self.inp.item(v.slot), f" {v.unit}".removesuffix(" 1")
-                beyond = not low <= within(low, high, value) <= high
+                beyond = not low <= into_range(low, high, value) <= high
                 unverified |= bool(k) and beyond
                 if beyond and not self._beyond[k][i]:
                     span = f"is outside {low:g} .. {high:g}{unit}, {words}"

@@ -7,7 +7,7 @@ import pytest
 
 from thrustwasher import GearMeshParams, solve_gearmesh, solve_losses
 from thrustwasher.gearmesh import law_ranges as mesh
-from thrustwasher.losses import law_ranges as losses
+from thrustwasher.losses import loss_ranges as losses
 from thrustwasher.losses.parameters import LossesParams
 from thrustwasher.model.advice import LawRange
 

@@ -23,7 +23,7 @@ from ..tribology.viscosity import viscosity
 from ..units import format_quantity
 from .kernels import loss_laws as laws
 from .kernels import step as k
-from .law_ranges import FAST, LEAST_DEPTH, LEAST_LEFT, MOST_DEPTH, RUBBING
+from .loss_ranges import FAST, LEAST_DEPTH, LEAST_LEFT, MOST_DEPTH, RUBBING
 from .parameters import SHAFTS, SPEC, LossesParams
 
 __all__ = ["LossesParams", "LossesResult", "solve_losses"]

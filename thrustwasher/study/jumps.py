@@ -60,7 +60,7 @@ def find_jumps(
         return known[x]
 
     close = CLOSE * (places[-1] - places[0])
-    found = []
+    found: list[Jump] = []
     for low, high in pairwise(places):
         found += _between(at, low, high, least, floors, close)
     values = sum(x is not None for x in known.values())

@@ -35,9 +35,13 @@ CAUSES = {
     NO_ROOT: "the rack leaves no root to rate: -1; with a root limit it is refused",
     QUADRATURE: "the sums over the path have other nodes: below 1e-3, their own error",
 }
-ELASTIC = ("spur, elastic", "spur, relieved", "helical, elastic", "helical, relieved")
-LOCAL = ("law mixed", "law li-seireg", "paper, every place")
-LEFT: dict[str, set[str]] = {}
+UNRATED = ("spur, contact ratio about 2", "paper", "paper, law iso", "paper, literal")
+LEFT = {  # pair: causes of the jumps that are left; no other pair has any
+    **{name: {NO_ROOT} for name in UNRATED},
+    "law mixed": {HOTTEST, QUADRATURE},
+    "law li-seireg": {HOTTEST, NO_ROOT},
+    "paper, every place": {HOTTEST, NO_ROOT},
+}
 OF_A_PLACE = frozenset({
     "temperature", "film_thickness", "surface_temperature", "thermal_stress", "film_temperature",
     "flash_rise", "film_ratio", "friction_coefficient", "scuffing_friction", "modification_factor",

@@ -27,7 +27,7 @@ ABOVE_OIL = [i for i, n in enumerate(NAMES) if n.endswith("temperature")]
 FLOORS = {"scuffing_margin": 1.0, "film_thickness": 1e-12, "flash_rise": 1e-3, "flash_max": 1e-3}
 LEAST = 2e-4  # of a number's size; temperatures over that of the oil, 1 K at least
 PIECES, SMALLEST = 16, 1e-9  # of a scan to begin with, evenly and by the logarithm
-STEP = 1e-2  # beside the standard values
+BESIDE = (0.01, 0.02, 0.05, 0.1, 0.2, 0.3)  # the standard values, either way
 NO_ROOT, HOTTEST, QUADRATURE = "no root", "hottest place", "quadrature"
 CAUSES = {
     HOTTEST: "another place of the path becomes the hottest, and these numbers are of one place; "
@@ -123,7 +123,7 @@ class Found:
         return tuple(NAMES[i] for i in self.jump.which)
 
 
-class _Pair:
+class Asked:
     """A pair as the kernels take it, to be asked with one quantity changed."""
 
     def __init__(self, name: str) -> None:
@@ -171,6 +171,9 @@ class _Pair:
         field = REAL[quantity]
         low, high = field.metadata["min"], field.metadata["max"]
         own = [field.default, getattr(self.params, quantity), 0.0, 1.0]
+        counts = field.metadata.get("at_zero")
+        if callable(counts):  # what counts where nothing is given
+            own.append(counts(self.params))
         if _stands_for_another(field):
             own = [x for x in own if x > 0.0]
             return [x for x in _places(low, high, own) if x > 0.0]
@@ -192,13 +195,14 @@ def _places(low: float, high: float, own: Iterable[float]) -> list[float]:
     small = np.geomspace(max(low, SMALLEST * top), top, PIECES + 1)
     found |= {*small, *(-small)}
     for x in own:
-        found |= {x, x * (1.0 - STEP), x * (1.0 + STEP)} if x else {0.0, STEP * top, -STEP * top}
+        size = x or top
+        found |= {x, *(x + d * size for d in BESIDE), *(x - d * size for d in BESIDE)}
     return sorted({float(x) for x in found if low <= x <= high})
 
 
 def scan(pair: str, quantity: str, least: float = LEAST) -> tuple[Scan, list[Found]]:
     """Return the scan of a quantity over its whole range, and its jumps with their causes."""
-    asked = _Pair(pair)
+    asked = Asked(pair)
     floors = np.array([
         1.0 if i in ABOVE_OIL else FLOORS.get(name, 1e-9) for i, name in enumerate(NAMES)
     ])  # fmt: skip
@@ -208,7 +212,7 @@ def scan(pair: str, quantity: str, least: float = LEAST) -> tuple[Scan, list[Fou
     return found, jumps
 
 
-def _cause(asked: _Pair, quantity: str, jump: Jump) -> str:
+def _cause(asked: Asked, quantity: str, jump: Jump) -> str:
     """Return why numbers jump, "" if nothing explains it."""
     names = {NAMES[i] for i in jump.which}
     first, last = (asked.numbers(quantity, x) for x in (jump.low, jump.high))

@@ -20,6 +20,7 @@ from ..gearmesh.parameters import SPEC, GearMeshParams
 from ..gearmesh.solve import prepare
 from .jumps import Jump, Numbers, Scan, find_jumps
 
+Changes = dict[str, Any]
 POINT = {"load": 14.0, "speed": 510.0, "oil_temperature": 358.15}
 NAMES = (*SPEC.real_outputs, "loss_factor", "contact_ratio")
 OF_A_STEP = ("stored_heat", "oil_energy")  # of no point
@@ -60,19 +61,25 @@ def pairs() -> dict[str, tuple[GearMeshParams, str]]:
         normal_module=2e-3, face_width=0.02, root_limit=430e6, permissible_film_ratio=0.1
     )
     planet = GearMeshParams.preset("planet", root_limit=430e6, permissible_film_ratio=0.1)
-    elastic = {"load_sharing": "elastic"}
-    relieved = {
+    elastic: Changes = {"load_sharing": "elastic"}
+    relieved: Changes = {
         **elastic,
         "tip_relief_pinion": 8e-6,
         "tip_relief_gear": 6e-6,
         "tip_relief_length_pinion": 1e-3,
         "tip_relief_length_gear": 0.8e-3,
     }
-    narrow, many = {"face_width": 8e-3}, {"pinion_teeth": 60, "root_limit": 0.0}
-    ring = {"internal": True, "addendum_gear": 0.8}
-    larger = {"gear_ratio": 24 / 30, "pinion_teeth": 30, "mates_gear": 3, "reversed_bending": 0.7}
-    shift = {"profile_shift_pinion": 0.3, "profile_shift_gear": -0.1}
-    given = {
+    narrow: Changes = {"face_width": 8e-3}
+    many: Changes = {"pinion_teeth": 60, "root_limit": 0.0}
+    ring: Changes = {"internal": True, "addendum_gear": 0.8}
+    larger: Changes = {
+        "gear_ratio": 24 / 30,
+        "pinion_teeth": 30,
+        "mates_gear": 3,
+        "reversed_bending": 0.7,
+    }
+    shift: Changes = {"profile_shift_pinion": 0.3, "profile_shift_gear": -0.1}
+    given: Changes = {
         "profile_shift_pinion": 0.3,
         "profile_shift_gear_from_distance": True,
         "working_centre_distance": 60.5e-3,
@@ -165,12 +172,11 @@ class Asked:
         """Return where a scan begins: the whole range, and the standard values one by one."""
         if quantity in POINT:
             signal = next(s for s in SPEC.inputs if s.name == quantity)
-            low, high, own = signal.low or 0.0, signal.high or 0.0, [POINT[quantity]]
-            low = max(low, 0.0)  # signs do not matter
-            return _places(low, high, own)
+            low = max(signal.low or 0.0, 0.0)  # signs do not matter
+            return _places(low, signal.high or 0.0, [POINT[quantity]])
         field = REAL[quantity]
         low, high = field.metadata["min"], field.metadata["max"]
-        own = [field.default, getattr(self.params, quantity), 0.0, 1.0]
+        own: list[Any] = [field.default, getattr(self.params, quantity), 0.0, 1.0]
         counts = field.metadata.get("at_zero")
         if callable(counts):  # what counts where nothing is given
             own.append(counts(self.params))

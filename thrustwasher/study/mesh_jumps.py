@@ -26,7 +26,9 @@ NAMES = (*SPEC.real_outputs, "loss_factor", "contact_ratio")
 OF_A_STEP = ("stored_heat", "oil_energy")  # of no point
 ABOVE_OIL = [i for i, n in enumerate(NAMES) if n.endswith("temperature")]
 FLOORS = {"scuffing_margin": 1.0, "film_thickness": 1e-12, "flash_rise": 1e-3, "flash_max": 1e-3}
-LEAST = 2e-4  # of a number's size; temperatures over that of the oil, 1 K at least
+# Of a number's size, temperatures over that of the oil, 1 K at least. Sums over the path that are
+# made anew for each load cost more.
+LEAST, LEAST_ELASTIC = 2e-4, 1e-3
 PIECES, SMALLEST = 16, 1e-9  # of a scan to begin with, evenly and by the logarithm
 BESIDE = (0.01, 0.02, 0.05, 0.1, 0.2, 0.3)  # the standard values, either way
 NO_ROOT, HOTTEST, QUADRATURE = "no root", "hottest place", "quadrature"
@@ -206,9 +208,10 @@ def _places(low: float, high: float, own: Iterable[float]) -> list[float]:
     return sorted({float(x) for x in found if low <= x <= high})
 
 
-def scan(pair: str, quantity: str, least: float = LEAST) -> tuple[Scan, list[Found]]:
+def scan(pair: str, quantity: str) -> tuple[Scan, list[Found]]:
     """Return the scan of a quantity over its whole range, and its jumps with their causes."""
     asked = Asked(pair)
+    least = LEAST if asked.params.load_sharing == "rigid" else LEAST_ELASTIC
     floors = np.array([
         1.0 if i in ABOVE_OIL else FLOORS.get(name, 1e-9) for i, name in enumerate(NAMES)
     ])  # fmt: skip

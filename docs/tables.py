@@ -28,7 +28,7 @@ from thrustwasher.shift.scene.places import scene_scatter
 from thrustwasher.shift.scene.scene_file import known_bands
 from thrustwasher.shift.steady_points import _gearbox as steady_gearbox
 from thrustwasher.shift.steady_points import efficiency_map
-from thrustwasher.study.mesh_jumps import Found, scan_all
+from thrustwasher.study.mesh_jumps import CAUSES, NO_ROOT, Found, scan_all
 
 HERE = Path(__file__).parent
 MEASURED = HERE.parent / "examples" / "measured"
@@ -154,11 +154,12 @@ def jumps_table(scans: Iterable[tuple[str, list[Found]]]) -> str:
             of_cause = [j for j in jumps if j.cause == cause]
             where = ", ".join(dict.fromkeys(j.quantity for j in of_cause))
             size = max(j.jump.size for j in of_cause)
-            rows.append([pair, where, "to -1" if cause == "no root" else f"{size:.1g}", cause])
+            rows.append([pair, where, "to -1" if cause == NO_ROOT else f"{size:.1g}", cause])
         if not jumps:
             smooth.append(pair)
     rows.append(["; ".join(smooth), "none", "", ""])
-    return table(["pair", "jumps over", "largest, over the number", "why"], rows)
+    why = table(["cause", "why it is left"], [[cause, text] for cause, text in CAUSES.items()])
+    return table(["pair", "jumps over", "largest, over the number", "cause"], rows) + "\n" + why
 
 
 SOURCES = {

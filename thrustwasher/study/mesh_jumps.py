@@ -33,10 +33,12 @@ PIECES, SMALLEST = 16, 1e-9  # of a scan to begin with, evenly and by the logari
 BESIDE = (0.01, 0.02, 0.05, 0.1, 0.2, 0.3)  # the standard values, either way
 NO_ROOT, HOTTEST, QUADRATURE = "no root", "hottest place", "quadrature"
 CAUSES = {
-    HOTTEST: "another place of the path becomes the hottest, and these numbers are of one place; "
-    "where friction is one number for the path they are blended, where it is local they are not",
-    NO_ROOT: "the rack leaves no root to rate: -1; with a root limit it is refused",
-    QUADRATURE: "the sums over the path have other nodes: below 1e-3, their own error",
+    HOTTEST: "these numbers are those of one place of the path, and where friction is local that "
+    "place moves with load, speed and oil; with one friction for the path they pass over smoothly",
+    NO_ROOT: "the rack has no room for its tip, as 23.2 degrees with 1.25 and 0.38: -1; with a "
+    "root limit it is refused",
+    QUADRATURE: "the sums over the path have other nodes, as where the overlap passes 1: below "
+    "1e-3, their own error",
 }
 UNRATED = ("spur, contact ratio about 2", "paper", "paper, law iso", "paper, literal")
 LEFT = {  # pair: causes of the jumps that are left; no other pair has any

@@ -9,7 +9,7 @@
 import argparse
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -21,6 +21,8 @@ from thrustwasher import solve_losses
 from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.fmu.shell.c_sources import source_files
+from thrustwasher.gearmesh import law_ranges as mesh_ranges
+from thrustwasher.losses import loss_ranges
 from thrustwasher.losses.kernels.loss_laws import starved, thinned
 from thrustwasher.losses.parameters import LossesParams
 from thrustwasher.model.registry import all_specs
@@ -30,6 +32,7 @@ from thrustwasher.shift.scene.places import scene_scatter
 from thrustwasher.shift.scene.scene_file import known_bands
 from thrustwasher.shift.steady_points import _gearbox as steady_gearbox
 from thrustwasher.shift.steady_points import efficiency_map
+from thrustwasher.study.mesh_jumps import CAUSES, NO_ROOT, Found, scan_all
 
 HERE = Path(__file__).parent
 MEASURED = HERE.parent / "examples" / "measured"
@@ -131,6 +134,36 @@ def _losses() -> str:
         parts = [f"{x:.0f}, {100.0 * x / r.oil_heat:.0f} %" for x in powers]
         rows.append([words, *parts, f"{r.oil_heat:.0f}"])
     return table(["", "pump", "churning", "bearings", "seals", "sum"], rows)
+
+
+@made("law-ranges")
+def _law_ranges() -> str:
+    rows = [
+        [r.law, r.quantity, r.words(), r.beyond, r.source]
+        for r in (*mesh_ranges.LAW_RANGES, *loss_ranges.LAW_RANGES)
+    ]
+    return table(["law", "in", "range", "outside", "source"], rows)
+
+
+@made("mesh-jumps", slow=True)
+def _mesh_jumps() -> str:
+    return jumps_table((pair, jumps) for pair, _, _, jumps in scan_all())
+
+
+def jumps_table(scans: Iterable[tuple[str, list[Found]]]) -> str:
+    """Return what jumps: a row for each pair and cause, pairs without a jump in the last."""
+    rows, smooth = [], []
+    for pair, jumps in scans:
+        for cause in sorted({j.cause for j in jumps}):
+            of_cause = [j for j in jumps if j.cause == cause]
+            where = ", ".join(dict.fromkeys(j.quantity for j in of_cause))
+            size = max(j.jump.size for j in of_cause)
+            rows.append([pair, where, "to -1" if cause == NO_ROOT else f"{size:.1g}", cause])
+        if not jumps:
+            smooth.append(pair)
+    rows.append(["; ".join(smooth), "none", "", ""])
+    why = table(["cause", "why it is left"], [[cause, text] for cause, text in CAUSES.items()])
+    return table(["pair", "jumps over", "largest, over the number", "cause"], rows) + "\n" + why
 
 
 SOURCES = {

@@ -19,8 +19,8 @@ sys.path.insert(0, str(ROOT / "benchmarks"))
 import structure
 
 # All counts of lines are of files as ``ruff format`` leaves them with every "fmt: skip" ignored.
-SOURCE_LINES = 77_500  # of the package and fmu_src, all languages
-TEST_LINES = 42_500
+SOURCE_LINES = 81_000  # of the package and fmu_src, all languages
+TEST_LINES = 45_000
 FILE_LINES, FUNCTION_LINES, FOLDER_FILES = 610, 110, 20
 FORMAT_MARKS = {"sources": 40, "tests": 40}  # tables of numbers
 # Counts that may only fall: one that has fallen by more than the slack is to be lowered here.
@@ -66,6 +66,9 @@ PLACES = {
     },
     "its page writes profiles into the transmission's parameters": {
         "explore.scene_data": {"transmission"},
+    },
+    "which numbers of a mesh jump is asked of its kernels, a million times": {
+        "study.mesh_jumps": {"gearmesh"},
     },
     "the folds of a washer's load curve are figures of a design": {
         "optimisation.part_designs": {"washer"},

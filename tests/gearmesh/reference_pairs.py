@@ -40,6 +40,63 @@ FZG_C = {
     "tip_diameter_gear": 118.36e-3,
     "youngs_modulus": 206e9,
 }
+# Example 1 of ISO/TR 6336-30 (9 kN m, 360 rpm; rack D of ISO 53), as MATISO_6336.m of
+# github.com/gfsReboucas/Drivetrain prints it; the report's text was not at hand.
+ISO_EXAMPLE_1 = {
+    "gear_ratio": 103 / 17,
+    "pinion_teeth": 17,
+    "normal_module": 8e-3,
+    "helix_angle": math.radians(15.8),
+    "face_width": 0.1,
+    "profile_shift_pinion": 0.145,
+    "working_centre_distance": 0.5,
+    "profile_shift_gear_from_distance": True,
+    "tool_addendum": 1.4,
+    "tool_tip_radius": 0.39,
+    "youngs_modulus": 206e9,
+    "load_factor": 1.003 * 1.16,
+}
+# Annex C of ISO 6336-6, a wind gearbox, as the same file and its table_C2.csv have it: bin 3.
+ISO_SPECTRUM = {
+    "gear_ratio": 60 / 17,
+    "pinion_teeth": 17,
+    "normal_module": 8.467e-3,
+    "pressure_angle": math.radians(25.0),
+    "helix_angle": math.radians(15.5),
+    "face_width": 0.1524,
+    "profile_shift_pinion": 0.172,
+    "working_centre_distance": 0.339727,
+    "profile_shift_gear_from_distance": True,
+    "youngs_modulus": 206e9,
+}
+# Helical test gears H501 and H701 of GEARpie (REPORT/H501.txt, H701.txt): 15 degrees, 91.5 mm.
+GEARPIE_HELICAL = {
+    "gear_ratio": 1.5,
+    "helix_angle": math.radians(15.0),
+    "working_centre_distance": 91.5e-3,
+    "profile_shift_gear_from_distance": True,
+    "youngs_modulus": 206e9,
+    "mean_roughness": 0.6e-6,
+}
+H501 = {
+    **GEARPIE_HELICAL,
+    "pinion_teeth": 20,
+    "normal_module": 3.5e-3,
+    "face_width": 23e-3,
+    "profile_shift_pinion": 0.1809,
+    "tip_diameter_pinion": 80.672e-3,
+    "tip_diameter_gear": 116.264e-3,
+}
+H701 = {
+    **GEARPIE_HELICAL,
+    "pinion_teeth": 28,
+    "normal_module": 2.5e-3,
+    "face_width": 17e-3,
+    "profile_shift_pinion": 0.2290,
+    "tip_diameter_pinion": 78.552e-3,
+    "tip_diameter_gear": 114.386e-3,
+    "base_oil": "pao",
+}
 
 
 def stage_3(**changes):

@@ -28,7 +28,7 @@ SUN = GearMeshParams(
 FACE = math.pi * MODULE / math.sin(HELIX)  # of an overlap of 1
 PAIR = Pair(18, 38, MODULE, SUN.pressure_angle, HELIX)
 RING = replace(SUN, gear_ratio=74 / 18, internal=True, addendum_gear=0.8)
-HIGH = replace(SUN, pinion_teeth=40, gear_ratio=2.0, addendum=1.3)  # contact ratio above 2
+HIGH = replace(SUN, pinion_teeth=40, gear_ratio=2.0, addendum=1.35)  # contact ratio above 2.05
 
 
 def at(overlap, params=SUN, fidelity="field", **changes):

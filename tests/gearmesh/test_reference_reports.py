@@ -6,13 +6,13 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from reference_pairs import FZG_C, of_viscosity, stage_3
+from reference_pairs import FZG_C, H501, H701, ISO_EXAMPLE_1, ISO_SPECTRUM, of_viscosity, stage_3
 
 from thrustwasher import GearMeshParams, ParameterError, oil, solve_gearmesh
 from thrustwasher.cli import main
 from thrustwasher.gearmesh.kernels import constants, micropitting
 from thrustwasher.gearmesh.kernels import layout as L
-from thrustwasher.gearmesh.kernels.load_sharing import shared
+from thrustwasher.gearmesh.kernels.load_sharing import shared, single_stiffness
 from thrustwasher.gearmesh.kernels.path_of_contact import flanks_at
 from thrustwasher.gearmesh.solve import prepare
 
@@ -54,6 +54,58 @@ def test_stage_3_its_temperatures_root_and_place_of_micropitting():
     # nothing of the loss goes into the film of the micropitting standard
     other = stage_3(friction_law="constant", constant_friction=0.1)
     assert other.film_ratio_gf == r.film_ratio_gf
+
+
+def test_example_1_of_the_standards_report_on_flanks():
+    """Printed: sigma_H0 1206.582, sigma_H 1301.353 N/mm2, c' 12.3705, c_gamma 17.4649 N/(mm um)."""
+    speed, k = 360.0 * math.pi / 30.0, ISO_EXAMPLE_1["load_factor"]
+    params = GearMeshParams(**ISO_EXAMPLE_1)
+    r = solve_gearmesh(params, power=9e3 * speed, speed=speed)
+    assert 1e-6 * r.pitting_stress == pytest.approx(1301.353, rel=2e-4)
+    assert 1e-6 * r.pitting_stress / math.sqrt(k) == pytest.approx(1206.582, rel=2e-4)
+    assert 1.0 / math.sqrt(r.contact_ratio) == pytest.approx(0.803, abs=5e-4)
+    assert r.profile_shift_gear == pytest.approx(0.0, abs=5e-4)
+    stiffness = 1e-9 * single_stiffness(prepare(params, "field"))
+    assert stiffness == pytest.approx(12.3705, rel=1e-4)
+    assert stiffness * (0.75 * r.contact_ratio + 0.25) == pytest.approx(17.4649, rel=5e-4)
+
+
+@pytest.mark.parametrize(
+    ("torque", "factor", "printed"),
+    [(25.4e3, 1.31, 2349.0), (23.3e3, 1.31, 2250.0), (11.6e3, 1.40, 1643.0)],
+)
+def test_the_load_spectrum_of_the_standard_on_life(torque, factor, printed):
+    """Printed: sigma_H times S_H 1.275, K_Hbeta to two decimals; its K_v is not printed there."""
+    speed = 35.2 * math.pi / 30.0
+    params = GearMeshParams(**ISO_SPECTRUM, face_load_factor=factor)
+    r = solve_gearmesh(params, power=torque * speed, speed=speed)
+    assert 1.275e-6 * r.pitting_stress == pytest.approx(printed, rel=0.015)
+
+
+@pytest.mark.parametrize(
+    ("pair", "torque", "turns", "eta", "celsius", "printed"),
+    [
+        (H501, 100.0, 1000.0, 32.67e-3, 70.0, (0.0891, 1.46, 0.54, 0.1869, 82.20, 0.1639, 627.27)),
+        (H701, 200.0, 1500.0, 49.85e-3, 80.0, (0.1489, 1.52, 0.56, 0.1404, 153.02, 0.1225, 1014.5)),
+    ],
+    ids=["H501", "H701"],
+)
+def test_helical_pairs_beside_an_open_program(pair, torque, turns, eta, celsius, printed):
+    """Its flank has the square root of cos beta where ISO 6336-2:2006 divides by it."""
+    shift, contact, overlap, loss_factor, loss, ohlendorf, stress = printed
+    speed = turns * math.pi / 30.0
+    params = GearMeshParams(**pair, **of_viscosity(eta, celsius))
+    r = solve_gearmesh(params, power=torque * speed, speed=speed, oil_temperature=celsius + 273.15)
+    assert r.profile_shift_gear == pytest.approx(shift, abs=1e-4)
+    assert r.contact_ratio == pytest.approx(contact, abs=5e-3)
+    assert r.overlap_ratio == pytest.approx(overlap, abs=5e-3)
+    par = prepare(params, "field")
+    assert par[L.D_LOSS_SPUR] == pytest.approx(ohlendorf, abs=6e-5)
+    assert r.loss_factor == pytest.approx(loss_factor, rel=0.035)  # there summed over lines
+    assert r.friction_power == pytest.approx(loss, rel=0.03)
+    single = max(constants.single_contact_factors(par))
+    nominal = 1e-6 * r.pitting_stress / single * math.cos(params.helix_angle)
+    assert nominal == pytest.approx(stress, rel=0.01)
 
 
 def test_the_film_of_the_micropitting_reference_test():

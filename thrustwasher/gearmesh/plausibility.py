@@ -17,6 +17,7 @@ from .kernels.working_pair import (
     tips,
     working_section,
 )
+from .law_ranges import FRICTION, outside_of_pair, outside_of_point
 from .parameter_array import as_array
 from .parameters import GearMeshParams, centre_distance, default_of
 
@@ -33,7 +34,7 @@ FASTEST = 100.0  # m/s at the pitch line; faster gears have losses that are not 
 def doubts_of_parameters(p: GearMeshParams) -> list[str]:
     """Return what contradicts itself in parameters."""
     found = [*_teeth(p), *_flanks(p), *_roughness(p), *_fouling(p), *_load_factor(p)]
-    return [*found, *_materials(p), *_root(p)]
+    return [*found, *_materials(p), *_root(p), *outside_of_pair(p)]
 
 
 def doubts_of_point(
@@ -48,7 +49,7 @@ def doubts_of_point(
     if abs(speed) < 2.0 * LEAST_SPEED:
         return [f"speed = {speed:g} rad/s: the film is that of {LEAST_SPEED:g} rad/s"]
     found = _stretched(p, par, field, speed)
-    found += _slow(p, par, speed)
+    found += [*_slow(p, par, speed), *outside_of_point(p, par, torque, abs(speed))]
     rise = float(field[k.F_BULK] + field[k.F_FLASH_MAX]) - oil
     if field[k.F_SCUFFING_SAFETY] <= 0.0:
         found.append(
@@ -66,7 +67,7 @@ def doubts_of_point(
 
 def _slow(p: GearMeshParams, par: Any, speed: float) -> list[str]:
     """Return lines on speeds below those that the laws of friction were fitted to."""
-    if p.film_heat != "loss" or p.friction_law not in ("iso", "mixed", "schlenk"):
+    if p.film_heat != "loss" or p.friction_law not in FRICTION:
         return []
     rolling = par[k.D_ROLLING] * abs(speed)
     pitch_line, found = rolling / (2.0 * math.sin(par[k.D_ANGLE])), []

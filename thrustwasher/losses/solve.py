@@ -23,12 +23,11 @@ from ..tribology.viscosity import viscosity
 from ..units import format_quantity
 from .kernels import loss_laws as laws
 from .kernels import step as k
+from .loss_ranges import FAST, LEAST_DEPTH, LEAST_LEFT, MOST_DEPTH, RUBBING
 from .parameters import SHAFTS, SPEC, LossesParams
 
 __all__ = ["LossesParams", "LossesResult", "solve_losses"]
 GEARS = {"input": "input gear", "output": "output gear", "drum": "drum"}
-LEAST_DEPTH, MOST_DEPTH = 0.1, 0.5  # over diameter
-LEAST_LEFT = 0.1  # of a bearing's viscous torque, from which on it is no longer most of its drag
 FREEZING, WARM = 273.15, 313.15  # K; WARM: temperature of the viscosity in the formula of seals
 
 
@@ -137,7 +136,7 @@ def doubts_of_point(params: Any, point: Mapping[str, float]) -> Iterator[str]:
         if getattr(params, f"{shaft}_immersion") > 0.0 and speed > params.speed_smoothing:
             yield from _of_gear(params, shaft, speed, point["oil_temperature"])
     yield from _of_bearings(params, point)
-    yield from _of_seals(params, point["oil_temperature"])
+    yield from _of_seals(params, point)
 
 
 def _of_gear(params: Any, shaft: str, speed: float, oil: float) -> Iterator[str]:
@@ -167,6 +166,8 @@ def _of_bearings(params: Any, point: Mapping[str, float]) -> Iterator[str]:
         speed, diameter = abs(point[f"{name}_speed"]), getattr(params, f"{own}_diameter")
         if speed <= params.speed_smoothing or not getattr(params, f"{own}_count"):
             continue
+        if said := FAST.line(30.0 / math.pi * speed * 1e3 * diameter, f"{name} bearings: "):
+            yield said
         kind, section = getattr(params, f"{of}_type_constant"), getattr(params, f"{of}_section")
         starving = laws.starved(params.starvation_constant, kind, diameter, section)
         left = laws.thinned(speed, nu, diameter, starving)[0]
@@ -177,7 +178,12 @@ def _of_bearings(params: Any, point: Mapping[str, float]) -> Iterator[str]:
             )
 
 
-def _of_seals(params: Any, oil: float) -> Iterator[str]:
+def _of_seals(params: Any, point: Mapping[str, float]) -> Iterator[str]:
+    oil = point["oil_temperature"]
+    for shaft in SHAFTS:
+        rubbing = 0.5 * getattr(params, f"{shaft}_seal_diameter") * abs(point[f"{shaft}_speed"])
+        if said := RUBBING.line(rubbing, f"{shaft} seal: "):
+            yield said
     bracket = 145.0 - 1.6 * (oil - FREEZING)
     bracket += 350.0 * math.log10(math.log10(max(1e6 * _thickness(params, WARM), 0.5) + 0.8))
     if bracket < laws.LEAST_SEAL and any(getattr(params, f"{s}_seal_diameter") for s in SHAFTS):

@@ -1,11 +1,46 @@
 """What a reader of a result must not miss: warnings, one line each, the same everywhere."""
 
+import math
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from ..errors import Status
 from ..units import format_quantity
 from .spec import ModelSpec, Signal
+
+
+@dataclass(frozen=True, slots=True)
+class LawRange:
+    """The range of an empirical law in one quantity, and what is to be said outside of it."""
+
+    law: str
+    quantity: str
+    unit: str  # "" without one
+    low: float
+    high: float
+    beyond: str  # what becomes of the law's numbers there
+    source: str
+
+    def line(self, value: float, where: str = "") -> str | None:
+        """Return what to say of a value, None within the range; ``where`` goes before it."""
+        if self.low <= value <= self.high:
+            return None
+        side, limit = ("below", self.low) if value < self.low else ("above", self.high)
+        unit = f" {self.unit}" if self.unit else ""
+        return (
+            f"{where}{self.quantity} = {value:.4g}{unit}, {side} {limit:g}{unit}, the range of "
+            f"{self.law}: {self.beyond}"
+        )
+
+    def words(self) -> str:
+        """Return the range in words."""
+        unit = f" {self.unit}" if self.unit else ""
+        if self.high == math.inf:
+            return f"from {self.low:g}{unit} on"
+        if self.low == -math.inf:
+            return f"up to {self.high:g}{unit}"
+        return f"{self.low:g} .. {self.high:g}{unit}"
 
 
 def quantity_text(signal: Signal, value: float) -> str:

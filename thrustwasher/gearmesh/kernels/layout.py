@@ -157,8 +157,13 @@ from ...tribology.holding.memory import N_MEMORY
     D_GF_RISE,
     D_BUTTRESS,
     D_GF_PLACES,
+    D_HOT_RADIUS,
+    D_HOT_ROLLING,
+    D_HOT_SLIDING,
+    D_HOT_SHARE,
+    D_HOT_FILM,
     D_PLACES,
-) = range(N_PARAM, N_PARAM + 56)
+) = range(N_PARAM, N_PARAM + 61)
 # The line of action: positions from the pitch point in base pitches, shares of the load that the
 # pair there bears, shares of the loss; D_PLACES is the number of positions. Where the loss heats,
 # also lengths and, per root of load and speed, flash of a friction of 1, film, mean pressure; then

@@ -138,17 +138,20 @@ def _sheared_rise(par: Array, flank: float, sliding: float) -> tuple[float, floa
 def _fill_hottest(par: Array, torque: float, line: float, turning: float, work: Array) -> None:
     """Fill contact, film, temperatures and stresses of the hottest position, path's extremes."""
     place, factor = int(work[L.W_PLACE]), par[L.D_FACTOR]
-    radius, v1, v2 = flanks_at(par, par[np.uintp(L.D_POSITION + place)])
-    v1, v2 = v1 * turning, v2 * turning
-    borne = factor * par[np.uintp(L.D_PATH_SHARE + place)]
+    radius, rolling, sliding = par[L.D_HOT_RADIUS], par[L.D_HOT_ROLLING], par[L.D_HOT_SLIDING]
+    borne, film = factor * par[L.D_HOT_SHARE], par[L.D_HOT_FILM]
+    if not is_uniform(par):  # the hottest place moves with the inputs
+        radius, v1, v2 = flanks_at(par, par[np.uintp(L.D_POSITION + place)])
+        rolling, sliding = v1 + v2, abs(v1 - v2)
+        borne = factor * par[np.uintp(L.D_PATH_SHARE + place)]
+        film = par[np.uintp(L.D_PATH_FILM + place)]
     width = hertz_width(borne * line, radius, par[L.D_THETA])
     work[L.F_LINE_LOAD], work[L.F_WIDTH] = borne * line, width
     work[L.F_PRESSURE] = borne * line / width
-    scale = film_scale(line, turning, work[L.F_VISCOSITY])
-    film = par[np.uintp(L.D_PATH_FILM + place)] * scale
+    film *= film_scale(line, turning, work[L.F_VISCOSITY])
     work[L.F_FILM], work[L.F_RATIO] = film, film / par[L.D_SIGMA]
     work[L.F_PRESSURE_MAX] = 4.0 / math.pi * par[L.D_PRESSURE_MOST] * math.sqrt(factor * line)
-    work[L.F_STRESS], work[L.F_SLIDING] = work[L.F_PRESSURE_MAX], abs(v1 - v2)
+    work[L.F_STRESS], work[L.F_SLIDING] = work[L.F_PRESSURE_MAX], sliding * turning
     rubbing = soft_size(torque * par[L.D_LINE], 2.0 * LEAST_LINE_LOAD)
     friction, quarter = work[L.F_SCUFFING_FRICTION], math.sqrt(math.sqrt(line))
     flash = friction * par[np.uintp(L.D_PATH_FLASH + place)] * par[L.D_FLASH_FACTOR]
@@ -157,7 +160,7 @@ def _fill_hottest(par: Array, torque: float, line: float, turning: float, work: 
     work[L.F_SURFACE] = work[L.F_BULK] + flash
     sheared = _sheared_rise(par, work[L.F_SURFACE], work[L.F_SLIDING])[0]
     carried = friction * borne * rubbing * work[L.F_SLIDING]
-    carried /= 0.5 * (v1 + v2) * film * par[L.D_OIL_CAPACITY]
+    carried /= 0.5 * rolling * turning * film * par[L.D_OIL_CAPACITY]
     both = sheared + carried
     work[L.F_FILM_RISE] = sheared * carried / both if both > 0.0 else 0.0
     work[L.F_FILM_TEMPERATURE] = work[L.F_SURFACE] + work[L.F_FILM_RISE]

@@ -41,10 +41,10 @@ def pressure_coefficient(temperature: float) -> tuple[float, float]:
 def buttress(par: Array, position: float) -> float:
     """Return X_but [-]: what helical teeth bear more at both ends of the path."""
     length = par[L.D_BUTTRESS]
-    off = min(position + par[L.D_APPROACH], par[L.D_RECESS] - position)
-    if off >= length:
+    off = max(min(position + par[L.D_APPROACH], par[L.D_RECESS] - position), 0.0)
+    if off >= length:  # spur teeth, whose length is 0, have none
         return 1.0
-    return 1.0 + BUTTRESS * min(par[L.D_OVERLAP], 1.0) * (1.0 - max(off, 0.0) / length)
+    return 1.0 + BUTTRESS * min(par[L.D_OVERLAP], 1.0) * (1.0 - off / length)
 
 
 @kernel

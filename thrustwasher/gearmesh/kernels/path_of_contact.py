@@ -11,6 +11,7 @@ import math
 import numpy as np
 
 from ...numerics.jit import Array, kernel
+from ...numerics.smoothing import smoothstep
 from . import layout as L
 from .contact import film_thickness, hertz_width
 from .flank_temperature import blok_rise
@@ -25,6 +26,8 @@ EVEN_HEAT = math.sqrt(2.0 / math.pi) / 0.7859834  # Blok's factor of even over e
 # has them; against scuffing, ISO/TS 6336-22 as publicly quoted, of an ester (not there) mineral's.
 LOSS_LUBRICANT = (0.846, 0.65, 0.65, 0.585)
 SCUFFING_LUBRICANT = (1.0, 0.8, 1.0, 0.7)
+JOINS = 0.05  # base pitches that one pair more must be in contact to bear its share; chosen here
+NEAR = 0.02  # of the greatest flash, within which other places count as hottest too; chosen here
 MEAN_FLASH = 0.47  # of it the bodies of gears in dip lubrication are warmer than the oil
 
 
@@ -59,6 +62,19 @@ def pair_share(par: Array, pairs: float) -> float:
     """
     even = even_part(par)
     return (1.0 - even) / pairs + even / par[L.D_CONTACT_RATIO]
+
+
+@kernel
+def joined(par: Array, whole: float, more: float, between: bool) -> float:
+    """Return what a pair bears [-] while ``whole`` + 1 are in contact, ``more`` base pitches long.
+
+    Just above a whole contact ratio the pair more takes over smoothly as ``more`` grows to JOINS,
+    so that nothing jumps: at both ends of the path from a share of ``whole`` pairs, ``between``
+    from that of one less, which is what they bear just below it.
+    """
+    full = pair_share(par, whole + 1.0)
+    before = pair_share(par, max(whole - 1.0 if between else whole, 1.0))
+    return before + (full - before) * smoothstep(more / JOINS)
 
 
 @kernel
@@ -105,7 +121,8 @@ def _split(par: Array, low: float, high: float, shared: float, borne: float) -> 
 def line_of_action(par: Array, approach: float, recess: float) -> None:
     """Fill positions, shares and losses from the start to the end of contact.
 
-    The loss books the shares X, as D_LOSS does, and comes to it. The paper's heat is made by the
+    The loss books the shares X, as D_LOSS does, and comes to it; pressure, flash and film have
+    those of ``joined``. The paper's heat is made by the
     pair that bears the parameter ``load_share`` where it has company, all where it is alone.
     """
     whole = math.floor(approach + recess)
@@ -122,8 +139,10 @@ def line_of_action(par: Array, approach: float, recess: float) -> None:
         _split(par, -approach, recess, approach + recess, 1.0 / (approach + recess))
         intervals = 0
     for k in range(intervals):
-        low = -approach + k
-        _split(par, low, low + more, many, given)
+        low, borne = -approach + k, given
+        if par[L.P_FILM_HEAT] == L.LOSS:
+            borne = joined(par, whole, more, 0 < k < whole)
+        _split(par, low, low + more, many, borne)
         if k < whole:
             _split(par, low + more, low + 1.0, few, alone)
     total = 0.0
@@ -165,6 +184,30 @@ def place_constants(par: Array, k: int) -> None:
 
 
 @kernel
+def _blend_hottest(par: Array) -> None:
+    """Fill what is seen where the flash is greatest: radius, speeds, share, film of 1.
+
+    So that nothing jumps where another place becomes the hottest, a mean: a place less hot by the
+    share d of the greatest flash weighs (1 - d/NEAR)^2 times its length.
+    """
+    total, radius, rolling, sliding, share, film = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for k in range(int(par[L.D_PLACES])):
+        near = 1.0 - (1.0 - par[L.D_PATH_FLASH + k] / par[L.D_FLASH_MOST]) / NEAR
+        if near > 0.0:
+            weight = near * near * par[L.D_PATH_LENGTH + k]
+            here, v1, v2 = flanks_at(par, par[L.D_POSITION + k])
+            total += weight
+            radius += weight * here
+            rolling += weight * (v1 + v2)
+            sliding += weight * abs(v1 - v2)
+            share += weight * par[L.D_PATH_SHARE + k]
+            film += weight * par[L.D_PATH_FILM + k]
+    par[L.D_HOT_RADIUS], par[L.D_HOT_ROLLING] = radius / total, rolling / total
+    par[L.D_HOT_SLIDING], par[L.D_HOT_SHARE] = sliding / total, share / total
+    par[L.D_HOT_FILM] = film / total
+
+
+@kernel
 def derive_path(par: Array) -> None:
     """Fill the constants of all positions, their extremes, and the bodies' conductance.
 
@@ -183,6 +226,7 @@ def derive_path(par: Array) -> None:
         par[L.D_PRESSURE_MOST] = max(par[L.D_PRESSURE_MOST], par[L.D_PATH_PRESSURE + k])
         if flash > par[L.D_FLASH_MOST]:
             par[L.D_FLASH_MOST], par[L.D_HOTTEST] = flash, float(k)
+    _blend_hottest(par)
     mates = max(par[L.P_MATES_PINION], par[L.P_MATES_GEAR])
     rise = MEAN_FLASH * par[L.P_LUBRICATION_FACTOR] * mean / length
     rise *= 0.5 * (1.0 + mates) * par[L.D_FLASH_FACTOR]

@@ -1,0 +1,54 @@
+"""The ranges of the empirical laws of churning, bearings and seals."""
+
+import math
+
+from ..model.advice import LawRange
+from .kernels import loss_laws as laws
+
+LEAST_DEPTH, MOST_DEPTH = 0.1, 0.5  # over diameter
+LEAST_LEFT = 0.1  # of a bearing's viscous torque, from which on it is no longer most of its drag
+EXTRAPOLATED = "its loss is extrapolated"
+TESTS = "estimate; the tables of the tests were not at hand"
+CHURNING = "the laws of churning"
+FROUDE = LawRange(CHURNING, "Froude number", "", laws.LEAST_FR, laws.MOST_FR, EXTRAPOLATED, TESTS)
+REYNOLDS = LawRange(
+    CHURNING, "Reynolds number", "", laws.LEAST_RE, laws.MOST_RE, EXTRAPOLATED, TESTS
+)
+DEPTH = LawRange(CHURNING, "depth over diameter", "", LEAST_DEPTH, MOST_DEPTH, EXTRAPOLATED, TESTS)
+STARVED = LawRange(
+    "the viscous torque of bearings",
+    "share left by heat and starvation",
+    "",
+    LEAST_LEFT,
+    math.inf,
+    "drag of the oil around them, which is not in the law, may be more",
+    "chosen here",
+)
+FAST = LawRange(
+    "the torque of bearings",
+    "speed times mean diameter",
+    "mm/min",
+    -math.inf,
+    1e6,
+    "cages slide and the oil around them drags",
+    "rule of thumb for fast bearings, from memory",
+)
+BRACKET = LawRange(
+    "the formula of seals",
+    "its bracket",
+    "",
+    laws.LEAST_SEAL,
+    math.inf,
+    "their loss is an estimate",
+    "chosen here; the formula falls to 0 and below",
+)
+RUBBING = LawRange(
+    "the formula of seals",
+    "speed of the lip",
+    "m/s",
+    -math.inf,
+    38.0,
+    "no lip of rubber runs so fast",
+    "limit of fluororubber in DIN 3760 and catalogues, from memory",
+)
+LAW_RANGES = (FROUDE, REYNOLDS, DEPTH, STARVED, FAST, BRACKET, RUBBING)

@@ -168,7 +168,8 @@ def solve_washer(
     ------
     ParameterError : an argument is outside its range (named, with unit and range)
     BranchError : the branch asked for has no solution at this load
-    SolveError : not converged
+    SolveError : not converged, or not within the budget of work: BUDGET = 1500 Newton iterations,
+        counted by ``iterations`` of the result, after which the status is OVER_BUDGET
 
     Notes
     -----

@@ -1,0 +1,62 @@
+"""Hard points: solved within the budget of iterations, or given up by name."""
+
+import numpy as np
+import pytest
+
+from thrustwasher import SolveError, Status, WasherParams, solve_washer
+from thrustwasher.washer.kernels.solve import BUDGET
+from thrustwasher.washer.kernels.workspace import size_of_state
+from thrustwasher.washer.solve import GRIDS, _Prepared
+
+# load [N], speed [rad/s], tilt [rad], oil [K]: contact so hot that it turns the washer
+TURNED = [
+    (6297.878, 213.261, 4.3456e-3, 268.970),
+    (4736.0, 1350.1, 7.3527e-3, 235.97),
+    (2608.4, -1915.4, 5.5458e-3, 249.63),
+    (6237.2, 428.94, 6.4123e-3, 287.29),
+]
+
+BEYOND = (8033.16842, 1471.67989, 0.00406524951, 239.134377)  # not found
+
+
+def solved(params, load, speed, tilt, oil, **how):
+    at = {"load": load, "speed": speed, "tilt": tilt, "oil_temperature": oil}
+    return solve_washer(params, **at, throw=False, **how)
+
+
+@pytest.mark.parametrize("point", TURNED)
+def test_contact_that_turns_the_washer_is_solved(point):
+    r = solved(WasherParams(), *point)
+    assert not r.status.is_failure and r.iterations < BUDGET
+    assert r.fluid_load + r.contact_load == pytest.approx(r.load, rel=1e-6)
+    assert r.oil_heat == pytest.approx(r.friction_power, rel=1e-6)
+
+
+def test_a_tilt_of_a_thousand_roughnesses_is_solved():
+    """The gear begins where it can touch the washer, however far the tilt lifts its middle."""
+    r = solved(WasherParams(roughness=1.5e-7), 100.0, 1000.0, 0.009, 360.0)
+    assert not r.status.is_failure and r.iterations < 200
+    assert r.fluid_load + r.contact_load == pytest.approx(100.0, rel=1e-6)
+
+
+def test_a_search_beyond_the_budget_is_given_up_by_name():
+    at = dict(zip(("load", "speed", "tilt", "oil_temperature"), BEYOND, strict=True))
+    with pytest.raises(SolveError, match=r"1500 Newton iterations, at most 1500") as raised:
+        solve_washer(WasherParams(), **at)
+    assert Status.OVER_BUDGET.advice in str(raised.value)
+
+
+def test_a_step_beyond_the_budget_leaves_the_memory_as_it_was():
+    """As an FMU steps: the next step goes on from the last good one, to the bit."""
+    ready, state = _Prepared(WasherParams(), GRIDS["field"]), np.zeros(size_of_state(10, 32))
+
+    def step(*inputs):
+        ready.inp[:] = (*inputs, 0.0, 0.0)
+        return ready.step(state, 0.0, 1e-3), state.copy()
+
+    code, before = step(300.0, 953.0, 0.002, 297.15)
+    assert code == Status.OK
+    code, after = step(*BEYOND)
+    assert code == Status.OVER_BUDGET
+    np.testing.assert_array_equal(after, before)
+    assert step(303.0, 953.0, 0.002, 297.15)[0] == Status.OK

@@ -81,6 +81,11 @@ class Status(IntEnum):
         "the slip reverses every few steps: the torque answers too late for this step and "
         "driveline; set holding = given with coupling_inertia and coupling_age, or a shorter step",
     )
+    OUTSIDE_MAP = (
+        6,
+        "an input is outside the map's box: answered by `field` or at the box's nearest edge, as "
+        "outside_map says",
+    )
     MAX_ITERATIONS = (
         10,
         "not converged; start from a neighbouring result or refine in smaller steps",
@@ -92,6 +97,11 @@ class Status(IntEnum):
     BAD_INPUT = (
         15,
         "an input is not finite, outside its range, or excluded by another one given",
+    )
+    NOT_IN_MAP = (
+        16,
+        "an input is outside the map's box; keep to the box, build a map for a larger one, or set "
+        "outside_map = hold or solve",
     )
 
     def __new__(cls, code: int, advice: str = "") -> "Status":

@@ -89,9 +89,14 @@ def find_spec(name: str) -> ModelSpec:
     return found
 
 
-def all_specs(*, helpers: bool = False) -> list[ModelSpec]:
-    """Return the interfaces of all models, in the order they are built; ``helpers``: those too."""
-    return [model.spec for model in (*all_models(), *map(find_model, HELPERS if helpers else ()))]
+def all_specs(*, helpers: bool = False, alone: bool = False) -> list[ModelSpec]:
+    """Return the interfaces of all models, in the order they are built.
+
+    ``helpers``: those too; ``alone``: those of one rung too, behind all others.
+    """
+    models = [*all_models(), *map(find_model, HELPERS if helpers else ())]
+    own = [model.of_one_rung(model.spec, rung) for model in models for rung in model.alone]
+    return [model.spec for model in models] + (own if alone else [])
 
 
 def spec_of(name: str) -> ModelSpec:

@@ -23,6 +23,7 @@ from thrustwasher.fmu.shell import c_sources
 from thrustwasher.fmu.stepper import Instance
 from thrustwasher.model.registry import all_specs, find_spec
 from thrustwasher.native import portable
+from thrustwasher.native.binaries import _DYNSYM, _elf_symbols
 
 FAST = "OilSump"
 NAMES = [spec.name for spec in all_specs(helpers=True)]
@@ -76,6 +77,18 @@ def packed(folder, fmu):
         for file in sorted(f for f in folder.rglob("*") if f.is_file()):
             zipped.write(file, file.relative_to(folder))
     return fmu
+
+
+def test_the_sources_of_a_model_without_maps_read_no_file():
+    """Its name, identifier, start values and ranges are compiled in; resources may be empty."""
+    fmu = compiled(FAST, 2, "gcc")
+    folder = unpacked(fmu, Path(tempfile.mkdtemp(dir=_folder.name)))
+    (library,) = (folder / "binaries").rglob("*.so")
+    asked = {name for name, _, home in _elf_symbols(library.read_bytes(), _DYNSYM) if not home}
+    assert not asked & {"fopen", "fread", "fclose", "fgetc"}
+    shutil.rmtree(folder / "resources")
+    again = packed(folder, folder / "again.fmu")
+    assert (run(again, FAST, "lumped") == run(fmu, FAST, "lumped")).all()
 
 
 @cache

@@ -95,8 +95,10 @@ def all_specs(*, helpers: bool = False, alone: bool = False) -> list[ModelSpec]:
     ``helpers``: those too; ``alone``: those of one rung too, behind all others.
     """
     models = [*all_models(), *map(find_model, HELPERS if helpers else ())]
-    own = [model.of_one_rung(model.spec, rung) for model in models for rung in model.alone]
-    return [model.spec for model in models] + (own if alone else [])
+    found = [model.spec for model in models]
+    if alone:
+        found += [model.of_one_rung(model.spec, rung) for model in models for rung in model.alone]
+    return found
 
 
 def spec_of(name: str) -> ModelSpec:

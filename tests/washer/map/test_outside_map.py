@@ -91,6 +91,24 @@ def test_a_step_that_leaves_the_box_says_so_once_and_stays_bounded():
     assert model.outputs()[model.output_names.index("solver_status")] == Status.OK
 
 
+@pytest.mark.parametrize(("way", "rung"), [("solve", "field"), ("hold", "map")])
+def test_the_washer_with_its_solver_says_once_that_it_left_the_box(way, rung):
+    """Then it is back in the box, and says the next time again."""
+    given = {"fidelity": "map", "outside_map": way, "holding": "off"}
+    model, log = DirectInstance(SPEC, parameters=given), []
+    model.initialize(0.0, PLACE)
+    for k, tilt in enumerate([0.0035, 0.0036, 0.0035, 0.002, 0.0035]):
+        model.set_inputs([300.0, 545.0, tilt, 297.15])
+        model.step(k * 1e-3, 1e-3)
+        found = dict(zip(model.output_names, model.outputs(), strict=True))
+        assert found["solver_status"] == (Status.OUTSIDE_MAP if tilt > 0.003 else Status.OK)
+        log += [text for _, text in model.core.messages() if "OUTSIDE_MAP" in text]
+    place = PLACE | {"tilt": 0.0035 if way == "solve" else 0.003}
+    wanted = solve_washer(WasherParams(), **place, fidelity=rung).friction_torque
+    assert found["friction_torque"] == pytest.approx(wanted, rel=1e-5)
+    assert len(log) == 2
+
+
 def test_a_refused_step_fails_and_the_next_one_in_the_box_goes_on():
     model = stepped(outside_map="refuse")
     model.set_inputs([300.0, 545.0, 0.008, 297.15])

@@ -48,7 +48,7 @@ def made(kernel: str) -> tuple[Objects, float]:
 
 def libraries(kernel: str, code: Objects, platforms: Sequence[str] = LIBRARIES) -> dict[str, bytes]:
     """Return the libraries that go with the objects, of a model one for browsers too."""
-    if kernel.startswith(tuple(f"{home}." for home in MODELS.values())):
+    if kernel.startswith(tuple(f"{home}.kernels.step" for home in MODELS.values())):
         platforms = [*platforms, WEB.name]
     own = {name: {w: data for w, data in code.items() if w[0] == name} for name in platforms}
     return {name: linked_library(kernel, TARGETS[name], own[name]) for name in platforms}

@@ -47,7 +47,7 @@ def ship() -> None:
     for name, place in FROM_ZIG.items():
         files.write(NOTICES / name, (zig / place).read_bytes())
     index: dict[str, Any] = json.loads((shipped.FOLDER / shipped.INDEX).read_text("utf-8"))
-    for spec in all_specs(helpers=True):
+    for spec in all_specs(helpers=True, alone=True):
         digest, about = library_digest(spec), index["kernels"][spec.kernel]
         if shipped.fmu_libraries(spec.kernel, digest).keys() != PLATFORMS.keys():
             data = kernels.pack(shipped.objects_of(spec.kernel), made(spec))
@@ -66,7 +66,7 @@ def in_c(spec: ModelSpec) -> dict[str, bytes]:
 def ship_c() -> None:
     """Make the C that is missing or stale, and list it."""
     index: dict[str, Any] = json.loads((shipped.FOLDER / shipped.INDEX).read_text("utf-8"))
-    for spec in all_specs(helpers=True):
+    for spec in all_specs(helpers=True, alone=True):
         made_of = identity(spec.kernel)
         if shipped.portable(spec.kernel, made_of):
             continue
@@ -93,7 +93,7 @@ def ship_c() -> None:
 def check_c() -> list[str]:
     """Return what is wrong with the shipped C: stale, or not what is made now."""
     same_tools, wrong = shipped.index().get("toolchain") == kernels.toolchain(), []
-    for spec in all_specs(helpers=True):
+    for spec in all_specs(helpers=True, alone=True):
         found = shipped.portable(spec.kernel, identity(spec.kernel))
         about = (shipped.record(spec.kernel) or {}).get("portable", {})
         comparable = same_tools and about.get("made_by") == maker()
@@ -105,7 +105,7 @@ def check_c() -> list[str]:
 def check() -> list[str]:
     """Return what is wrong with the shipped libraries: stale, or not what is linked now."""
     comparable, wrong = shipped.index().get("toolchain") == kernels.toolchain(), []
-    for spec in all_specs(helpers=True):
+    for spec in all_specs(helpers=True, alone=True):
         found = shipped.fmu_libraries(spec.kernel, library_digest(spec))
         if not found or (comparable and found != made(spec)):
             wrong.append(f"{spec.name}: its FMUs' libraries are stale, damaged or made otherwise")

@@ -89,6 +89,11 @@ class Status(IntEnum):
         "the slip reverses every few steps: the torque answers too late for this step and "
         "driveline; set holding = given with coupling_inertia and coupling_age, or a shorter step",
     )
+    OUTSIDE_MAP = (
+        6,
+        "an input is outside the map's box: answered by `field` or at the box's nearest edge, as "
+        "outside_map says",
+    )
     MAX_ITERATIONS = (
         10,
         "not converged; start from a neighbouring result or refine in smaller steps",
@@ -105,6 +110,11 @@ class Status(IntEnum):
         16,
         "the work that one solution may take is spent; come from a neighbouring result, in smaller "
         "steps, or move the point",
+    )
+    NOT_IN_MAP = (
+        17,
+        "an input is outside the map's box; keep to the box, build a map for a larger one, or set "
+        "outside_map = hold or solve",
     )
 
     def __new__(cls, code: int, advice: str = "") -> "Status":

@@ -12,6 +12,10 @@
 
 #include "shell.h"
 
+#if !defined(PART_COMPILED_IN) || (TABLE_ROOM > 0 && !defined(TABLE_COMPILED_IN))
+#define READS_FILES
+#endif
+
 static int hex(char c) {
     if (c >= '0' && c <= '9') return c - '0';
     if (c >= 'a' && c <= 'f') return c - 'a' + 10;
@@ -50,6 +54,7 @@ static void take_resources(Instance *m, const char *location) {
     m->resources[*from ? 0 : n] = '\0'; /* a path that is too long is none */
 }
 
+#ifdef READS_FILES
 #ifdef _WIN32
 /* UTF-8 to UTF-16: the C library takes bytes for letters of its own code page. */
 static FILE *open_file(const char *path) {
@@ -99,6 +104,21 @@ static int is_whole(FILE *file, uint32_t crc) {
     return 1;
 }
 
+#endif
+
+#ifdef PART_COMPILED_IN
+
+int load_part(Instance *m, const char *location, const char *guid) {
+    take_resources(m, location); /* where there are tables: nothing else is read */
+    m->part = COMPILED_PART[0];
+    if (guid && !strcmp(guid, m->part.guid)) return GOOD;
+    return fail(m, "%s: the description has the identifier %s, these sources have %s; they are of "
+                "different builds, use both from one FMU", m->part.name, guid ? guid : "none",
+                m->part.guid);
+}
+
+#else
+
 /* 1: read, 0: damaged or not for this library, -1: there is no such file. */
 static int read_part(Instance *m) {
     Part *part = &m->part;
@@ -131,12 +151,28 @@ int load_part(Instance *m, const char *location, const char *guid) {
                 shown_folder(m), part->guid);
 }
 
+#endif
+
 #if TABLE_ROOM > 0
 
 static int made_for(const double *table, const double *par) {
     return table[0] == TABLE_MAGIC
         && memcmp(table + TABLE_PARAMS, par, TABLE_N_PARAMS * sizeof *par) == 0;
 }
+
+#ifdef TABLE_COMPILED_IN
+
+static int try_file(Instance *m, int k) {
+    double *table = m->work + TABLE_AT;
+    if (k > 0) return -1;
+    memcpy(table, COMPILED_HEADER, TABLE_HEADER * sizeof *table);
+    for (int i = TABLE_HEADER; i < (int)table[TABLE_SIZE]; i++) {
+        table[i] = (double)COMPILED_TABLE[i - TABLE_HEADER];
+    }
+    return made_for(table, m->now.par);
+}
+
+#else
 
 /* Read the numbers behind the header; 0 if the file is cut off or damaged. */
 static int read_numbers(FILE *file, double *table) {
@@ -172,6 +208,8 @@ static int try_file(Instance *m, int k) {
     if (found != 1) table[0] = 0.0;
     return found;
 }
+
+#endif
 
 /* See to it that the table is there if the fidelity wants it. */
 int load_table(Instance *m) {

@@ -56,6 +56,12 @@ typedef struct {
     double ranges[2][AT_LEAST_ONE(NINP)][2]; /* of each input: the part's box, what was verified */
 } Part;
 
+/* In C sources the part is compiled in, in place of part.bin (PART_COMPILED_IN); where a model has
+   nothing but a table, that one too, header and numbers (TABLE_COMPILED_IN). */
+extern const Part COMPILED_PART[];
+extern const double COMPILED_HEADER[];
+extern const float COMPILED_TABLE[];
+
 typedef struct {
     Snap now;
     Solution undo;

@@ -188,7 +188,7 @@ static int is_sound(const Snap *s) {
             || s->mode == TERMINATED || s->mode == EVENTS;
     good &= (s->dirty == 0 || s->dirty == 1) && (s->prepared == 0 || s->prepared == 1);
     good &= s->n_early >= 0 && is_finite(s->row_end);
-    good &= s->latch >= 0 && s->latch <= STATUS_BAD_INPUT;
+    good &= s->latch >= 0 && s->latch <= STATUS_NOT_IN_MAP;
     for (int i = 0; i < N_VARIABLES; i++) {
         const Variable *v = &VARIABLES[i];
         refused += s->refused[i] != 0;

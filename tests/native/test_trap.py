@@ -160,6 +160,21 @@ def test_a_step_of_the_c_sources_takes_little_stack(host, of_sources, spec, rung
 
 
 @needs_gcc
+@sizes(2_000, 20_000)
+@pytest.mark.parametrize("also", [{"outside_map": 1}, {"outside_map": 2}], ids=["hold", "refuse"])
+def test_the_map_alone_takes_3_mb_and_little_stack_and_calls_for_nothing(host, also, n):
+    """Also outside its box, where the walk's hostile values are."""
+    fmu = built_fmu("ThrustWasher", local=True, fidelity="map")
+    (spec,) = [s for s in all_specs(alone=True) if s.kernel.endswith(".alone")]
+    found = unpack(fmu), unpack(fmu) / "binaries" / "linux64" / "ThrustWasher.so"
+    walk = walked(host, spec, "map", 10 * n, also, found)
+    judge(walk, n)
+    assert all(0 < int(bytes_) <= STACK for bytes_ in walk["stack"])
+    with Host(fmu, interface(spec), {}) as alone:
+        assert alone.memory() <= 3_000_000
+
+
+@needs_gcc
 @pytest.mark.parametrize("spec", all_specs(), ids=lambda spec: spec.key)
 def test_the_command_knows_the_memory_of_an_instance(spec, tmp_path):
     """``sizeof`` of the shell's own structure; the C library rounds up, to a page at most."""

@@ -20,6 +20,8 @@ OPTIONS = {
     "--out DIR": "the FMUs go to DIR/<target>-fmi<N>/<MODEL>.fmu; default dist",
     "--no-maps": "native only: leave out what the washer's fidelity map looks up (2.5 MB); it is "
     "refused then",
+    "--fidelity RUNG": "native only: an FMU of this fidelity alone; map: the washer without its "
+    "solver, in a tenth of the memory",
     "--tol X": "relative error of the torque allowed in the map of a part file's washer, which is "
     "built and kept if there is none; default 0.01",
     "--terminals": "put the plugs into FMI 2.0 FMUs too, where some tools call them an error",
@@ -90,6 +92,7 @@ def run(arguments: argparse.Namespace) -> int:
         oil=arguments.oil,
         c_sources=arguments.sources,
         plain_outputs=arguments.plain_outputs,
+        fidelity=arguments.fidelity,
     )
     specs = [spec for spec in _specs(arguments.models, parts) if oil and oil.parameters_for(spec)]
     if oil:

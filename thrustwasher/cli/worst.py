@@ -1,6 +1,8 @@
 """``thrustwasher worst``: how long the longest step of an FMU takes on this machine."""
 
 import argparse
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from ..errors import ParameterError
@@ -12,6 +14,7 @@ STEPS, MINUTES, SEED = 100_000, 1.0, 1  # by default
 HELP = "time the steps of the FMUs one by one here: mean, rare and longest, and what bounds them"
 OPTIONS = {
     "--fidelity RUNG": "this rung alone; default all rungs of the models",
+    "--alone": "the FMU of that rung alone (washer map): without the solver",
     "--steps N": f"steps of each of three walks, default {STEPS}; 10000000 for a table to keep",
     "--minutes X": f"longest time of a walk, which then has fewer steps, default {MINUTES:g}",
     "--seed N": f"of the first walk, default {SEED}",
@@ -64,11 +67,18 @@ def run(arguments: argparse.Namespace) -> int:
     from ..fmu.fmu_cache import fmu_paths
     from ..study.realtime.longest_step import measure
 
-    paths, found = fmu_paths([spec.name for spec in specs], "native"), []
-    for spec, rung in chosen:
-        show = _output.time_left(f"{spec.key} {rung}")
-        one = measure(spec, paths[spec.name], rung, settings=settings, progress=show, **how)
-        found.append(one)
+    found = []
+    with TemporaryDirectory() as folder:
+        if arguments.alone:
+            of_one = [find_model(spec.key).of_one_rung(spec, rung) for spec, rung in chosen]
+            built = [_alone(spec, rung, Path(folder)) for spec, rung in chosen]
+            chosen = [(spec, rung) for spec, (_, rung) in zip(of_one, chosen, strict=True)]
+        else:
+            paths = fmu_paths([spec.name for spec in specs], "native")
+            built = [paths[spec.name] for spec, _ in chosen]
+        for (spec, rung), path in zip(chosen, built, strict=True):
+            show = _output.time_left(f"{spec.key} {rung}")
+            found.append(measure(spec, path, rung, settings=settings, progress=show, **how))
     records = [_record(one) for one in found]
     targets.write(COLUMNS, {name: [record[name] for record in records] for name in COLUMNS})
     if arguments.json:
@@ -77,6 +87,14 @@ def run(arguments: argparse.Namespace) -> int:
     for record in records:
         _show(record)
     return 0
+
+
+def _alone(spec: Any, rung: str, folder: Path) -> Path:
+    """Build the FMU of one rung of a model for this machine."""
+    from ..fmu.build import build
+
+    (path,) = build([spec.name], out=folder, local=True, fidelity=rung, note=_output.note)
+    return path
 
 
 def _rungs(spec: Any, asked: str | None) -> list[str]:

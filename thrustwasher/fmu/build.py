@@ -10,8 +10,8 @@ from typing import Any
 from ..errors import ParameterError, SolveError, within
 from ..model.oil import Oil, refuse_two_ways, sheet_oil
 from ..model.part_file import PartFile, find_part, is_part, load_part
-from ..model.prepare import check_together
-from ..model.registry import all_specs, find_spec
+from ..model.prepare import check_together, with_box
+from ..model.registry import all_specs, find_model, find_spec
 from ..model.spec import ModelSpec
 from ..native.files import Note, write, zipped
 from ..native.link import this_platform
@@ -45,6 +45,7 @@ def build(
     oil: str | Mapping[str, Any] | None = None,
     c_sources: bool = False,
     plain_outputs: bool = False,
+    fidelity: str | None = None,
 ) -> list[Path]:
     """Build FMUs and return their paths, ``out/<target>-fmi<N>/<Model>.fmu``.
 
@@ -70,6 +71,8 @@ def build(
     c_sources : native only, put in the folder sources too: the same FMU as C99 for any compiler
     plain_outputs : enumerations and Booleans are local variables, not outputs: for hosts that read
         every output as a real number
+    fidelity : native only, "map": the washer with its map alone, without solver and without the
+        parameters that a map is made for; in a fraction of the memory
 
     Raises
     ------
@@ -77,10 +80,15 @@ def build(
     EnvironmentProblem : libraries that are not shipped, and no C compiler; the message says what to
         install
     """
-    _check(target, fmi, platforms, maps)
+    _check(target, fmi, platforms, maps and fidelity is None)
+    if fidelity is not None and not maps:
+        raise ParameterError("an FMU of the map alone needs its map; leave out --no-maps")
     if target == "python" and c_sources:
         raise ParameterError("C sources lie in native FMUs only; use --target native")
     specs = asked(models, oil)
+    if fidelity is not None:
+        specs = [find_model(spec.key).of_one_rung(spec, fidelity) for spec in specs]
+    specs = [with_box(spec) for spec in specs] if maps else specs
     say = note or (lambda _: None)
     if target == "python" and any(spec.kind for spec in specs):
         raise ParameterError("part files and oils are for native FMUs only; use --target native")
@@ -228,7 +236,7 @@ def contents(shown: Interface, folder: Path, order: Order, *, reference: bool) -
     else:
         own = _python_contents(shown, folder, guid)
     order.note(f"{spec.name}: {'reference results and documents' if reference else 'documents'}")
-    in_c = source_files(shown, order.fmi, order.note) if order.c_sources else {}
+    in_c = source_files(shown, order.fmi, order.note, guid) if order.c_sources else {}
     described = description(
         shown,
         fmi=order.fmi,

@@ -4,7 +4,7 @@ The kernel tests the rules between parameters, the texts in the interface say wh
 Courses of inputs over time are checked here too.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from importlib import import_module
 from typing import Any
@@ -17,7 +17,7 @@ from ..units import into_range
 from .parameters import as_numbers, check_rules
 from .registry import MODELS, find_model
 from .rungs import rung_named
-from .spec import ModelSpec, Tables
+from .spec import ModelSpec, Signal, Tables
 
 Array = NDArray[np.float64]
 
@@ -59,6 +59,31 @@ def wants_table(spec: ModelSpec, par: Any) -> bool:
     return bool(known) and par[int(known["SWITCH"])] == known["ON"]
 
 
+def with_box(spec: ModelSpec) -> ModelSpec:
+    """Return a model whose inputs' descriptions name the ends of its map's box, if it has one."""
+    tables = tables_of(spec)
+    if tables is None:
+        return spec
+    try:
+        box = tables.box(spec.table_of or spec.params())
+    except ParameterError:  # no map was made for it
+        return spec
+    return replace(spec, inputs=tuple(_told(s, box, tables.rung) for s in spec.inputs))
+
+
+def _told(signal: Signal, box: Mapping[str, tuple[float, float]], rung: str) -> Signal:
+    if signal.name not in box:
+        return signal
+    low, high = box[signal.name]
+    unit = "" if signal.unit == "1" else f" {signal.unit}"
+    return replace(signal, help=f"{signal.help}; fidelity {rung}: {low:g} .. {high:g}{unit}")
+
+
+def is_of_table(spec: ModelSpec, par: Any, place: int) -> bool:
+    """Tell if the parameter at a place of ``par`` is one that the table in use was made for."""
+    return wants_table(spec, par) and place < int(_known(spec)["N_PARAMS"])
+
+
 def fill_table(spec: ModelSpec, params: Any, par: Any, work: Any) -> None:
     """Put the table for ``params`` into ``work`` if the rung in ``par`` reads one.
 
@@ -68,7 +93,7 @@ def fill_table(spec: ModelSpec, params: Any, par: Any, work: Any) -> None:
         return
     known, tables = _known(spec), tables_of(spec)
     assert tables is not None
-    table = tables.find(params).data
+    table = tables.find(spec.table_of or params).data
     room = work[int(known["AT"]) :]
     if len(table) > len(room):
         raise ParameterError(

@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from ..errors import ParameterError
 from .spec import ModelSpec, Signal, Tables
 
 if TYPE_CHECKING:  # not every command needs numpy
@@ -170,6 +171,18 @@ class Model(ABC):
     def tables(self) -> Tables | None:
         """Return where one of its rungs looks its answers up; None if all of them solve."""
         return None
+
+    alone: tuple[str, ...] = ()  # rungs that there are FMUs of their own of
+
+    def of_one_rung(self, spec: ModelSpec, rung: str) -> ModelSpec:
+        """Return a model of this kind, or a part's, that has nothing but one of its rungs.
+
+        ParameterError if there is no such FMU.
+        """
+        raise ParameterError(
+            f"fidelity = {rung!r} alone, for {spec.name}, allowed: "
+            + (" or ".join(map(repr, self.alone)) or "none; its FMU has all of its fidelities")
+        )
 
     @property
     def sweep(self) -> Sweep:

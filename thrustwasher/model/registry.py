@@ -89,9 +89,16 @@ def find_spec(name: str) -> ModelSpec:
     return found
 
 
-def all_specs(*, helpers: bool = False) -> list[ModelSpec]:
-    """Return the interfaces of all models, in the order they are built; ``helpers``: those too."""
-    return [model.spec for model in (*all_models(), *map(find_model, HELPERS if helpers else ()))]
+def all_specs(*, helpers: bool = False, alone: bool = False) -> list[ModelSpec]:
+    """Return the interfaces of all models, in the order they are built.
+
+    ``helpers``: those too; ``alone``: those of one rung too, behind all others.
+    """
+    models = [*all_models(), *map(find_model, HELPERS if helpers else ())]
+    found = [model.spec for model in models]
+    if alone:
+        found += [model.of_one_rung(model.spec, rung) for model in models for rung in model.alone]
+    return found
 
 
 def spec_of(name: str) -> ModelSpec:

@@ -168,6 +168,8 @@ class ModelSpec:
     kind: str = ""
     box: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     notes: str = ""
+    # Of a model that only looks up: the parameters that its table was made for.
+    table_of: Any = None
     # Fidelities that are gone -> the next better one, which the kernel runs under their number.
     successors: Mapping[str, str] = field(default_factory=dict)
 

@@ -39,6 +39,7 @@ class Washer(Model):
     """The thrust washer."""
 
     key = "washer"
+    alone = ("map",)
     wiring = (
         "The model is quasi-steady: the step only decides how finely the inputs are followed.",
         "Near the load at which the film is lost the torque jumps: a master that iterates should "
@@ -112,6 +113,14 @@ class Washer(Model):
         from .map.map_tables import TABLES
 
         return TABLES
+
+    def of_one_rung(self, spec: ModelSpec, rung: str) -> ModelSpec:
+        """Return a washer that only looks up in its map."""
+        if rung not in self.alone:
+            return super().of_one_rung(spec, rung)
+        from .map.map_alone import map_alone
+
+        return map_alone(spec)
 
     @property
     def sweep(self) -> Sweep:

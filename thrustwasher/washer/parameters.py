@@ -55,6 +55,11 @@ THERMAL_MODES = {
     "quasi_steady": "steady temperatures at every instant",
     "transient": "carrier, washer and gear store heat (fidelity field or fine)",
 }
+OUTSIDE_MAP = {
+    "hold": "stay at the nearest point of the box: bounded, and off by what lies between",
+    "refuse": "no answer: the step fails with NOT_IN_MAP",
+    "solve": "solve the field: right, and a thousand times slower than a look-up",
+}
 THERMAL_STARTS = {
     "steady": "as warm as the first operating point makes it",
     "oil": "everything at oil temperature",
@@ -360,6 +365,9 @@ class WasherParams:
     holding: str = holding_choice("the washer")
     coupling_inertia: float = coupling_inertia()
     coupling_age: int = coupling_age()
+    outside_map: str = choice(
+        "solve", OUTSIDE_MAP, "OutsideMap", "what fidelity map does outside its box", of_a_run=True
+    )
 
     @classmethod
     def preset(cls, name: str, **changes: Any) -> "WasherParams":

@@ -34,8 +34,9 @@ BOTH = (
     "a solution too, which one a washer is on depends on how it came there; this one is {!r}"
 )
 NOT_IN_MAP = (
-    "fidelity = 'map' has no answer here, outside its box or without tilt: solved with 'field', "
-    "which takes some ten times as long; build a map for a larger box, or choose 'field'"
+    "fidelity = 'map' has no answer here, outside its box or without tilt: solved with 'field' "
+    "(outside_map = 'solve'), which takes some hundred times as long; build a map for a larger "
+    "box, or choose 'field'"
 )
 OK = Status.OK
 LARGEST_GRID = (129, 512)
@@ -153,8 +154,8 @@ def solve_washer(
     tilt : of the gear [rad], 0 .. 0.01
     oil_temperature : [K], 233.15 .. 473.15
     far_face_temperature : [K] at the gear's far face, with ``gear_far_face = "bulk"``; 0: the oil's
-    fidelity : "field" (10 x 32 nodes), "fine" (19 x 64) or "map", which answers outside its box
-        with the field; the result says so
+    fidelity : "field" (10 x 32 nodes), "fine" (19 x 64) or "map", which does outside its box what
+        ``params.outside_map`` says; the result's status is OUTSIDE_MAP there
     grid : (n_r, n_theta), overrides the nodes of the fidelity
     branch : "film" or "contact", the one to take where several solutions exist; without it the
         branch of ``start``, else the film branch up to its fold and the contact branch beyond
@@ -195,9 +196,11 @@ def solve_washer(
         if grid is not None:
             raise ParameterError(f"grid = {grid!r}, allowed: none; fidelity 'map' has no mesh")
         found = _map_solver()(params, point, preferred, start)
-        if not found:  # outside the map
-            rung, messages = "field", (NOT_IN_MAP,)
-    result = found or _solve(params, point, rung, nodes, preferred, start, grid is None)
+    leaves = rung == "map" and not found
+    solver = "field" if leaves else rung
+    result = found or _solve(params, point, solver, nodes, preferred, start, grid is None)
+    if leaves:
+        result = _told_outside()(result, NOT_IN_MAP)
     if messages:
         result = replace(result, warnings=(*messages, *result.warnings))
     if grid is not None and nodes[0] >= 9 and nodes[1] >= 16:
@@ -233,6 +236,13 @@ def _map_solver() -> Any:
     from .map.look_up import solve_by_map
 
     return solve_by_map
+
+
+def _told_outside() -> Any:
+    """Return what says of a result that it lies outside its map."""
+    from .map.look_up import told_outside
+
+    return told_outside
 
 
 def doubt_of_rows(params: WasherParams, fidelity: str, points: Array) -> str:

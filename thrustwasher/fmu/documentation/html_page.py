@@ -63,7 +63,7 @@ def accuracy(spec: ModelSpec) -> Rows:
             *(shown_error(rung.worst_anywhere(q, chart), unit) for q, unit in QUANTITIES.items()),
             f"version {table.version}",
         )
-        for table in load_tables(spec.key, spec.params())
+        for table in load_tables(spec.key, spec.table_of or spec.params())
         for rung in table.rungs
         for chart in rung.charts
         if table.name == "default" or (own and not table.stale(rung))
@@ -76,7 +76,7 @@ def _of_map(spec: ModelSpec) -> Rows:
     if tables is None or not spec.kind:
         return []
     try:
-        card: dict[str, Any] = tables.find(spec.params()).card
+        card: dict[str, Any] = tables.find(spec.table_of or spec.params()).card
     except ParameterError:  # no map was made for it
         return []
     held, units = card["held_out"], {s.name: s.unit for s in spec.inputs}

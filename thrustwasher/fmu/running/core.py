@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status
-from ...model.prepare import fill_table, wants_table
+from ...model.prepare import fill_table, is_of_table, wants_table
 from ...model.registry import kernel_of
 from ...model.rungs import gone_rung
 from ...native.load import bound
@@ -141,7 +141,7 @@ class Core:
         """Tell if an input or parameter may be set now; a map is for one set of parameters."""
         if v.causality == "input" or self.mode < Mode.STEPPING:
             return True
-        held = wants_table(self.spec, self.par)
+        held = is_of_table(self.spec, self.par, v.slot)
         return v.variability == "tunable" and self.mode == Mode.STEPPING and not held
 
     def get(self, references: Sequence[int], kind: str) -> list[float]:

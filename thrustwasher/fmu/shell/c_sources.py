@@ -8,6 +8,7 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from ...model.registry import kernel_of
 from ...native import digest, shipped
 from ...native.files import Note
 from ...native.portable import identity, portable
@@ -15,6 +16,7 @@ from ...templates import filled
 from ..description.interface import Interface
 from ..package.model_sources import source_folder
 from . import c_tables
+from .platform_libraries import table_alone
 
 FOLDER, BUILD, NAMES = "sources", "buildDescription.xml", "names.h"
 COMPILED_KERNELS = "dispatch.c"  # of the shell: for objects; that of the folder portable is taken
@@ -28,8 +30,11 @@ def is_shipped(kernel: str) -> bool:
     return bool(shipped.portable(kernel, identity(kernel)))
 
 
-def source_files(shown: Interface, fmi: int, note: Note) -> dict[str, bytes]:
+def source_files(shown: Interface, fmi: int, note: Note, guid: str) -> dict[str, bytes]:
     """Return file name -> content of the folder sources, for one version of FMI.
+
+    What part.bin says, ``guid`` among it, is compiled in, and the map of a model that has nothing
+    else: these sources read no file, but for a washer's maps beside its solver.
 
     The C of the kernels is what is shipped; of a model without it is made now, which takes wasm2c
     and zig (EnvironmentProblem says so).
@@ -43,7 +48,13 @@ def source_files(shown: Interface, fmi: int, note: Note) -> dict[str, bytes]:
     }
     found |= {name: text.encode() for name, text in c_tables.sources(shown).items()}
     found |= kernel_in_c(spec.kernel, note)
-    found[NAMES] = _names(spec.name, found).encode()
+    found[c_tables.PART_IN_C] = c_tables.part_in_c(shown, guid).encode()
+    table = table_alone(spec)
+    if table:
+        found[c_tables.TABLE_IN_C] = c_tables.table_in_c(
+            table, kernel_of(spec).TABLE["HEADER"]
+        ).encode()
+    found[NAMES] = _names(spec.name, found, bool(table)).encode()
     for name in found:
         if name.endswith(".c"):
             found[name] = f'#include "{NAMES}"\n'.encode() + found[name]
@@ -73,7 +84,7 @@ def _c_files(folder: Path) -> list[Path]:
     return sorted(f for f in folder.iterdir() if f.suffix in (".c", ".h"))
 
 
-def _names(model: str, files: Mapping[str, bytes]) -> str:
+def _names(model: str, files: Mapping[str, bytes], has_table: bool) -> str:
     """Return the header that puts the model's name in front of what the files share."""
     texts = [text.decode() for name, text in files.items() if name.endswith(".h")]
     shared = {name for text in texts for kind in (DECLARED, TABLE) for name in kind.findall(text)}
@@ -91,6 +102,9 @@ def _names(model: str, files: Mapping[str, bytes]) -> str:
                 for fmi in c_tables.VERSIONS
             ),
             *(f"#define {name} {model}_{name}" for name in sorted(shared)),
+            "",
+            "#define PART_COMPILED_IN",
+            *(["#define TABLE_COMPILED_IN"] if has_table else []),
             "",
             "#endif",
             "",

@@ -10,6 +10,8 @@ from collections.abc import Iterable, Sequence
 from functools import cache
 from typing import Any
 
+import numpy as np
+
 from ...errors import FIRST_FAILURE, Status
 from ...model.registry import kernel_of
 from ...model.rungs import gone_rung
@@ -30,6 +32,7 @@ SHELL_FILES = tuple(
 )
 VERSIONS = (2, 3)  # of FMI, both in one library
 PART, MAGIC, WORD = "part.bin", b"twpart2\0", 64  # as in shell.h
+PART_IN_C, TABLE_IN_C = "part.c", "table.c"
 
 
 def sources(shown: Interface) -> dict[str, str]:
@@ -56,13 +59,61 @@ def part_file(shown: Interface, guid: str) -> bytes:
     ``guid`` is what the description calls guid (FMI 2) or instantiationToken (FMI 3).
     """
     words = (text.encode().ljust(WORD, b"\0") for text in (guid, shown.spec.name))
-    starts = [v.start or 0.0 for v in shown.variables]
-    ranges = shown.ranges(max(kernel_of(shown.spec).NINP, 1))
+    starts, ranges = _of_part(shown)
     numbers = [*starts, *(x for pairs in ranges for pair in pairs for x in pair)]
     body = b"".join(
         (MAGIC, build_of(shown).encode(), *words, struct.pack(f"<{len(numbers)}d", *numbers))
     )
     return body + struct.pack("<I", zlib.crc32(body))
+
+
+def _of_part(shown: Interface) -> tuple[list[float], tuple[list[tuple[float, float]], ...]]:
+    """Return start values of all variables, and both ranges of each input."""
+    starts = [v.start or 0.0 for v in shown.variables]
+    return starts, shown.ranges(max(kernel_of(shown.spec).NINP, 1))
+
+
+def part_in_c(shown: Interface, guid: str) -> str:
+    """Return the same as ``part_file`` as C source."""
+    starts, ranges = _of_part(shown)
+    build = ", ".join(map(repr, build_of(shown)))
+    words = f'"{MAGIC[:-1].decode()}", {{{build}}}, {_text(guid)}'
+    pairs = (", ".join(_floats(pair) for pair in pairs) for pairs in ranges)
+    return "\n".join(
+        [
+            "/* Generated: what this FMU says of its own. */",
+            '#include "shell.h"',
+            "",
+            f"const Part COMPILED_PART[] = {{{{{words}, {_text(shown.spec.name)},",
+            f"    {_floats(starts)},",
+            f"    {{{', '.join(f'{{{row}}}' for row in pairs)}}}}}}};",
+            "",
+        ]
+    )
+
+
+def table_in_c(file: bytes, n: int) -> str:
+    """Return a table, given as its file, as C source: ``n`` numbers of its header, the others."""
+    header = struct.unpack_from(f"<{n}d", file)
+    numbers = np.frombuffer(file, "<f4", offset=8 * n, count=(len(file) - 8 * n - 4) // 4)
+    rows = [f"{x!s}f," if "." in str(x) or "e" in str(x) else f"{x!s}.0f," for x in numbers]
+    lines = ("".join(rows[k : k + 8]) for k in range(0, len(rows), 8))
+    return "\n".join(
+        [
+            "/* Generated: the table this model looks its answers up in. */",
+            '#include "shell.h"',
+            "",
+            f"const double COMPILED_HEADER[] = {_floats(header)};",
+            "const float COMPILED_TABLE[] = {",
+            *lines,
+            "};",
+            "",
+        ]
+    )
+
+
+def _floats(values: Iterable[float]) -> str:
+    return "{" + ", ".join(float(x).hex() for x in values) + "}"
 
 
 class _Code(str):

@@ -102,11 +102,21 @@ def _maps(spec: ModelSpec, local: bool) -> list[bytes]:
     tables = tables_of(spec)
     if tables is None:
         return []
+    if table := table_alone(spec):
+        return [table]
     if not spec.kind:
         return [tables.resource(file) for file in tables.readable(not local)]
     with suppress(ParameterError):  # there is none for its parameters
         return [tables.resource(tables.find(spec.params()))]
     return []
+
+
+def table_alone(spec: ModelSpec) -> bytes:
+    """Return the table of a model that only looks up, as a file; empty for all others."""
+    tables = tables_of(spec)
+    if tables is None or spec.table_of is None:
+        return b""
+    return tables.resource(tables.find(spec.table_of))
 
 
 def is_shipped(spec: ModelSpec) -> bool:

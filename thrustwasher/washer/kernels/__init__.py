@@ -19,7 +19,7 @@
 ``directional_derivative``  derivatives of the outputs, from the factored heat balance
 ``parameter_derivative``    the same over parameters
 ``regime_and_status``       rules between parameters, inputs that are bad, regime and status
-``map``                     look-up in a map
+``map``                     look-up in a map; as a model of its own
 ``step``                    the washer behind the step ABI
 ==========================  ========================================================================
 """
@@ -49,5 +49,8 @@ CALLED = {
         "thrustwasher.washer.kernels.step: derive sens step",
         "thrustwasher.washer.kernels.map.map_rows.look_up_rows rows out found",
         "thrustwasher.washer.kernels.map.map_rows.map_folds folds",
+    ),
+    "thrustwasher.washer.kernels.map.alone": (
+        "thrustwasher.washer.kernels.map.alone: derive sens step",
     ),
 }

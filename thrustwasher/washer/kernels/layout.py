@@ -58,7 +58,7 @@ P_CONDUCTIVITY = 26
 ) = range(30, 51)
 P_DENSITY, P_SPECIFIC_HEAT = 51, 55
 P_BODY_STORAGE, P_THERMAL_START, P_HOLDING, P_COUPLING_INERTIA, P_COUPLING_AGE = range(59, 64)
-P_FIDELITY, N_PARAM = 64, 65
+P_OUTSIDE_MAP, P_FIDELITY, N_PARAM = 64, 65, 66
 N_STEADY = P_THERMAL_MODE  # a steady solution depends on those before; what follows is of time
 OF_CARRIER, OF_WASHER, OF_GEAR = 1, 2, 3  # places of a body's own property behind the common one
 CONTACT_YIELD, SUMMIT_HEIGHTS, CONSTANT_FRICTION = 2.0, 2.0, 2.0  # values of the laws
@@ -66,6 +66,7 @@ IN_ALL, ONLY_CARRIER, ONLY_ROTATING = 1.0, 2.0, 3.0  # of conduction
 ONLY_LIQUID, LUMPED = 2.0, 2.0  # of cavity_shear and body_storage
 INSULATED, BULK = 2.0, 3.0  # of gear_far_face
 QUASI_STEADY, TRANSIENT, FROM_OIL = 1.0, 2.0, 2.0
+HOLD, REFUSE, SOLVE = 1.0, 2.0, 3.0  # of outside_map
 MAP, FIELD, FINE = 1, 3, 4  # fidelity; 2 was coarser and runs as FIELD
 # Behind them: nodes, and the radial one at the gear's inner radius; RMS roughness of film 1 and
 # gap 2 [m]; (carrier^2 - washer^2)/film 1^2; means and scatters of the summits [m].

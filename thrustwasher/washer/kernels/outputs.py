@@ -3,9 +3,14 @@
 import numpy as np
 
 from ...numerics.arrays import are_finite
-from ...numerics.jit import Array, inlined, kernel
+from ...numerics.jit import Array, Ints, inlined, kernel
 from ...numerics.smoothing import sign_of
-from ...numerics.status import NOT_FINITE, OK
+from ...numerics.status import CHATTER, NOT_FINITE, OK
+from ...tribology.holding import memory as M
+from ...tribology.holding.drag import hold_drag
+from ...tribology.holding.memory import Coupling
+from ...tribology.holding.reversals import chatters
+from ...tribology.holding.torque import knows
 from . import layout as L
 from .constants import WasherModel
 from .gap import dry_friction, film_change
@@ -259,3 +264,82 @@ def change_of_outputs(
             relative += slope * change.load / f.small[L.FRICTION2]
         dout[L.O_STICK_MARGIN] = out[L.O_STICK_MARGIN] * relative
     return OK if are_finite(dout) else NOT_FINITE
+
+
+@kernel
+def book(made: float, kept: float, dt: float, state: Array, out: Array) -> None:
+    """Fill the heats of a step: what is made [J] and not kept in the bodies reaches the oil."""
+    out[L.O_ENERGY] = state[L.S_ENERGY] + made
+    out[L.O_STORED_HEAT] = state[L.S_STORED_HEAT] + kept
+    out[L.O_OIL_ENERGY] = out[L.O_ENERGY] - out[L.O_STORED_HEAT]
+    if dt > 0.0:
+        out[L.O_OIL_HEAT] = made / dt - kept / dt
+
+
+@kernel
+def keep_book(out: Array, state: Array) -> None:
+    """Remember the heats of a step."""
+    state[L.S_ENERGY], state[L.S_STORED_HEAT] = out[L.O_ENERGY], out[L.O_STORED_HEAT]
+
+
+@kernel
+def hold_outputs(
+    way: Coupling, mem: Array, speed: float, dt: float, out: Array, iout: Ints
+) -> None:
+    """Let what hangs on the torque of sliding belong to that of a washer that holds its shaft.
+
+    What a torque below that of sliding makes less of heat reaches the oil less; gap 2 holds what it
+    holds.
+    """
+    torque = out[L.O_TORQUE]
+    given, _, _ = hold_drag(way, mem, speed, dt, torque, abs(torque))
+    if given != torque:
+        if torque != 0.0:
+            share = abs(given / torque)
+            out[L.O_COEFFICIENT] *= share
+            if out[L.O_STICK_MARGIN] < MOST_MARGIN * share:
+                out[L.O_STICK_MARGIN] /= share
+            else:
+                out[L.O_STICK_MARGIN] = MOST_MARGIN
+        out[L.O_TORQUE], out[L.O_POWER] = given, given * speed
+        out[L.O_OIL_HEAT] += (given - torque) * speed
+        out[L.O_ENERGY] += (given - torque) * speed * dt
+        out[L.O_OIL_ENERGY] = out[L.O_ENERGY] - out[L.O_STORED_HEAT]
+    if chatters(mem):
+        iout[L.IO_STATUS] = CHATTER
+
+
+@kernel
+def _hold_changes(own: Array, given: float, rise: float, dout: Array) -> None:
+    """Change what hangs on the torque, ``own`` and ``dout`` of sliding, to a torque that holds.
+
+    ``rise``: its change [N m].
+    """
+    if own[L.O_TORQUE] == 0.0 or given == 0.0:
+        return
+    share = abs(given / own[L.O_TORQUE])
+    more = rise / given - dout[L.O_TORQUE] / own[L.O_TORQUE]
+    dout[L.O_COEFFICIENT] = share * (dout[L.O_COEFFICIENT] + own[L.O_COEFFICIENT] * more)
+    margin, dmargin = own[L.O_STICK_MARGIN], dout[L.O_STICK_MARGIN]
+    dout[L.O_STICK_MARGIN] = 0.0
+    if margin < MOST_MARGIN * share:
+        dout[L.O_STICK_MARGIN] = (dmargin - margin * more) / share
+
+
+@kernel
+def hold_slopes(
+    way: Coupling, mem: Array, speed: float, change: float, own: Array, dout: Array
+) -> None:
+    """Turn the slopes of the outputs to the law's where it ends the speed with the step.
+
+    ``change`` of the speed; ``own``: outputs of sliding.
+    """
+    torque = own[L.O_TORQUE]
+    if knows(way, mem, mem[M.STEP]) and speed != mem[M.SLIP]:
+        given, holds, slope = hold_drag(way, mem, speed, 0.0, torque, abs(torque))
+        if holds:
+            _hold_changes(own, given, slope * change, dout)
+            less = dout[L.O_POWER]
+            dout[L.O_TORQUE] = slope * change
+            dout[L.O_POWER] = slope * change * speed + given * change
+            dout[L.O_OIL_HEAT] += dout[L.O_POWER] - less

@@ -6,7 +6,7 @@ import math
 import numpy as np
 
 from ...numerics.jit import Array, Ints, kernel
-from ...numerics.status import DISTRESS, HOT, OK, OUTSIDE_VERIFIED
+from ...numerics.status import DISTRESS, HOT, OK, OUTSIDE_MAP, OUTSIDE_VERIFIED
 from . import layout as L
 from .constants import combined_roughness, contact_pair, summits
 from .workspace import Point
@@ -132,6 +132,13 @@ def regime_of(ratio: float) -> int:
     if ratio > 3.0:
         return FILM
     return MIXED if ratio >= 1.0 else BOUNDARY
+
+
+@kernel
+def tell_outside_map(iout: Ints) -> None:
+    """Say that the point is not in the map's box, unless there is worse to say."""
+    if iout[L.IO_STATUS] == OK or iout[L.IO_STATUS] == OUTSIDE_VERIFIED:
+        iout[L.IO_STATUS] = OUTSIDE_MAP
 
 
 @kernel

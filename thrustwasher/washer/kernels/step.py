@@ -5,12 +5,9 @@ The map is a look-up; the other rungs are one kernel on meshes.
 
 from ...numerics.arrays import clear, copy
 from ...numerics.jit import Array, Ints, inlined, kernel
-from ...numerics.status import BAD_INPUT, CHATTER, NO_BRANCH, NOT_FINITE, OK, SINGULAR
-from ...tribology.holding import memory as M
-from ...tribology.holding.drag import hold_drag
+from ...numerics.status import BAD_INPUT, NO_BRANCH, NOT_FINITE, OK, SINGULAR
 from ...tribology.holding.memory import N_MEMORY, Coupling
 from ...tribology.holding.reversals import chatters
-from ...tribology.holding.torque import knows
 from . import layout as L
 from .constants import derive_grid, size_of_par
 from .directional_derivative import differentiate
@@ -19,9 +16,17 @@ from .ladder import set_held, start_terms, stored_heat
 from .layout import N_PARAM, NINP, NIOUT, NOUT
 from .map.map_layout import DATA, MAGIC, PARAMS, ROOM, SIZE
 from .map.map_step import N_MAP_WORK, NOT_HERE, map_sens, map_step
-from .outputs import MOST_MARGIN, outputs_at, stick_margin
+from .outputs import book, hold_outputs, hold_slopes, keep_book, outputs_at, stick_margin
 from .parameter_derivative import SHARES, add_share_slope
-from .regime_and_status import BOUNDARY, broken_rule, change_of, is_bad, judge, point_of
+from .regime_and_status import (
+    BOUNDARY,
+    broken_rule,
+    change_of,
+    is_bad,
+    judge,
+    point_of,
+    tell_outside_map,
+)
 from .solve import end_of_budget, is_distressed, keep_solution, solve
 from .transient import advance_heat, look_for_folds, name_branch, start_cold, take_up
 from .workspace import (
@@ -106,21 +111,6 @@ def _in_time(
 
 
 @kernel
-def _book(made: float, kept: float, dt: float, state: Array, out: Array) -> None:
-    """Fill the heats of a step: what is made [J] and not kept in the bodies reaches the oil."""
-    out[L.O_ENERGY] = state[L.S_ENERGY] + made
-    out[L.O_STORED_HEAT] = state[L.S_STORED_HEAT] + kept
-    out[L.O_OIL_ENERGY] = out[L.O_ENERGY] - out[L.O_STORED_HEAT]
-    if dt > 0.0:
-        out[L.O_OIL_HEAT] = made / dt - kept / dt
-
-
-@kernel
-def _keep_book(out: Array, state: Array) -> None:
-    state[L.S_ENERGY], state[L.S_STORED_HEAT] = out[L.O_ENERGY], out[L.O_STORED_HEAT]
-
-
-@kernel
 def coupling_of(par: Array) -> Coupling:
     """Return how the washer holds where its shaft could stand."""
     return int(par[L.P_HOLDING]), par[L.P_COUPLING_INERTIA], int(par[L.P_COUPLING_AGE]), 0.0, False
@@ -135,40 +125,17 @@ def step(
     if status != OK:
         return status
     mem = state[L.S_MEMORY : L.S_MEMORY + N_MEMORY]
-    speed, torque = inp[L.I_SPEED], out[L.O_TORQUE]
-    given, _, _ = hold_drag(coupling_of(par), mem, speed, dt, torque, abs(torque))
-    if given != torque:
-        _hold_outputs(workspace_of(par, work), work[BY_MAP] == 1.0, given, speed, out)
-        out[L.O_ENERGY] += (given - torque) * speed * dt
-        out[L.O_OIL_ENERGY] = out[L.O_ENERGY] - out[L.O_STORED_HEAT]
-        if dt > 0.0:
-            _keep_book(out, state)
-    if chatters(mem):
-        iout[L.IO_STATUS] = CHATTER
-        if par[L.P_THERMAL_MODE] == L.TRANSIENT and dt > 0.0:
-            out[L.O_ADVISED] = min(out[L.O_ADVISED], LESS * dt)
-    return status
-
-
-@kernel
-def _hold_outputs(w: Workspace, by_map: bool, given: float, speed: float, out: Array) -> None:
-    """Let what hangs on the friction torque [N m] belong to the one that is given.
-
-    What a torque below that of sliding makes less of heat reaches the oil less; gap 2 holds what it
-    holds.
-    """
     torque = out[L.O_TORQUE]
-    if torque != 0.0:
-        share = abs(given / torque)
-        out[L.O_COEFFICIENT] *= share
-        if out[L.O_STICK_MARGIN] < MOST_MARGIN * share:
-            out[L.O_STICK_MARGIN] /= share
-        else:
-            out[L.O_STICK_MARGIN] = MOST_MARGIN
-    elif not by_map:
-        out[L.O_STICK_MARGIN] = stick_margin(model_of(w), fields_of(w), given)
-    out[L.O_OIL_HEAT] += (given - torque) * speed
-    out[L.O_TORQUE], out[L.O_POWER] = given, given * speed
+    hold_outputs(coupling_of(par), mem, inp[L.I_SPEED], dt, out, iout)
+    if out[L.O_TORQUE] != torque:
+        if torque == 0.0 and work[BY_MAP] != 1.0:
+            w = workspace_of(par, work)
+            out[L.O_STICK_MARGIN] = stick_margin(model_of(w), fields_of(w), out[L.O_TORQUE])
+        if dt > 0.0:
+            keep_book(out, state)
+    if chatters(mem) and par[L.P_THERMAL_MODE] == L.TRANSIENT and dt > 0.0:
+        out[L.O_ADVISED] = min(out[L.O_ADVISED], LESS * dt)
+    return status
 
 
 @kernel
@@ -204,9 +171,9 @@ def slide(
             dt,
         )
         if status == OK:
-            _book(out[L.O_POWER] * dt, 0.0, dt, state, out)
+            book(out[L.O_POWER] * dt, 0.0, dt, state, out)
             if dt > 0.0:
-                _keep_book(out, state)
+                keep_book(out, state)
         if status != NOT_HERE:
             return status
         work[BY_MAP] = 0.0
@@ -234,7 +201,7 @@ def slide(
     if not in_time:
         made = out[L.O_POWER] * dt
         out[L.O_OIL_HEAT] = out[L.O_POWER]
-    _book(made, kept, dt, state, out)
+    book(made, kept, dt, state, out)
     if in_time:
         out[L.O_ADVISED] = substep if dt > 0.0 else state[L.S_SUBSTEP]
     lost = in_time and name_branch(w, w.outputs[L.O_RATIO], w.outputs[L.O_FLUID_SHARE])
@@ -242,12 +209,14 @@ def slide(
         keep_solution(w, pt, state)
         state[L.S_MAP_BRANCH] = 0.0
         state[L.S_SUBSTEP] = substep
-        _keep_book(out, state)
+        keep_book(out, state)
         if lost:
             look_for_folds(w, pt, state)
     if in_time and (dt > 0.0 or not fresh or par[L.P_THERMAL_START] == L.FROM_OIL):
         set_held(w, dt)
     judge(pt, out, is_distressed(w, out[L.O_MEAN] - pt.oil_temperature), status, iout)
+    if fidelity == L.MAP:
+        tell_outside_map(iout)
     return status
 
 
@@ -259,34 +228,10 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
     """
     status = slide_sens(par, inp, state, work, seed, dout)
     mem = state[L.S_MEMORY : L.S_MEMORY + N_MEMORY]
-    if status == OK and knows(coupling_of(par), mem, mem[M.STEP]) and inp[L.I_SPEED] != mem[M.SLIP]:
-        torque = workspace_of(par, work).outputs[L.O_TORQUE]
-        speed, change = inp[L.I_SPEED], seed[L.I_SPEED]
-        given, holds, slope = hold_drag(coupling_of(par), mem, speed, 0.0, torque, abs(torque))
-        if holds:
-            _hold_changes(workspace_of(par, work).outputs, given, slope * change, dout)
-            less = dout[L.O_POWER]
-            dout[L.O_TORQUE] = slope * change
-            dout[L.O_POWER] = slope * change * speed + given * change
-            dout[L.O_OIL_HEAT] += dout[L.O_POWER] - less
+    if status == OK:
+        own = workspace_of(par, work).outputs
+        hold_slopes(coupling_of(par), mem, inp[L.I_SPEED], seed[L.I_SPEED], own, dout)
     return status
-
-
-@kernel
-def _hold_changes(own: Array, given: float, rise: float, dout: Array) -> None:
-    """Change what hangs on the torque, ``own`` and ``dout`` of sliding, to a torque that holds.
-
-    ``rise``: its change [N m].
-    """
-    if own[L.O_TORQUE] == 0.0 or given == 0.0:
-        return
-    share = abs(given / own[L.O_TORQUE])
-    more = rise / given - dout[L.O_TORQUE] / own[L.O_TORQUE]
-    dout[L.O_COEFFICIENT] = share * (dout[L.O_COEFFICIENT] + own[L.O_COEFFICIENT] * more)
-    margin, dmargin = own[L.O_STICK_MARGIN], dout[L.O_STICK_MARGIN]
-    dout[L.O_STICK_MARGIN] = 0.0
-    if margin < MOST_MARGIN * share:
-        dout[L.O_STICK_MARGIN] = (dmargin - margin * more) / share
 
 
 @kernel

@@ -4,6 +4,7 @@ import math
 import os
 import threading
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,15 @@ from .map_plan import INPUTS
 OUTPUTS = (*SPEC.real_outputs[: L.O_ENERGY], "fluid_load", "contact_load")
 PLACES = (*range(L.O_ENERGY), L.O_FLUID_LOAD, L.O_CONTACT_LOAD)  # of them
 NOTHING = (math.nan,) * L.N_ALL
+OUTSIDE = {  # outside_map -> what became of points there
+    "solve": "were solved by 'field', with its accuracy and time",
+    "hold": "have the answer of the box's nearest point (outside_map = 'hold')",
+    "refuse": "have no answer (outside_map = 'refuse')",
+}
+HELD = (
+    "answered by the nearest point of the box (outside_map = 'hold'); build a map for a larger "
+    "box, or set outside_map = 'solve'"
+)
 
 
 class _Memory(threading.local):
@@ -149,6 +159,7 @@ class _Solver:
         data, self.path, self.stamp = file.data, str(file.path), map_file.stamp_of(file.path)
         work, self.state = np.zeros(N_MAP_WORK), np.zeros(L.S_FIELDS)
         self.numbers, self.branch, self.tilts = np.zeros(L.N_ALL), np.zeros(2), np.zeros(2)
+        self.look_up_in = data
         self.look_up = bound(
             look_up, data=data, state=self.state, w=work, out=self.numbers, branch=self.branch
         )
@@ -174,42 +185,91 @@ def solve_by_map(
     """Return the state at a point by look-up, None where the map says nothing.
 
     ``required`` is 0, 1 (film) or 3 (contact); ``start`` an earlier result whose branch goes on.
-    ParameterError: there is no map for these parameters.
+    With ``outside_map = "hold"`` a point outside the box has the answer of the nearest one in it.
+    ParameterError: there is no map for these parameters, or it is left with ``"refuse"``.
     """
     if params.gear_far_face == "bulk":
         raise ParameterError(
             "fidelity = 'map' with gear_far_face = 'bulk', allowed: 'oil' or 'insulated'; a map "
             "has no far_face_temperature: use fidelity 'field'"
         )
-    if point[2] <= LEAST_TILT:
-        _solver(params)  # there has to be one
-        return None
     solver, state = _solver(params), np.zeros(L.S_FIELDS)
+    beyond = words_of_outside(solver.look_up_in, point)
+    if beyond and params.outside_map == "refuse":
+        raise ParameterError(
+            f"{beyond}: fidelity = 'map' with outside_map = 'refuse'; keep to the box, build a map "
+            "for a larger one, or set outside_map = 'hold' or 'solve'"
+        )
+    if beyond and params.outside_map == "solve":
+        return None
+    place = _nearest(solver.look_up_in, point) if beyond else point
     before, ratio = 0.0, 0.0
     if start is not None and start.branch in BRANCHES:
         if start.params is params or start.params == params:
             before, ratio = BRANCHES[start.branch], start.film_ratio
     solver.state[L.S_MAP_BRANCH], solver.state[L.S_MAP_RATIO] = before, ratio
-    status = solver.look_up(Point(*point), required)
+    status = solver.look_up(Point(*place), required)
     if status == NOT_HERE:
-        return None
+        if params.outside_map == "solve":
+            return None
+        status = Status.NOT_IN_MAP
     numbers: Sequence[float] = NOTHING
     tilts, name, lost = NOTHING[:2], "film", False
     if status == Status.OK:
         solver.tilt()
         numbers, (branch, several) = solver.numbers.tolist(), solver.branch.tolist()
-        tilts = tuple(point[2] * turn for turn in solver.tilts.tolist())
+        tilts = tuple(place[2] * turn for turn in solver.tilts.tolist())
         before, ratio, name = branch, numbers[L.O_RATIO], BRANCH_NAMES[branch]
-        lost = numbers[L.O_MEAN] - point[3] > LARGEST_RISE
+        lost = numbers[L.O_MEAN] - place[3] > LARGEST_RISE
         lost = lost or (branch == L.CONTACT_BRANCH and several == 2.0)
+        if beyond:
+            numbers = _at_given_speed(numbers, point[1])
     state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = before, ratio
-    return result_of(
+    found = result_of(
         params, point, numbers, tilts, name, lost, Status(status), 0, "map", NO_MESH, BY_CARD, state
     )
+    return told_outside(found, f"{beyond}: {HELD}") if beyond else found
+
+
+def _nearest(data: Array, point: Inputs) -> Inputs:
+    """Return the point of the box that is nearest, as the kernel's ``nearest``."""
+    ends = data[M.BOX : M.BOX + 2 * len(INPUTS)].tolist()
+    at = [min(max(abs(x), a), b) for x, a, b in zip(point, ends[::2], ends[1::2], strict=False)]
+    return at[0], math.copysign(at[1], point[1]), at[2], at[3], at[3]
+
+
+def _at_given_speed(numbers: Sequence[float], speed: float) -> Sequence[float]:
+    """Return outputs whose torque resists this speed, with its power."""
+    own = list(numbers)
+    own[L.O_TORQUE] = abs(own[L.O_TORQUE]) * (np.sign(speed) if speed else 0.0)
+    own[L.O_POWER] = own[L.O_OIL_HEAT] = own[L.O_TORQUE] * speed
+    return own
+
+
+def words_of_outside(data: Array, point: Inputs) -> str:
+    """Return in words which inputs lie outside the box of a map's data; empty where none does."""
+    if map_covers(data, Point(*point)):
+        return ""
+    ends = data[M.BOX : M.BOX + 2 * len(INPUTS)].tolist()
+    units = {s.name: s.unit for s in SPEC.inputs}
+    beyond = [
+        f"{name} = {x:g} {units[name]} is outside the map's box, {a:g} .. {b:g} {units[name]}"
+        for name, x, a, b in zip(INPUTS, point, ends[::2], ends[1::2], strict=False)
+        if not a * (1.0 - 1e-9) <= abs(x) <= b * (1.0 + 1e-9)
+    ]
+    return "; ".join(beyond) or "the point lies at an end of the map's box"
+
+
+def told_outside(found: WasherResult, words: str) -> WasherResult:
+    """Return a result that says, in status and warnings, that it lies outside its map."""
+    status = found.status
+    if status in (Status.OK, Status.OUTSIDE_VERIFIED):
+        status = Status.OUTSIDE_MAP
+    return replace(found, status=status, warnings=(words, *found.warnings))
 
 
 def outside_text(params: WasherParams, points: Array, what: str, most: float = 0.0) -> str:
-    """Return a warning if more than a share of points lie outside the map: ``field`` solves there.
+    """Return a warning if more than a share of points lie outside the map, and what happens there.
 
     ``points`` (n, 4): load [N], speed [rad/s], tilt [rad] and oil temperature [K].
     """
@@ -222,8 +282,8 @@ def outside_text(params: WasherParams, points: Array, what: str, most: float = 0
         return ""
     return (
         f"fidelity = 'map': {outside.sum()} of {len(points)} {what} are outside the map's box or "
-        "without tilt and were solved by 'field', with its accuracy and time; build a map for a "
-        "larger box, or choose 'field'"
+        f"without tilt and {OUTSIDE[params.outside_map]}; build a map for a larger box, or choose "
+        "'field'"
     )
 
 

@@ -51,6 +51,21 @@ def map_covers(data: Array, pt: Point) -> bool:
 
 
 @kernel
+def nearest(data: Array, pt: Point) -> Point:
+    """Return the point of the map's box that is nearest: each input within its own ends."""
+    b, speed = M.BOX, abs(pt.speed)
+    speed = math.copysign(min(max(speed, data[b + 2]), data[b + 3]), pt.speed)
+    oil = min(max(pt.oil_temperature, data[b + 6]), data[b + 7])
+    return Point(
+        min(max(pt.load, data[b]), data[b + 1]),
+        speed,
+        min(max(pt.tilt, data[b + 4]), data[b + 5]),
+        oil,
+        oil,
+    )
+
+
+@kernel
 def enter_map(data: Array, pt: Point, w: Array) -> float:
     """Place the cell and the thick piece's ends in ``w``; return viscosity x |speed|.
 

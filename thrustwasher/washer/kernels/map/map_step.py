@@ -2,10 +2,11 @@
 
 from ....numerics.arrays import are_finite, copy
 from ....numerics.jit import Array, Ints, kernel
-from ....numerics.status import BAD_INPUT, NO_BRANCH, NOT_FINITE, OK, SINGULAR
+from ....numerics.smoothing import sign_of
+from ....numerics.status import BAD_INPUT, NO_BRANCH, NOT_FINITE, NOT_IN_MAP, OK, SINGULAR
 from .. import layout as L
 from ..branch import FILM_RATIO
-from ..regime_and_status import LARGEST_RISE, change_of, judge, point_of
+from ..regime_and_status import LARGEST_RISE, change_of, judge, point_of, tell_outside_map
 from ..workspace import Point
 from . import map_layout as M
 from .map_layout import THICK
@@ -17,6 +18,7 @@ from .map_search import (
     enter_map,
     map_covers,
     map_fits,
+    nearest,
     read_edges,
     search_map,
 )
@@ -148,12 +150,38 @@ def map_step(
     """
     if not map_fits(data, par, L.N_STEADY):
         return BAD_INPUT
-    pt = point_of(par, inp)
-    branch = w[N_MAP_WORK - N_VERDICT :]
+    return look_up_step(
+        point_of(par, inp), par[L.P_OUTSIDE_MAP], wanted, state, numbers, w, data, out, iout, dt
+    )
+
+
+@kernel
+def look_up_step(
+    given: Point,
+    outside: float,
+    wanted: float,
+    state: Array,
+    numbers: Array,
+    w: Array,
+    data: Array,
+    out: Array,
+    iout: Ints,
+    dt: float,
+) -> int:
+    """Step as ``map_step`` at a point; ``outside``: what to do where it is not in the box."""
+    pt, branch = given, w[N_MAP_WORK - N_VERDICT :]
+    is_held = outside == L.HOLD and not map_covers(data, given)
+    if is_held:
+        pt = nearest(data, given)
     status = look_up(data, pt, wanted, state, w, numbers, branch)
     if status == NOT_HERE:
-        return NOT_HERE
+        if outside == L.SOLVE:
+            return NOT_HERE
+        status = NOT_IN_MAP
     if status == OK:
+        if is_held:
+            numbers[L.O_TORQUE] = abs(numbers[L.O_TORQUE]) * sign_of(given.speed)
+            numbers[L.O_POWER] = numbers[L.O_OIL_HEAT] = numbers[L.O_TORQUE] * given.speed
         copy(numbers, out)
         if not are_finite(out):
             status = NOT_FINITE
@@ -163,6 +191,8 @@ def map_step(
     hot = out[L.O_MEAN] - pt.oil_temperature > LARGEST_RISE
     distressed = hot or (branch[1] == 2.0 and branch[0] == L.CONTACT_BRANCH)
     judge(pt, out, distressed, OK, iout)
+    if is_held:
+        tell_outside_map(iout)
     if dt > 0.0:
         state[L.S_VALID] = 0.0  # fields solved before count no more
         state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = branch[0], out[L.O_RATIO]
@@ -173,10 +203,35 @@ def map_step(
 def map_sens(inp: Array, seed: Array, numbers: Array, w: Array, data: Array, dout: Array) -> int:
     """Fill ``dout`` along ``seed`` after a look-up; SINGULAR at a fold."""
     par = data[M.PARAMS :]
-    pt, change = point_of(par, inp), change_of(par, inp, seed)
-    if pt.speed == 0.0 and seed[L.I_SPEED] != 0.0 and numbers[L.O_CONTACT_LOAD] > 0.0:
+    return look_up_slopes(point_of(par, inp), change_of(par, inp, seed), numbers, w, data, dout)
+
+
+@kernel
+def look_up_slopes(
+    given: Point, along: Point, numbers: Array, w: Array, data: Array, dout: Array
+) -> int:
+    """Fill ``dout`` along a change of the point; an input held at an end of the box has no slope.
+
+    SINGULAR at a fold.
+    """
+    pt, change = given, along
+    if not map_covers(data, given):
+        pt = nearest(data, given)
+        change = Point(
+            along.load if pt.load == given.load else 0.0,
+            along.speed if pt.speed == given.speed else 0.0,
+            along.tilt if pt.tilt == given.tilt else 0.0,
+            along.oil_temperature if pt.oil_temperature == given.oil_temperature else 0.0,
+            0.0,
+        )
+    if pt.speed == 0.0 and change.speed != 0.0 and numbers[L.O_CONTACT_LOAD] > 0.0:
         return SINGULAR
     read_edges(data, w)
-    if map_derivative(data, w, pt, change, w[PLACE:], numbers, dout):
-        return OK
-    return SINGULAR
+    if not map_derivative(data, w, pt, change, w[PLACE:], numbers, dout):
+        return SINGULAR
+    if pt.speed != given.speed:
+        turns = sign_of(given.speed) * sign_of(pt.speed)
+        dout[L.O_TORQUE] *= turns
+        power = dout[L.O_TORQUE] * given.speed + numbers[L.O_TORQUE] * along.speed
+        dout[L.O_POWER] = dout[L.O_OIL_HEAT] = power
+    return OK

@@ -20,7 +20,7 @@ import structure
 
 # All counts of lines are of files as ``ruff format`` leaves them with every "fmt: skip" ignored.
 SOURCE_LINES = 77_500  # of the package and fmu_src, all languages
-TEST_LINES = 42_200
+TEST_LINES = 42_300
 FILE_LINES, FUNCTION_LINES, FOLDER_FILES = 610, 110, 20
 FORMAT_MARKS = {"sources": 40, "tests": 40}  # tables of numbers
 # Counts that may only fall: one that has fallen by more than the slack is to be lowered here.
@@ -48,7 +48,7 @@ PLACES = {
             "command",
             "sump",
         },
-        "shift.checks.holding": {"transmission"},
+        "shift.checks.holding": {"clutch", "transmission"},
         "shift.checks.run_doubts": {"washer"},
         "shift.scene.doubts": {"clutch", "gearmesh", "transmission"},
         "shift.scene.places": {"transmission"},

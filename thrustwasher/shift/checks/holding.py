@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ...clutch.parameters import ClutchParams
 from ...clutch.release import cold_release
 from ...clutch.solve import doubts_of_warmth
 from ...numerics.jit import Array
@@ -78,7 +79,10 @@ def _in_turn(scene: Scene, time: Array, events: list[Event]) -> Iterator[str]:
 
 def _of_temperature(scene: Scene, time: Array, signals: Signals) -> Iterator[str]:
     for pack in PACKS:
-        part, warm = scene.parts[pack], signals[f"{pack}.temperature"]
+        part = scene.parts[pack]
+        if not isinstance(part.params, ClutchParams):
+            continue
+        warm = signals[f"{pack}.temperature"]
         for line in doubts_of_warmth(part.params, float(warm.min()), float(warm.max())):
             yield f"The {pack}: {line}"
         of_pack = {n: signals[f"{pack}.{n}"] for n in ("load", "speed", "film_ratio", "energy")}

@@ -21,8 +21,9 @@ PAGES = {
     ),
     "curves": (
         "Curves and time",
-        "Load curves with folds, engagements, washers followed in time.",
-        "load_curve LoadCurve follow_washer WasherCourse engage_clutch Engagement",
+        "Load curves with folds, engagements, releases, washers followed in time.",
+        "load_curve LoadCurve follow_washer WasherCourse engage_clutch Engagement release_clutch "
+        "Release",
     ),
     "results": (
         "Results",

@@ -48,7 +48,7 @@ PLACES = {
             "command",
             "sump",
         },
-        "shift.checks.holding": {"transmission"},
+        "shift.checks.holding": {"clutch", "transmission"},
         "shift.checks.run_doubts": {"washer"},
         "shift.scene.doubts": {"clutch", "gearmesh", "transmission"},
         "shift.scene.places": {"transmission"},

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .calibration.estimates import Calibration
     from .calibration.model_fit import ModelCalibration, calibrate
     from .clutch.engagement import Engagement, engage_clutch
+    from .clutch.release import Release, release_clutch
     from .clutch.solve import ClutchParams, ClutchResult, boundary_friction, solve_clutch
     from .errors import BranchError, ParameterError, SolveError, Status
     from .fmu.build import build_fmu
@@ -51,6 +52,7 @@ _HOMES = {
     "calibration.model_fit": ("ModelCalibration", "calibrate"),
     "gearmesh.solve": ("GearMeshParams", "GearMeshResult", "solve_gearmesh"),
     "clutch.engagement": ("Engagement", "engage_clutch"),
+    "clutch.release": ("Release", "release_clutch"),
     "losses.solve": ("LossesParams", "LossesResult", "solve_losses"),
     "scatter.propagate": ("propagate",),
     "scatter.result": ("ScatterResult",),
@@ -82,6 +84,7 @@ __all__ = [
     "Optimum",
     "ParameterError",
     "PartFile",
+    "Release",
     "ScatterResult",
     "SequenceResult",
     "ShiftResult",
@@ -103,6 +106,7 @@ __all__ = [
     "oil",
     "optimise",
     "propagate",
+    "release_clutch",
     "run_shift",
     "run_sweep",
     "solve_clutch",

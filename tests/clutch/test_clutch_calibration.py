@@ -210,7 +210,7 @@ def test_the_change_of_friction_with_temperature_is_fitted_to_points_at_several(
     wanted = {n: getattr(pack, n) for n in fit}
     assert {n: getattr(found.params, n) for n in fit} == pytest.approx(wanted, rel=1e-6)
     assert "-0.2 % per kelvin" in str(found)
-    one = fitted(EXACT, TRUE_PACK, oil_temperature=353.15, fit=fit[:2])
+    one = fitted(EXACT, TRUE_PACK, oil_temperature=373.15, fit=fit[:2])
     assert "one temperature" in one["friction_temperature_slope"].reason
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from thrustwasher import ClutchParams, ParameterError, Status, engage_clutch
+from thrustwasher import ClutchParams, ParameterError, Status, engage_clutch, release_clutch
 
 PACK = ClutchParams()
 T = np.linspace(0.0, 0.2, 21)
@@ -49,3 +49,17 @@ def test_every_rung_answers_with_the_same_fields(fidelity):
 def test_bad_input_is_named(given, message):
     with pytest.raises(ParameterError, match=message):
         engage_clutch(PACK, **({"time": T, "load": 5000.0, "speed": 100.0} | given))
+
+
+def test_a_cold_release_is_told_with_its_drag_beside_a_warm_one():
+    cold = release_clutch(ClutchParams(), load=5e3, speed=100.0, oil_temperature=253.15)
+    warm = release_clutch(ClutchParams(), load=5e3, speed=100.0, oil_temperature=353.15)
+    assert cold.friction_torque > 10.0 * warm.friction_torque > 1.0
+    assert cold.energy > 5.0 * warm.energy and cold.open_after > 5.0 * warm.open_after
+    time = [0.0, 0.1, 0.101, 0.201, 0.3]
+    course = {"time": time, "load": [5e3, 5e3, 0.0, 0.0, 0.0], "speed": 100.0}
+    pack = ClutchParams(starts_pressed=True)
+    told = engage_clutch(pack, **course, oil_temperature=253.15).warnings
+    assert len(told) == 1 and "let go at 0.101 s with oil of -20 °C: 0.1 s later" in told[0]
+    for oil, rung in ((353.15, "field"), (253.15, "stribeck")):
+        assert engage_clutch(pack, **course, oil_temperature=oil, fidelity=rung).warnings == ()

@@ -1,59 +1,29 @@
 """An engagement of the wet clutch over time: load and slip are given, torque and heat follow."""
 
 from dataclasses import dataclass, fields
-from typing import Any, ClassVar
+from typing import ClassVar
 
-import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import SolveError, Status
+from ..errors import Status
 from ..model.parameters import check_number
 from ..model.prepare import course_of, rising
 from ..model.rungs import rung_named
 from ..model.solutions import OverTime
 from ..model.spec import REGIMES
 from ..numerics.jit import Array
-from .kernels import advance as clutch_advance
+from .course import outputs_over
 from .kernels import layout as k
-from .kernels import pack_friction, pack_outputs, rates
+from .kernels import pack_friction
 from .parameters import DRUM, LOAD, OIL, SPEC, SPEED, ClutchParams
-from .solve import doubts_of_lining, doubts_of_pack, pack_warnings, prepare
-
-
-def outputs_over(
-    par: Any, time: Array, load: Array, slip: Array, oil: float, drum: Array
-) -> tuple[Array, int]:
-    """Return the real outputs of a pack at the points in time, (n, NOUT), and all substeps.
-
-    ``par`` is that of the kernel, the rest as in ``engage_clutch``; SolveError too.
-    """
-    work, out, rows = np.zeros(k.NWORK), np.zeros(k.NOUT), np.empty((len(time), k.NOUT))
-    substeps, to_oil, faces = 0, 0.0, par[k.P_FACES]  # to_oil: heat that reached the oil [J]
-    status = clutch_advance.load_memory(par, load[0], oil, np.zeros(k.NSTATE), work)
-    if status == Status.OK and not rates.moves_film(par):
-        work[k.W_NOW + k.Y_FILM] = 1.0
-        status = clutch_advance.settle_film(par, load[0], work)
-    for i, (now, force, speed, turns) in enumerate(zip(time, load, slip, drum, strict=True)):
-        if i and status == Status.OK:
-            ends = (load[i - 1], slip[i - 1], oil, force, speed, oil, drum[i - 1], turns)
-            status = clutch_advance.advance(
-                par, ends, now - time[i - 1], out[k.O_POWER] / faces, work[k.W_PROPOSED], work
-            )
-            substeps += int(work[k.W_SUBSTEPS])
-        if Status(status).is_failure:
-            raise SolveError(
-                f"t = {now:g} s, load = {force:g} N, speed = {speed:g} rad/s: "
-                f"{Status(status).advice}"
-            )
-        pack_outputs.fill_outputs(par, force, speed, turns, work, out)
-        out[k.O_TEMPERATURE], _ = pack_outputs.mean_surface(par, work)
-        out[k.O_ENERGY] = faces * work[k.W_NOW + k.Y_ENERGY]
-        out[k.O_STORED_HEAT] = pack_outputs.stored_heat(par, work, oil)
-        before, to_oil = to_oil, out[k.O_ENERGY] - out[k.O_STORED_HEAT]
-        out[k.O_OIL_ENERGY] = to_oil
-        out[k.O_OIL_HEAT] = (to_oil - before) / (now - time[i - 1]) if i else 0.0
-        rows[i] = out
-    return rows, substeps
+from .release import cold_release
+from .solve import (
+    doubts_of_lining,
+    doubts_of_pack,
+    doubts_of_warmth,
+    pack_warnings,
+    prepare,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,6 +123,21 @@ def engage_clutch(
         warnings=(
             *doubts_of_pack(params, fidelity),
             *doubts_of_lining(params, float(forces.max())),
+            *(
+                f"The pack is {line}"
+                for line in cold_release(
+                    params,
+                    rung_named(SPEC, fidelity),
+                    time=points,
+                    load=forces,
+                    speed=slips,
+                    torque=columns["friction_torque"],
+                    film_ratio=columns["film_ratio"],
+                    energy=columns["energy"],
+                    oil_temperature=oil,
+                )
+            ),
+            *doubts_of_warmth(params, float(columns["temperature"].min()), hottest),
             *pack_warnings(status, float(columns["film_ratio"].min()), hottest, hottest),
         ),
     )

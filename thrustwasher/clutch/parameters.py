@@ -108,10 +108,10 @@ class ClutchParams:
         "1/K",
         -3e-3,
         3e-3,
-        "relative change of friction per kelvin, of any law, within -20 .. 150 degC",
+        "relative change of friction per kelvin, of any law, within -20 .. 200 degC",
     )
     reference_temperature: float = quantity(
-        353.15,
+        373.15,
         "K",
         233.15,
         523.15,
@@ -205,7 +205,7 @@ class ClutchParams:
     groove_depth: float = quantity(4e-4, "m", 1e-5, 0.01, "depth of the grooves")
     initial_film: float = quantity(1.5e-4, "m", 1e-6, 1e-2, "film thickness of the open pack")
     separating_force: float = quantity(
-        100.0,
+        200.0,
         "N",
         0.0,
         1e5,

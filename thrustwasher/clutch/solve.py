@@ -32,6 +32,8 @@ LININGS = {  # law of friction -> lining that it stands for, Pa on the land that
     "table": ("an organic lining", 3e6),
     "wang": ("a lining of sintered bronze", 6e6),
 }
+LEAST_PRESSURE = 2e4  # Pa, an estimate: lightest pressure that friction over slip is measured at
+ROUNDED = 1e-6  # K
 __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
 
 
@@ -265,6 +267,7 @@ def solve_clutch(
             *doubts_of_pack(params, fidelity),
             *_light(params, load, fidelity),
             *doubts_of_lining(params, load),
+            *doubts_of_warmth(params, s.temperature, s.hottest),
             *pack_warnings(status, ratio, s.temperature, s.hottest),
         ),
     )
@@ -295,11 +298,11 @@ def _light(params: ClutchParams, load: float, fidelity: str) -> list[str]:
     """Return a line if friction of a pressed pack stands for one that is hardly pressed."""
     pressure = load * params.faces / params.lining_area
     held = params.friction_data == "total" and fidelity in ("field", "fine")
-    if not held or not k.OPEN_PRESSURE <= pressure < k.LIGHT_PRESSURE:
+    if not held or not k.OPEN_PRESSURE <= pressure < LEAST_PRESSURE:
         return []
     return [
         f"load = {load:g} N is {pressure:.3g} Pa on the faces: friction of settled packs is "
-        f"measured above some {k.LIGHT_PRESSURE:g} Pa; shear of the oil beside it is left out, "
+        f"measured above some {LEAST_PRESSURE:g} Pa; shear of the oil beside it is left out, "
         "with friction_data = 'boundary' it counts"
     ]
 
@@ -313,6 +316,19 @@ def doubts_of_lining(params: ClutchParams, load: float) -> Iterator[str]:
             f"load = {load:g} N presses the land of the faces with {pressure / 1e6:.3g} MPa; above "
             f"{most / 1e6:g} MPa {kind} does not last (a rule of thumb; its maker's limit decides)"
         )
+
+
+def doubts_of_warmth(params: ClutchParams, coldest: float, hottest: float) -> Iterator[str]:
+    """Yield a line if interfaces [K] leave the range of friction over temperature."""
+    low, high = k.TEMPERATE
+    inside = low - ROUNDED <= coldest and hottest <= high + ROUNDED
+    if params.friction_temperature_slope == 0.0 or inside or hottest > k.HOT_LIMIT:
+        return
+    at = hottest if hottest > high else coldest
+    yield (
+        f"interface at {format_quantity(at, 'K')}: friction over temperature is an estimate for "
+        f"{low - 273.15:.0f} .. {high - 273.15:.0f} degC; beyond, it stays as it is there"
+    )
 
 
 def pack_warnings(

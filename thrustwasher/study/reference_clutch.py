@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..clutch.engagement import engage_clutch, outputs_over
+from ..clutch.course import outputs_over
+from ..clutch.engagement import engage_clutch
 from ..clutch.kernels import advance, pack_outputs
 from ..clutch.kernels import layout as k
 from ..clutch.kernels import rates as clutch_rates

@@ -43,7 +43,7 @@ def table_friction(p, speed):
 
 def warmed(p, temperature):
     """Friction over that at the reference temperature."""
-    within = min(max(temperature, 253.15), 423.15)
+    within = min(max(temperature, 253.15), 473.15)
     return 1.0 + p.friction_temperature_slope * (within - p.reference_temperature)
 
 
@@ -138,7 +138,7 @@ class Reference:
             parted = p.separating_force + lift(p, u, eta, speed) * self.area
             closes = -carried - parted * (1.0 - u * sigma / p.initial_film)
         rate = -ease * flow * closes / sigma * torn(-closes / self.area)
-        least = load if pressed else 2e4 * self.area - 19.0 * load
+        least = load if pressed else 1e5 * self.area - 99.0 * load
         share = min(1.0, carried / least)
         normal = min(carried, load + 1e5 * self.area)
         touching = min(1.0, math.pi**2 * self.count**2 * height_integral(2.0, u))

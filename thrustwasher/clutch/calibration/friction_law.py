@@ -247,7 +247,7 @@ class FrictionProblem(ModelProblem):
         if WARMTH in self.names:
             own = self.curve_over(values, self.speed) * self.warmer
             slopes[:, self.names.index(WARMTH)] = own
-        return slopes
+        return np.asarray(slopes)
 
     def starts(self, first: Array) -> list[Array]:
         """Return the best points of a coarse search; the two weights follow by linear fits."""

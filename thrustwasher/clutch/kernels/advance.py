@@ -16,6 +16,7 @@ from .rosenbrock import Ramp, attempt
 from .rosenbrock_derivatives import Change, follow
 
 MAX_SUBSTEPS = 20_000
+N_NEWTON = 3
 LEAST_SHARE = 1e-13  # of the time gone by: no smaller substeps
 FIRST_SHARE = 1e-25  # of the interval: the same at its start
 
@@ -109,8 +110,46 @@ def settle(par: Array, ramp: Ramp, duration: float, power_start: float, work: Ar
     )
     end = settled_power(par, ramp[3], ramp[4], work)
     cooling = settled_cooling(par, ramp[3])
-    warm_up(par, 0, end if is_held(ramp) else power_start, end, ramp[2], cooling, duration, work)
+    start = end if is_held(ramp) else power_start
+    slopes = par[L.P_FRICTION_TEMPERATURE_SLOPE], par[L.P_SHEAR_TEMPERATURE_SLOPE]
+    if work[L.W_GIVEN] == 0.0 and slopes != (0.0, 0.0):
+        end = warmed_power(par, ramp, start, end, cooling, duration, work)
+    warm_up(par, 0, start, end, ramp[2], cooling, duration, work)
     return status
+
+
+@kernel
+def warmed_power(
+    par: Array,
+    ramp: Ramp,
+    start: float,
+    end: float,
+    cooling: float,
+    duration: float,
+    work: Array,
+) -> float:
+    """Return the power of a face [W] at an interval's end, at the temperature it has led to there.
+
+    ``start``, ``end``: at its start, and at its end as warm as at the start. Newton; most laws are
+    linear in the temperature, then one step is enough.
+    """
+    rise, left = 0.0, 0.0  # K per W at the end; K without it
+    for i in range(1 + int(par[L.D_MODES])):
+        rate = par[np.uintp(L.D_DECAY + i)]
+        if i == 0:
+            rate = par[L.D_GAIN] * cooling * par[L.D_AREA]
+        level = ramp[2] if i == 0 else 0.0
+        decay, first, second = exponential_weights(rate * duration)
+        gain = par[np.uintp(L.D_GAIN + i)] * duration
+        left += level + (work[np.uintp(L.W_NOW + L.Y_HEAT + i)] - level) * decay
+        left += gain * (first - second) * start
+        rise += gain * second
+    smooth = math.tanh(abs(ramp[4]) / par[L.P_SPEED_SMOOTHING])
+    lever = abs(ramp[4]) * smooth * par[L.D_RADIUS] * ramp[3]
+    for _ in range(N_NEWTON):
+        mu, by_t, _ = coefficient_slopes(par, ramp[4], left + rise * end)
+        end -= (end - lever * mu) / (1.0 - lever * by_t * rise)
+    return end
 
 
 @kernel

@@ -29,12 +29,10 @@ from .rosenbrock_derivatives import follow
 def heat_of_a_ramp(par: Array, inp: Array, state: Array, work: Array, seed: Array) -> float:
     """Return the change of the interface [K] where the film settles, at the end of an interval.
 
-    The power at that end is the one of the temperature at its start.
+    The power at that end is the one of the temperature there, that of W_NOW.
     """
-    load, slip, modes = inp[L.I_LOAD], inp[L.I_SPEED], int(par[L.D_MODES])
-    temperature, rise = state[L.S_HEAT], 0.0
-    for i in range(modes):
-        temperature += state[np.uintp(L.S_HEAT + 1 + i)]
+    load, slip, modes, rise = inp[L.I_LOAD], inp[L.I_SPEED], int(par[L.D_MODES]), 0.0
+    surfaces(par, work, L.W_NOW, L.W_SURFACE)
     for i in range(modes + 1):
         rate = par[np.uintp(L.D_DECAY + i)]
         if i == 0:
@@ -43,12 +41,13 @@ def heat_of_a_ramp(par: Array, inp: Array, state: Array, work: Array, seed: Arra
         rise += par[np.uintp(L.D_GAIN + i)] * second * state[L.S_DURATION]
     if work[L.W_GIVEN] != 0.0:
         return rise * work[L.W_GIVEN_SLOPE] * seed[L.I_SPEED]
-    mu, _, mu_slip = coefficient_slopes(par, slip, temperature)
+    mu, by_t, mu_slip = coefficient_slopes(par, slip, work[L.W_SURFACE])
     faster = sign_of(slip) * seed[L.I_SPEED]
     smooth = math.tanh(abs(slip) / par[L.P_SPEED_SMOOTHING])
     steep = (1.0 - smooth) * (1.0 + smooth) / par[L.P_SPEED_SMOOTHING]
     force = (mu * seed[L.I_LOAD] + mu_slip * load * faster) * smooth + mu * load * steep * faster
-    return rise * par[L.D_RADIUS] * (faster * mu * load * smooth + abs(slip) * force)
+    change = rise * par[L.D_RADIUS] * (faster * mu * load * smooth + abs(slip) * force)
+    return change / (1.0 - rise * par[L.D_RADIUS] * abs(slip) * smooth * load * by_t)
 
 
 @kernel

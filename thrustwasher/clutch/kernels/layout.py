@@ -228,6 +228,5 @@ LINEAR_COURSE = 2  # input_course
 HOT_LIMIT = 523.0  # K
 LEAST_RATIO = -3.0  # film ratio below which rough faces are pressed out of the models' reach
 OPEN_PRESSURE = 1e3  # Pa; a pack pressed less than this is open
-LIGHT_PRESSURE = 2e4  # Pa, an estimate: lightest that friction over slip is measured at
 AMBIENT = 1e5  # Pa; oil is drawn apart, and torn, by no more
-TEMPERATE = (253.15, 423.15)  # K; beyond, friction stays as it is at the nearer one
+TEMPERATE = (253.15, 473.15)  # K; beyond, friction stays as it is at the nearer one

@@ -110,7 +110,7 @@ def load_share(par: Array, load: float, u: float) -> tuple[float, float, float, 
 
     (L, dL/du, dL/dload, their pressure over the whole face [Pa], its slope over u). They never
     carry more than the load. A pack pressed with less than OPEN_PRESSURE counts as pressed with
-    more, up to LIGHT_PRESSURE without load: so far the law of friction is that of the whole pack.
+    more, without load as with one atmosphere, the most that suction presses its asperities with.
     """
     height, slope = contact_integral(u)
     scale = par[L.D_PRESSURE] * par[L.P_LAND_SHARE]
@@ -118,8 +118,8 @@ def load_share(par: Array, load: float, u: float) -> tuple[float, float, float, 
     whole = load / par[L.D_AREA]
     least, steep = whole, 1.0 / par[L.D_AREA]
     if whole < L.OPEN_PRESSURE:
-        steep *= 1.0 - L.LIGHT_PRESSURE / L.OPEN_PRESSURE
-        least = L.LIGHT_PRESSURE + steep * load
+        steep *= 1.0 - L.AMBIENT / L.OPEN_PRESSURE
+        least = L.AMBIENT + steep * load
     if pressure >= least * SETTLED:
         return 1.0, 0.0, 0.0, pressure, rise
     share = pressure / least

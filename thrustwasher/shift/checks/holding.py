@@ -5,6 +5,9 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ...clutch.parameters import ClutchParams
+from ...clutch.release import cold_release
+from ...clutch.solve import doubts_of_warmth
 from ...numerics.jit import Array
 from ...transmission.kernels.directional_derivative import LEAST_WASHER_LOAD
 from ...units import format_quantity as say
@@ -29,6 +32,7 @@ def doubts_of_packs(
     """Yield what shows that packs do not hold as a shift takes for granted, a line each."""
     yield from _at_the_start(scene, time, signals)
     yield from _in_turn(scene, time, events)
+    yield from _of_temperature(scene, time, signals)
     if not scene.alone:
         yield from _neutral(scene, time, signals, figures)
         yield from _at_the_end(scene, time, signals, events)
@@ -71,6 +75,26 @@ def _in_turn(scene: Scene, time: Array, events: list[Event]) -> Iterator[str]:
         f"The {scene.engaging} sticks and slips in turn from {first:.4g} to {held:.4g} s "
         f"({len(locks)} lock-ups), before it holds: {why}. Lock-up is the last of them"
     )
+
+
+def _of_temperature(scene: Scene, time: Array, signals: Signals) -> Iterator[str]:
+    for pack in PACKS:
+        part = scene.parts[pack]
+        if not isinstance(part.params, ClutchParams):
+            continue
+        warm = signals[f"{pack}.temperature"]
+        for line in doubts_of_warmth(part.params, float(warm.min()), float(warm.max())):
+            yield f"The {pack}: {line}"
+        of_pack = {n: signals[f"{pack}.{n}"] for n in ("load", "speed", "film_ratio", "energy")}
+        for line in cold_release(
+            part.params,
+            part.fidelity,
+            time=time,
+            **of_pack,
+            torque=signals[f"{pack}.friction_torque"],
+            oil_temperature=scene.oil_temperature,
+        ):
+            yield f"The {pack} is {line}"
 
 
 def _neutral(

@@ -66,6 +66,7 @@ def at_work(fmus, slope, deviation=10.0, rest=DRIVE, brake=0.0, ring=None, **gea
     clutch = {
         "fidelity": "stribeck",
         "friction_law": "table",
+        "friction_temperature_slope": 0.0,
         "faces": 10,
         "effective_radius": RADIUS,
         "table_friction_0": start,
@@ -86,6 +87,7 @@ def with_coulomb(fmus, torque, slip, smoothing, **gearbox):
         "effective_radius": RADIUS,
         "speed_smoothing": smoothing,
         "friction_law": "constant",
+        "friction_temperature_slope": 0.0,
     }
     return gearbox_and_clutch(fmus, _gearbox(slip, None, gearbox), clutch)
 

@@ -227,7 +227,7 @@ def solve_clutch(
     >>> r.friction_torque, r.regime
     (0.0, 'adhesive')
     >>> round(r.torque_capacity, 2)
-    302.37
+    325.35
     """
     load = check_number("load", load, "N", *LOAD.range)
     speed = check_number("speed", speed, "rad/s", *SPEED.range)

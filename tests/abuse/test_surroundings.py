@@ -11,6 +11,7 @@ import pytest
 from children import ROOT
 
 from thrustwasher.cli import main
+from thrustwasher.native.ownership import doubt_of
 
 FULL = Path("/dev/full")
 needs_full = pytest.mark.skipif(not FULL.exists(), reason="needs /dev/full")
@@ -58,7 +59,8 @@ def test_a_working_directory_that_has_gone_is_named(tmp_path, monkeypatch, capsy
         (tmp_path / "here").rmdir()
     except OSError:  # Windows
         pytest.skip("a folder in use stays")
-    assert main(["curve", "--speed", "545", "--out", "c.csv"]) == 2
+    assert doubt_of(tmp_path) == ""  # what has a whole path is there
+    assert main(["shift", "--scene", "msl", "--out", "r"]) == 2
     said = capsys.readouterr().err
     assert said.count("\n") == 1 and "the working directory is gone" in said
 

@@ -17,7 +17,8 @@ MOST_LINKS = 40  # on the way to a folder, as the kernel counts them
 
 def ways_to(folder: str | os.PathLike[str]) -> Iterator[Path]:
     """Yield all that leads to a folder and the folder, from the root on; of links both ends."""
-    rest, at, links = [*reversed(Path(os.getcwd(), folder).parts)], Path(), 0
+    whole = Path(folder) if Path(folder).is_absolute() else Path(os.getcwd(), folder)
+    rest, at, links = [*reversed(whole.parts)], Path(), 0
     while rest:
         step = rest.pop()
         if step == "..":  # in a link: what stands before it is no link

@@ -56,5 +56,5 @@ def test_a_master_that_never_agrees_is_told_where_its_step_becomes_0():
 
     master = NeverContent(instances(found), found.links, rtol=1e-3)
     master.initialize(0.0, {c.name: c.starts for c in found.components})
-    with pytest.raises(ParameterError, match="by 0.0 s, allowed: finite, step > 0"):
+    with pytest.raises(ParameterError, match=r"by 0\.0 s, allowed: finite, step > 0"):
         master.run(0.05, 0.15)

@@ -122,7 +122,8 @@ def test_oil_outside_of_its_laws_or_too_cold_to_flow_is_a_warning():
 
 def test_oil_that_is_all_but_solid_is_a_warning(capsys):
     assert main(["gearmesh", "--power", "5 kW", "--oil-temperature", "-20 degC", "--json"]) == 0
-    stiff, thick = json.loads(capsys.readouterr().out)["warnings"]
+    stiff, thick, light = json.loads(capsys.readouterr().out)["warnings"]
+    assert light.startswith("load F_bt/b = ")
     assert "the viscosity is 350 Pa.s by the law of the gearmesh" in stiff
     assert "no law of the film holds there" in thick
     assert too_stiff(find_model("gearmesh").spec, GearMeshParams(), 263.15) == []
@@ -212,7 +213,7 @@ def test_a_command_solves_with_the_oil_and_says_so(mine, capsys):
         told["parameters"]["viscosity_b"]
         == oil("ISO VG 100").parameters_for("gearmesh")["viscosity_b"]
     )
-    assert len(told["warnings"]) == 5 and all(f"warning: {w}\n" in err for w in told["warnings"])
+    assert len(told["warnings"]) == 6 and all(f"warning: {w}\n" in err for w in told["warnings"])
     assert "the part's own stay: oil_conductivity, oil_heat_capacity, pressure_viscosity" in err
 
 

@@ -53,7 +53,7 @@ def map_alone(spec: ModelSpec) -> ModelSpec:
     made = replace(
         spec,
         params=MapParams,
-        fidelities={FIDELITY: f"look-up in {spec.fidelities[FIDELITY].split(';')[0][11:]}"},
+        fidelities={FIDELITY: spec.fidelities[FIDELITY].partition(";")[0]},
         default_fidelity=FIDELITY,
         successors={},
         inputs=inputs,

@@ -59,7 +59,7 @@ MADE = {  # result -> how it comes about, a figure with its unit, words of its m
     "WasherResult": (lambda: tw.solve_washer(tw.WasherParams(), **AT), "0.25818 N·m", "friction"),
     "ClutchResult": (
         lambda: tw.solve_clutch(tw.ClutchParams(), load=5e3, speed=3.0),
-        "171.6",
+        "171.56 N·m",
         "if this slip lasted for ever",
     ),
     "GearMeshResult": (

@@ -11,8 +11,8 @@ from ..errors import SolveError
 from .kernels import layout as L
 from .sensitivities import Linearised, Solved
 
-# what 95 of 100 solutions of the verified box stay below
-OF_FILM = {"field": 0.022, "fine": 0.009}
+# what at least 95 of 100 solutions of the verified box stay below
+OF_FILM = {"field": 0.028, "fine": 0.0098}
 LEAST_SHARE = 0.02  # of the load on the film: dry contact errs too
 
 

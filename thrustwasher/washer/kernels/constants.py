@@ -89,7 +89,8 @@ def gear_node(n_r: int, share: float) -> int:
     Less than its share of the intervals goes inside (two of nine for the default washer), for the
     outer part is the harder one; each part keeps what its quadrature needs.
     """
-    return min(max(1, int(0.6 * share * (n_r - 1) + 0.3)), n_r - 4)
+    least = max(1, min(2, int(share * (n_r - 1))))
+    return min(max(least, int(0.6 * share * (n_r - 1) + 0.3)), n_r - 4)
 
 
 def size_of_par(n_r: int, n_t: int) -> int:

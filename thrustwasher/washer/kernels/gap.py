@@ -13,7 +13,7 @@ import numpy as np
 
 from ...numerics.arrays import clear
 from ...numerics.jit import Array, kernel
-from ...tribology.asperities import contact_pressure
+from ...tribology.asperities import D_MAX, contact_pressure
 from ...tribology.flow_factors import mean_gap
 from ...tribology.viscosity import viscosity
 from . import layout as L
@@ -22,9 +22,7 @@ from .layout import MOMENT_X, MOMENT_Y, ON_GEAR, ON_WASHER, TILT_X, TILT_Y, Z_GE
 from .workspace import Fields, Point, square, vector
 
 REFERENCE_PRESSURE = 1e6  # [Pa] of the dry friction law
-OUT_OF_TOUCH = 8.0  # [sigma of the summits] between their mean planes: under 1e-7 Pa
-# Gauss-Legendre: three points between two nodes, the outer ones so far from the middle
-HALF = 0.3872983346207417  # sqrt(0.15)
+HALF = 0.3872983346207417  # sqrt(0.15): outer of three Gauss points from the middle of 0 .. 1
 FLOAT = 1e-9  # [N] lifts the washer off the carrier: gap 2 never loses touch, and its stiffness
 
 
@@ -77,7 +75,7 @@ def _touch(m: WasherModel, z_w: float, slope: float, j: int, f: Fields) -> None:
     for i in range(n_r - 1):
         r0, r1 = m.r[i], m.r[i + 1]
         nearest = (z_w + min(r0 * slope, r1 * slope) - lift) * scale
-        if nearest >= OUT_OF_TOUCH:
+        if nearest >= D_MAX:
             continue
         k, up = np.uintp(first + i), np.uintp(first + i + 1)
         for part in range(3):

@@ -93,6 +93,11 @@ class Status(IntEnum):
         15,
         "an input is not finite, outside its range, or excluded by another one given",
     )
+    OVER_BUDGET = (
+        16,
+        "the work that one solution may take is spent; come from a neighbouring result, in smaller "
+        "steps, or move the point",
+    )
 
     def __new__(cls, code: int, advice: str = "") -> "Status":
         """Keep the number as the value and the sentence beside it."""

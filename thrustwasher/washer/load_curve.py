@@ -15,7 +15,7 @@ from ..model.registry import find_model
 from ..model.rungs import gone_rung, rung_named
 from ..model.solutions import scalars, words_at_points
 from ..numerics.jit import Array
-from ..numerics.status import OK
+from ..numerics.status import OK, OVER_BUDGET
 from ..shown import Card, Line, Tabled, Words, column_lines, plain
 from ..units import format_quantity
 from .kernel_arguments import constants, work_array
@@ -23,10 +23,10 @@ from .kernels import continuation
 from .kernels import layout as L
 from .kernels.constants import washer_model
 from .kernels.heat import set_steady
-from .kernels.newton import LOAD, NO_FLOOR, newton
+from .kernels.newton import LOAD, NO_FLOOR, is_spent, newton
 from .kernels.outputs import outputs_at
 from .kernels.regime_and_status import point_of
-from .kernels.solve import remember_state
+from .kernels.solve import BUDGET, remember_state
 from .kernels.workspace import fields_of, size_of_state, size_of_work, workspace_of
 from .parameters import SPEC, WasherParams
 from .sensitivities import Solved, fold_derivatives
@@ -288,8 +288,13 @@ class Continuation:
     def _moving(self) -> list[Array]:
         return [self.w.q, self.f.temp, self.f.p, self.w.curve]
 
+    def _renew_budget(self) -> None:
+        """Let the next solve take as many iterations as one from nothing."""
+        self.w.info[L.BUDGET] = self.w.info[L.ITERATIONS] + BUDGET
+
     def _check(self, code: int, where: str) -> None:
         if code:
+            code = OVER_BUDGET if is_spent(self.w) else code
             raise SolveError(
                 f"load_curve: {Status(code).advice} ({where}, film of "
                 f"{self.film / self.m.sigma1:.2f} sigma, speed = {self.pt.speed:g} rad/s, "
@@ -300,6 +305,7 @@ class Continuation:
 
     def start(self, ratio: float) -> None:
         """Solve from nothing at a film ratio."""
+        self._renew_budget()
         self._check(continuation.enter_curve(self.w, self.pt, ratio), "entry")
 
     def enter(self, load: float) -> None:
@@ -314,8 +320,10 @@ class Continuation:
         Much oil on a coarse mesh makes Newton's method slow: a hundredth of the accuracy will do.
         By load where asperities carry.
         """
+        self._renew_budget()
         code = continuation.walk_to(self.w, self.pt, s)
         if code:
+            self._renew_budget()
             self.w.curve[L.ACCURACY] *= 100.0
             code = continuation.walk_to(self.w, self.pt, s)
             self.w.curve[L.ACCURACY] *= 0.01
@@ -323,6 +331,7 @@ class Continuation:
             for _ in range(MOST_LOADS):
                 if self.film > s:
                     self.to_load(1.02 * self.load)
+            self._renew_budget()
             code = continuation.walk_to(self.w, self.pt, s)
         self._check(code, "walking")
 
@@ -333,6 +342,7 @@ class Continuation:
 
     def to_load(self, load: float) -> None:
         """Solve at a load [N] from here, where the asperities carry: no fold is on the way."""
+        self._renew_budget()
         while self.load < load * (1.0 - 1e-9):
             step, status = load - self.load, OK
             continuation.remember(self.w, 0.0)
@@ -350,6 +360,7 @@ class Continuation:
     def fold(self, kind: str, upper: float, lower: float) -> Fold:
         """Locate a fold between two film thicknesses and come back."""
         kept = self.copy()
+        self._renew_budget()
         if continuation.find_fold(self.w, self.pt, upper, lower):
             self.come_back(kept)
             self._search(1.0 if kind == "film_lost" else -1.0, upper, lower)

@@ -21,6 +21,7 @@ from .kernel_arguments import Recent, constants, work_array
 from .kernels import layout as L
 from .kernels import step as kernel
 from .kernels.regime_and_status import LEAST_TEMPERATURE
+from .kernels.solve import BUDGET
 from .kernels.workspace import size_of_state, size_of_work
 from .parameters import SPEC, WasherParams
 from .washer_result import BRANCH_NAMES, BRANCHES, BY_CARD, OVERLAP, Inputs, WasherResult, result_of
@@ -168,7 +169,8 @@ def solve_washer(
     ------
     ParameterError : an argument is outside its range (named, with unit and range)
     BranchError : the branch asked for has no solution at this load
-    SolveError : not converged
+    SolveError : not converged, or not within the budget of work: BUDGET = 1500 Newton iterations,
+        counted by ``iterations`` of the result, after which the status is OVER_BUDGET
 
     Notes
     -----
@@ -210,7 +212,8 @@ def solve_washer(
         raise SolveError(
             f"washer: {result.status.advice} (load = {point[0]:g} N, speed = {point[1]:g} rad/s, "
             f"tilt = {point[2]:g} rad, oil_temperature = {point[3]:g} K, grid {nodes[0]} x "
-            f"{nodes[1]}; tried: warm start, Newton from a guess, descent in film thickness)"
+            f"{nodes[1]}; tried: warm start, Newton from a guess, descent in film thickness, "
+            f"raising the load; {result.iterations} Newton iterations, at most {BUDGET:.0f})"
         )
     return result
 

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from thrustwasher.model.part_file import preset_part
-from thrustwasher.numerics.status import MAX_ITERATIONS, NOT_FINITE, OK, SINGULAR
+from thrustwasher.numerics.status import MAX_ITERATIONS, NOT_FINITE, OK, OVER_BUDGET, SINGULAR
 from thrustwasher.washer.kernels import layout as L
 from thrustwasher.washer.kernels.continuation import cold_start
 from thrustwasher.washer.kernels.newton import LOAD, NO_FLOOR, _balance, newton
+from thrustwasher.washer.kernels.solve import end_of_budget
 from thrustwasher.washer.kernels.workspace import Point, forget_factor, vector
 from thrustwasher.washer.parameters import SPEC
 
@@ -116,3 +117,22 @@ def test_newton_starts_from_a_thick_film():
     pt = Point(300.0, 953.0, 0.002, 297.15, 297.15)
     cold_start(b.w, pt, 15.0)
     assert newton(b.w, pt, LOAD, 300.0, NO_FLOOR, 1e-9, 40.0) == OK
+
+
+def test_iterations_end_with_the_budget_and_the_status_says_so():
+    b, pt = bench(GRID), Point(300.0, 953.0, 0.002, 297.15, 297.15)
+    b.w.info[:] = 0.0
+    b.w.info[L.BUDGET] = 3.0
+    cold_start(b.w, pt, 6.0)
+    settle(b.m, pt, b.w.q, b.f)
+    for _ in range(2):  # a second try begins none
+        status = newton(b.w, pt, LOAD, 300.0, NO_FLOOR, 1e-9, 60.0)
+        assert status == MAX_ITERATIONS and b.w.info[L.ITERATIONS] == 3.0
+    assert end_of_budget(b.w, status) == OVER_BUDGET
+    assert newton(b.w, pt, LOAD, 300.0, NO_FLOOR, 1e-9, 60.0) == OK, "what follows has no budget"
+
+
+def test_a_solution_found_with_the_last_iteration_counts():
+    b = bench(GRID)
+    b.w.info[L.ITERATIONS] = b.w.info[L.BUDGET] = 3.0
+    assert end_of_budget(b.w, OK) == OK

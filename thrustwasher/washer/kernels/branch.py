@@ -18,8 +18,10 @@ from .continuation import (
     find_fold,
     recall,
     remember,
+    step_down,
     walk_down,
     walk_to,
+    walk_within,
 )
 from .gap import oil_viscosity
 from .newton import FILM, LOAD, NO_FLOOR, evaluate_here, film_ratio, newton, smooth_film
@@ -30,6 +32,9 @@ FILM_RATIO = 3.0  # single-valued curves are called film above it
 CLEAR_SHARE = 0.01  # below this share of contact a stable solution is on the film branch
 ENTRY_RATIO = 4.0
 DESCENT = 0.28  # finest step of the descent [sigma]
+ON_FOOT = 120.0  # iterations of a step in film thickness beyond all folds, before going by load
+FIRST_ROUNDS = 4  # of settling there, which go by film thickness
+ROUGHLY = 1e-4  # tolerance on the way
 NOISE = 3e-4  # a load must change by more to count as past a fold; points are good to 1e-4
 
 
@@ -67,20 +72,35 @@ def settle(w: Workspace, pt: Point, upper: float, lower: float) -> int:
 
     ``upper`` carries less than the load, ``lower`` at least the load.
     """
+    return _settle(w, pt, upper, lower, False)
+
+
+@kernel
+def _settle(w: Workspace, pt: Point, upper: float, lower: float, alone: bool) -> int:
+    """Do as `settle`; ``alone``: the load has one solution, in contact.
+
+    There bodies may turn the washer so that its film grows with the load: what Newton's method
+    finds outside the bracket counts, but for its first rounds.
+    """
     sigma = w.par[L.D_SIGMA1]
-    for _ in range(60):
+    end = w.info[L.ITERATIONS] + 2.0 * ON_FOOT
+    for attempt in range(60):
         remember(w, 1.0)
         status = newton(w, pt, LOAD, pt.load, NO_FLOOR, TOLERANCE, 15.0)
         s = smooth_film(w)
         margin = 1e-6 * sigma + 1e-3 * (upper - lower)
-        if status == OK and lower - margin <= s <= upper + margin:
+        inside = lower - margin <= s <= upper + margin
+        if status == OK and (inside or (alone and attempt >= FIRST_ROUNDS)):
             return OK
         recall(w, 1.0)
         forget_factor(w)
+        if alone and w.info[L.ITERATIONS] >= end:
+            return MAX_ITERATIONS
         if upper - lower < 1e-7 * sigma:  # on the fold itself: the load is met to rounding
             evaluate_here(w, pt)
             return OK if abs(w.curve[L.AT_LOAD] / pt.load - 1.0) < 1e-6 else MAX_ITERATIONS
-        status = walk_to(w, pt, 0.5 * (upper + lower))
+        middle = 0.5 * (upper + lower)
+        status = walk_within(w, pt, middle, ON_FOOT if alone else math.inf)
         if status != OK:
             return status
         if w.curve[L.AT_LOAD] < pt.load:
@@ -158,11 +178,41 @@ def _contact_side(w: Workspace, pt: Point, lost: bool) -> int:
     forget_factor(w)
     for _ in range(200):
         upper, before = w.curve[L.AT_FILM], w.curve[L.AT_LOAD]
-        status = walk_down(w, pt, DESCENT)
-        if status != OK:
+        # one solution: the load is above that of the fold where the film is lost, if there is one
+        alone = before < pt.load and not pt.load < w.found[L.LOST]
+        remember(w, 2.0)
+        target = step_down(sigma, upper, DESCENT)
+        status = walk_within(w, pt, target, ON_FOOT if alone else math.inf)
+        if status == OK:
+            if not before < pt.load <= w.curve[L.AT_LOAD]:
+                continue
+            status = _settle(w, pt, upper, w.curve[L.AT_FILM], alone)
+        if status == OK or not alone:
             return status
-        if before < pt.load <= w.curve[L.AT_LOAD]:
-            return settle(w, pt, upper, w.curve[L.AT_FILM])
+        recall(w, 2.0)
+        return _press(w, pt, before)
+    return MAX_ITERATIONS
+
+
+@kernel
+def _press(w: Workspace, pt: Point, here: float) -> int:
+    """Solve for the load by raising it from ``here`` [N], the present one, where it has one."""
+    forget_factor(w)
+    for _ in range(40):
+        step, last = pt.load - here, False
+        for _ in range(6):
+            remember(w, 1.0)
+            last = here + step == pt.load
+            tolerance = TOLERANCE if last else ROUGHLY
+            status = newton(w, pt, LOAD, here + step, NO_FLOOR, tolerance, 40.0 if last else 20.0)
+            if status == OK:
+                break
+            recall(w, 1.0)
+            forget_factor(w)
+            step *= 0.4
+        if status != OK or last:
+            return status
+        here += step
     return MAX_ITERATIONS
 
 
@@ -186,7 +236,7 @@ def descend(w: Workspace, pt: Point, wanted: float) -> int:
     """
     w.found[L.BRANCH], w.found[L.MULTIPLICITY] = 0.0, 0.0
     w.found[L.LOST], w.found[L.REGAINED] = math.nan, math.nan
-    w.curve[L.ACCURACY] = 1e-4
+    w.curve[L.ACCURACY] = ROUGHLY
     for attempt in range(3):
         status = enter_curve(w, pt, ENTRY_RATIO * (1.0 + 0.5 * attempt))
         if status != OK:

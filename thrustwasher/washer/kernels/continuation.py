@@ -60,15 +60,20 @@ def _press_gear(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
             k = np.uintp(j * m.n_r + i)
             lift += m.weight1[i] * m.weight_t[j] * f.p[k]
     lift = max(lift, 1.0)
-    for _ in range(12):
-        evaluate_gaps(m, pt, q, f)
-        force, slope = forces[L.ON_GEAR], slopes[L.ON_GEAR, L.Z_GEAR]
-        if not force > 1e-12 * lift:
-            q[L.Z_GEAR] -= m.sigma2
-            continue
-        move = math.log(force / lift) * force / -slope
-        q[L.Z_GEAR] += min(max(move, -m.sigma2), m.sigma2)
-        if abs(move) < 0.05 * m.sigma2:
+    for attempt in range(2):
+        if attempt > 0:  # a wide tilt has left the gear far above the washer
+            q[L.Z_GEAR] = q[L.Z_WASHER] + (pt.tilt - q[L.TILT_Y]) * m.outer_radius + 3.0 * m.sigma2
+        for _ in range(12):
+            evaluate_gaps(m, pt, q, f)
+            force, slope = forces[L.ON_GEAR], slopes[L.ON_GEAR, L.Z_GEAR]
+            if not force > 1e-12 * lift:
+                q[L.Z_GEAR] -= m.sigma2
+                continue
+            move = math.log(force / lift) * force / -slope
+            q[L.Z_GEAR] += min(max(move, -m.sigma2), m.sigma2)
+            if abs(move) < 0.05 * m.sigma2:
+                return
+        if force > 1e-12 * lift:
             return
 
 
@@ -111,8 +116,9 @@ def enter_curve(w: Workspace, pt: Point, ratio: float) -> int:
     """Solve at a film of ``ratio`` sigma from nothing; thicker films are tried if that fails."""
     sigma = w.par[L.D_SIGMA1]
     status = MAX_ITERATIONS
-    for attempt in range(6):
-        wanted = ratio * (1.0 + 0.5 * attempt)
+    for attempt in range(10):
+        # a film of cold oil may carry far more than any load, a wide tilt may need a thick one
+        wanted = ratio * (1.0 + 0.5 * attempt if attempt < 6 else 5.0 * 3.0 ** (attempt - 6))
         cold_start(w, pt, wanted)
         status = newton(w, pt, FILM, wanted * sigma, NO_FLOOR, w.curve[L.ACCURACY], 40.0)
         if status == OK:
@@ -144,17 +150,27 @@ def go_along(w: Workspace, step: float) -> None:
 @kernel
 def walk_to(w: Workspace, pt: Point, target: float) -> int:
     """Solve at the smoothed film thickness ``target`` [m], in smaller steps if need be."""
-    for _ in range(60):
+    return walk_within(w, pt, target, math.inf)
+
+
+@kernel
+def walk_within(w: Workspace, pt: Point, target: float, most: float) -> int:
+    """Do as `walk_to`, giving up after ``most`` iterations."""
+    end = w.info[L.ITERATIONS] + most
+    for part in range(60):
+        patience = 12.0 if part < 2 else 36.0  # slow, but it converges: smaller steps are slower
         here = w.curve[L.AT_FILM]
         step = target - here
         if abs(step) < 1e-9 * w.par[L.D_SIGMA1]:
             return OK
+        if w.info[L.ITERATIONS] >= end:
+            return MAX_ITERATIONS
         for attempt in range(12):
             remember(w, 0.0)
             wanted = target if step == target - here else here + step
             if attempt == 0:  # a tangent that led astray is not followed again
                 go_along(w, step)
-            status = newton(w, pt, FILM, wanted, NO_FLOOR, w.curve[L.ACCURACY], 12.0)
+            status = newton(w, pt, FILM, wanted, NO_FLOOR, w.curve[L.ACCURACY], patience)
             if status == OK and w.info[L.REACHED_LOAD] > 0.0:
                 break
             recall(w, 0.0)

@@ -122,7 +122,18 @@ HOT_LIMIT = 523.0  # [K] of the hottest spot; above it oil and washer are lost
 
 # The head of `work`: counts and residuals of a solve, what was found, where the walk along the
 # curve of solutions stands, all outputs, the positions.
-ITERATIONS, FACTORED, RESIDUAL, REACHED_LOAD, LOAD_SLOPE, HEAT, ARRIVED, SCANNED, N_INFO = range(9)
+(
+    ITERATIONS,
+    FACTORED,
+    RESIDUAL,
+    REACHED_LOAD,
+    LOAD_SLOPE,
+    HEAT,
+    ARRIVED,
+    SCANNED,
+    BUDGET,  # iterations at which to give up; 0: none
+    N_INFO,
+) = range(10)
 BRANCH, MULTIPLICITY, LOST, REGAINED, N_FOUND = range(5)  # loads of folds found: nan if not met
 # film thickness s [m], load [N], dload/ds [N/m], contact share [-]; tolerance, set by the caller
 AT_FILM, AT_LOAD, AT_SLOPE, AT_SHARE, ACCURACY = range(5)

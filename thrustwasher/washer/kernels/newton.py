@@ -238,6 +238,12 @@ def evaluate_here(w: Workspace, pt: Point) -> None:
 
 
 @kernel
+def is_spent(w: Workspace) -> bool:
+    """Tell if the iterations have reached the budget of the solve; without one they never do."""
+    return bool(0.0 < w.info[L.BUDGET] <= w.info[L.ITERATIONS])
+
+
+@kernel
 def _take(f: Fields, share: float, q: Array) -> None:
     """Go ``share`` of the step: positions, and the temperatures that follow them."""
     step = vector(f.small, L.RIGHT)
@@ -277,7 +283,7 @@ def newton(
     long as an iteration gains half a digit (chord), unless ``forget_factor`` was called. Film,
     contacts and the system of four are always exact. What is in ``w.q``, ``f.temp`` and ``f.p`` is
     the start, then the best estimate. ``w.info``: iterations and factorings are added to; out:
-    residual, load reached [N], dload/ds [N/m], heat made [W].
+    residual, load reached [N], dload/ds [N/m], heat made [W]. None begins beyond the budget.
 
     Parameters
     ----------
@@ -311,7 +317,7 @@ def newton(
             return NOT_FINITE
         if error < tolerance and iteration > 0:
             return OK
-        if iteration == int(max_iterations) or film_ratio(w) < floor:
+        if iteration == int(max_iterations) or film_ratio(w) < floor or is_spent(w):
             break
         if error > CHORD * before or f.tag[L.TAG_VALID] != 1.0:
             if not make_factor(m, pt, w.q, f.temp, f, rounds):

@@ -8,14 +8,26 @@ the work happens to hold.
 
 from ...numerics.arrays import are_equal, copy
 from ...numerics.jit import Array, inlined, kernel
-from ...numerics.status import NO_BRANCH, OK
+from ...numerics.status import NO_BRANCH, OK, OVER_BUDGET
 from . import layout as L
 from .branch import FILM_RATIO, descend, is_clear_film, solve_cold
 from .continuation import go_along
-from .newton import EXACT, LOAD, NO_FLOOR, evaluate, factor_here, film_ratio, make_factor, newton
+from .newton import (
+    EXACT,
+    LOAD,
+    NO_FLOOR,
+    evaluate,
+    factor_here,
+    film_ratio,
+    is_spent,
+    make_factor,
+    newton,
+)
 from .workspace import Point, Workspace, fields_of, forget_factor, model_of, vector
 
 WARM_TOLERANCE = 5e-6
+BUDGET = 1500.0  # Newton iterations that one solution may take
+FLAT = 0.15  # of the load per sigma: flatter slopes need a heat factor made here, 0.05 off without
 CONTINUOUS = 0.2  # a film ratio that moves by less has stayed on its branch
 
 
@@ -146,7 +158,7 @@ def _warm(w: Workspace, pt: Point, wanted: float, state: Array) -> bool:
     ratio = film_ratio(w)
     if abs(ratio - state[L.S_RATIO]) > CONTINUOUS or not scan_holds(pt, state):
         return False
-    if w.info[L.LOAD_SLOPE] * w.par[L.D_SIGMA1] > -0.3 * w.info[L.REACHED_LOAD]:
+    if w.info[L.LOAD_SLOPE] * w.par[L.D_SIGMA1] > -FLAT * w.info[L.REACHED_LOAD]:
         # a fold may be near: the slope is needed with a heat factor made here
         forget_factor(w)
         if newton(w, pt, LOAD, pt.load, NO_FLOOR, WARM_TOLERANCE, 12.0) != OK:
@@ -166,8 +178,13 @@ def solve(w: Workspace, pt: Point, wanted: float, state: Array) -> int:
     ----------
     wanted : ANY (the remembered branch while it exists, else the other; without memory the film
         branch up to its fold), FILM_BRANCH or CONTACT_BRANCH
+
+    Notes
+    -----
+    OVER_BUDGET after ``BUDGET`` iterations: more than ever a solution of the default washer took.
     """
     w.info[L.ITERATIONS], w.info[L.FACTORED] = 0.0, 0.0
+    w.info[L.BUDGET] = BUDGET
     scanned = False
     arrived = False
     status = OK
@@ -186,7 +203,16 @@ def solve(w: Workspace, pt: Point, wanted: float, state: Array) -> int:
         scanned = w.found[L.MULTIPLICITY] != 0.0
     w.info[L.ARRIVED] = 1.0 if arrived else 0.0
     w.info[L.SCANNED] = 1.0 if scanned else 0.0
-    return status
+    return end_of_budget(w, status)
+
+
+@kernel
+def end_of_budget(w: Workspace, status: int) -> int:
+    """Return how a solve with a budget ended; what follows has none."""
+    failed = status != OK and status != NO_BRANCH
+    spent = failed and is_spent(w)
+    w.info[L.BUDGET] = 0.0
+    return OVER_BUDGET if spent else status
 
 
 @inlined

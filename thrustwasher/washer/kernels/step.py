@@ -22,7 +22,7 @@ from .map.map_step import N_MAP_WORK, NOT_HERE, map_sens, map_step
 from .outputs import outputs_at
 from .parameter_derivative import SHARES, add_share_slope
 from .regime_and_status import BOUNDARY, broken_rule, change_of, is_bad, judge, point_of
-from .solve import is_distressed, keep_solution, solve
+from .solve import end_of_budget, is_distressed, keep_solution, solve
 from .transient import advance_heat, look_for_folds, name_branch, start_cold, take_up
 from .workspace import (
     Point,
@@ -54,6 +54,7 @@ TABLE = {
 }
 NWORK = TABLE_AT + ROOM
 NSEED = NINP + len(SHARES)  # inputs, then tunable shares of heat
+BUDGET_IN_TIME = 3000.0  # Newton iterations that one step of the bodies' heat may take
 LESS = 0.2  # of the step that was taken: the advice where the speed chatters
 
 __all__ = [
@@ -98,7 +99,9 @@ def _in_time(
     w.info[L.ARRIVED], w.info[L.SCANNED] = 1.0, 0.0
     status, substep, made, before = OK, 0.0, 0.0, stored_heat(w)
     if dt > 0.0 or not fresh:
+        w.info[L.BUDGET] = w.info[L.ITERATIONS] + BUDGET_IN_TIME
         status, substep, made = advance_heat(w, pt, dt, state[L.S_SUBSTEP])
+        status = end_of_budget(w, status)
     return status, substep, made, stored_heat(w) - before
 
 

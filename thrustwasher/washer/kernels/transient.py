@@ -16,9 +16,9 @@ from . import layout as L
 from .branch import DESCENT, ENTRY_RATIO, FILM_RATIO, descend, settle
 from .continuation import enter_curve, note, recall, remember, walk_down, walk_to
 from .heat import set_steady
-from .newton import FILM, LOAD, NO_FLOOR, evaluate_here, newton, smooth_film
+from .newton import FILM, LOAD, NO_FLOOR, evaluate_here, is_spent, newton, smooth_film
 from .outputs import outputs_at
-from .solve import recall_state, scan_holds
+from .solve import BUDGET, recall_state, scan_holds
 from .workspace import Point, Workspace, fields_of, forget_factor, model_of
 
 ATOL, RTOL = 0.02, 2e-3  # [K], and of the largest rise: what a substep may be off
@@ -119,7 +119,7 @@ def advance_heat(w: Workspace, pt: Point, dt: float, first: float) -> tuple[int,
         error, largest = ladder.error_of_flux(w)
         error = error / (ATOL + RTOL * largest) if status == OK else 16.0
         if not error <= 1.0:
-            if h < 1e-9 * dt:
+            if h < 1e-9 * dt or is_spent(w):
                 status = status if status != OK else MAX_ITERATIONS
                 break
             h *= max(0.2, 0.9 / math.sqrt(error))
@@ -171,8 +171,9 @@ def look_for_folds(w: Workspace, pt: Point, state: Array) -> None:
     carrier, washer, gear = out[0], out[1], out[2]
     copy(f.outward, f.begin)
     set_steady(m, pt, f)
+    w.info[L.BUDGET] = w.info[L.ITERATIONS] + BUDGET
     status = descend(w, pt, L.CONTACT_BRANCH)
-    w.found[L.BRANCH] = branch
+    w.info[L.BUDGET], w.found[L.BRANCH] = 0.0, branch
     if status != OK and status != NO_BRANCH:
         w.found[L.MULTIPLICITY] = state[L.S_MULTIPLICITY]
     elif w.found[L.MULTIPLICITY] != L.MULTIPLE:

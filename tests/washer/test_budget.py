@@ -21,11 +21,11 @@ LARGE = {
     "inner_radius": 0.02,
     "outer_radius": 0.04,
     "gear_inner_radius": 0.03,
-    "roughness": 4e-7,
+    "roughness": 2e-7,
     "yield_strength": 4e8,
-    "asperity_density": 2e10,
+    "asperity_density": 5e10,
 }
-BEYOND = (7500.0, 1600.0, 0.0095, 330.0)
+BEYOND = (9000.0, 1000.0, 0.008, 260.0)
 
 
 def solved(params, load, speed, tilt, oil, **how):

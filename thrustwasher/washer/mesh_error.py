@@ -12,7 +12,7 @@ from .kernels import layout as L
 from .sensitivities import Linearised, Solved
 
 # what at least 95 of 100 solutions of the verified box stay below
-OF_FILM = {"field": 0.028, "fine": 0.0098}
+OF_FILM = {"field": 0.031, "fine": 0.0098}
 LEAST_SHARE = 0.02  # of the load on the film: dry contact errs too
 
 

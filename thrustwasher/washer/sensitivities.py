@@ -123,6 +123,15 @@ class Linearised:
             found[n] += change
         return found
 
+    def torque_over_load(self) -> float:
+        """Return the slope of the torque over the load [N m/N]."""
+        forces, change = np.zeros(4), np.zeros(N_CHANGES)
+        forces[L.ON_GEAR] = -1.0  # what the gear carries, less the load
+        self._check(k.factor_for_parameters(self.w, self.pt, LOAD))
+        heat = np.zeros(self.f.temp.size)
+        self._check(k.follow_parameter(self.w, self.pt, LOAD, 0.0, forces, heat, change))
+        return float(change[L.O_TORQUE])
+
     def to_film(self, film: float) -> None:
         """Solve at a smoothed film thickness [m] near this one."""
         self._check(newton(self.w, self.pt, FILM, film, NO_FLOOR, TOLERANCE, 20.0))

@@ -20,6 +20,7 @@ from .kernels.newton import evaluate_here
 from .kernels.outputs import outputs_at
 from .kernels.regime_and_status import point_of
 from .kernels.workspace import Fields, fields_of, size_of_work, workspace_of
+from .mesh_error import OF_FILM, mesh_error
 from .parameters import SPEC, WasherParams, face_of
 from .sensitivities import Solved, parameter_derivatives
 
@@ -126,10 +127,18 @@ class WasherResult(AtPoint):
     def error_estimate(self) -> float | None:
         """[-] relative, of friction_torque; by its table or, with ``grid``, by a second solve.
 
-        Tables were measured for their own parameters and box; elsewhere it is None.
+        Tables were measured for their own parameters and box; elsewhere it is None. On a mesh the
+        solution itself says more: how steeply the torque follows the load (some milliseconds).
         """
         if self._error != BY_CARD:
             return self._error
+        known = self._by_table()
+        if known is None or self.fidelity not in OF_FILM:
+            return known
+        share = self.fluid_load / (self.fluid_load + self.contact_load)
+        return min(known, mesh_error(self.solved(), self.fidelity, share, self.film_ratio))
+
+    def _by_table(self) -> float | None:
         names = ("load", "speed", "tilt", "oil_temperature")
         return error_estimate(
             "washer",

@@ -13,7 +13,7 @@ from thrustwasher.washer.map.map_mesh import NotSmooth
 from thrustwasher.washer.parameters import WasherParams
 from thrustwasher.washer.solve import solve_washer
 
-# a layer of asperities at the rim that the mesh of "field" is too coarse for
+# just where asperities begin to carry the mesh of "field" is half a percent off
 WIDE = WasherParams(
     inner_radius=7.5e-3, outer_radius=19e-3, gear_inner_radius=11e-3, roughness=3.1e-7
 )
@@ -23,16 +23,16 @@ BOX = {
     "tilt": (1.6e-3, 1.6e-3),
     "oil_temperature": (350.0, 350.0),
 }
-PLACE = {"load": 12.0, "speed": 10.0, "tilt": 1.6e-3, "oil_temperature": 350.0}
+PLACE = {"load": 6.0, "speed": 10.0, "tilt": 1.6e-3, "oil_temperature": 350.0}
 TINY = {**BOX, "load": (10.0, 14.0), "speed": (10.0, 10.0)}
 
 
 def test_few_lines_on_a_finer_mesh_make_good_what_the_mesh_misses(tmp_path):
     card = make_map(WIDE, tmp_path / "wide.twm", box=BOX, tolerance=0.01, workers=1, points=6)
     assert card["built_from"] == "field" and card["finer_lines"] == 3
-    assert card["mesh_made_good"] > 0.02 and card["held_out"]["torque"] < 0.01
+    assert card["mesh_made_good"] > 3e-3 and card["held_out"]["torque"] < 0.01
     there = solve_washer(WIDE, **PLACE, fidelity="fine").friction_torque
-    assert solve_washer(WIDE, **PLACE).friction_torque > 1.008 * there
+    assert solve_washer(WIDE, **PLACE).friction_torque > 1.003 * there
     torque = WasherMap(WIDE, tmp_path / "wide.twm").torque(*PLACE.values())
     assert torque == pytest.approx(there, rel=3e-3)
 

@@ -32,8 +32,7 @@ FILM_RATIO = 3.0  # single-valued curves are called film above it
 CLEAR_SHARE = 0.01  # below this share of contact a stable solution is on the film branch
 ENTRY_RATIO = 4.0
 DESCENT = 0.28  # finest step of the descent [sigma]
-ALONE = 0.9  # of the load, carried by asperities: beyond every fold
-ON_FOOT = 120.0  # iterations of one step in film thickness there, before going by load
+ON_FOOT = 120.0  # iterations of a step in film thickness beyond all folds, before going by load
 FIRST_ROUNDS = 4  # of settling there, which go by film thickness
 ROUGHLY = 1e-4  # tolerance on the way
 NOISE = 3e-4  # a load must change by more to count as past a fold; points are good to 1e-4
@@ -78,7 +77,7 @@ def settle(w: Workspace, pt: Point, upper: float, lower: float) -> int:
 
 @kernel
 def _settle(w: Workspace, pt: Point, upper: float, lower: float, alone: bool) -> int:
-    """Do as `settle`; ``alone``: the load has one solution, and asperities carry most of it.
+    """Do as `settle`; ``alone``: the load has one solution, in contact.
 
     There bodies may turn the washer so that its film grows with the load: what Newton's method
     finds outside the bracket counts, but for its first rounds.
@@ -180,7 +179,7 @@ def _contact_side(w: Workspace, pt: Point, lost: bool) -> int:
     for _ in range(200):
         upper, before = w.curve[L.AT_FILM], w.curve[L.AT_LOAD]
         # one solution: the load is above that of the fold where the film is lost, if there is one
-        alone = w.curve[L.AT_SHARE] > ALONE and before < pt.load and not pt.load < w.found[L.LOST]
+        alone = before < pt.load and not pt.load < w.found[L.LOST]
         remember(w, 2.0)
         target = step_down(sigma, upper, DESCENT)
         status = walk_within(w, pt, target, ON_FOOT if alone else math.inf)

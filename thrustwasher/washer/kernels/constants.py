@@ -18,9 +18,8 @@ from ...numerics.status import BAD_INPUT, NOT_FINITE, OK
 from ...tribology.asperities import N_CONTACT_WORK, N_TABLE, asperity_args, contact_table
 from . import layout as L
 
-COARSE_GRADING, FINE_GRADING = 1.6, 2.0  # best below and from FINE_FROM radial nodes
-FINE_FROM = 16
-ANGULAR_GRADING = 0.3
+RADIAL_GRADING = 1.7
+ANGULAR_GRADING = 0.5
 
 
 class WasherModel(NamedTuple):
@@ -67,6 +66,7 @@ class WasherModel(NamedTuple):
     table2: Array
     r: Array  # (n_r,) nodes [m]
     r_face: Array  # (n_r,) outer face of each cell [m]; the last is the rim
+    middle: Array  # (n_r,) centre of each cell's area [m]: a gap linear in r has its mean there
     log_width: Array  # (n_r,) ln(outer/inner face)
     weight1: Array  # (n_r,) spline weights x r over ri..ro [m^2]
     weight2: Array  # (n_r,) the same over rig..ro, zero inside
@@ -86,10 +86,11 @@ class WasherModel(NamedTuple):
 def gear_node(n_r: int, share: float) -> int:
     """Return the radial node on the gear's inner radius, which has ``share`` of the width inside.
 
-    A little less than its share of the intervals goes inside (a third for the default washer), for
-    the outer part is the harder one; each part keeps what its quadrature needs.
+    Less than its share of the intervals goes inside (two of nine for the default washer), for the
+    outer part is the harder one; each part keeps what its quadrature needs.
     """
-    return min(max(1, int(0.86 * share * (n_r - 1) + 0.3)), n_r - 4)
+    least = max(1, min(2, int(share * (n_r - 1))))
+    return min(max(least, int(0.6 * share * (n_r - 1) + 0.3)), n_r - 4)
 
 
 def size_of_par(n_r: int, n_t: int) -> int:
@@ -127,20 +128,22 @@ def summits(par: Array, sigma: float) -> tuple[float, float, bool]:
 def _mesh(par: Array, n_r: int, n_t: int, i_g: int) -> bool:
     """Fill the mesh arrays of ``par``."""
     radial, around = mesh_arrays(par, n_r, n_t)
-    r, face, log_width = radial[L.RADIUS], radial[L.FACE], radial[L.LOG_WIDTH]
+    r, face, middle = radial[L.RADIUS], radial[L.FACE], radial[L.MIDDLE]
+    log_width = radial[L.LOG_WIDTH]
     weight1, weight2 = radial[L.WEIGHT1], radial[L.WEIGHT2]
     along, gear_width = radial[L.ALONG], radial[L.GEAR_WIDTH]
     ri, ro, rg = par[L.P_INNER_RADIUS], par[L.P_OUTER_RADIUS], par[L.P_GEAR_INNER_RADIUS]
     for i in range(i_g + 1):
         r[i] = ri + (rg - ri) * i / i_g
-    grading = FINE_GRADING if n_r >= FINE_FROM else COARSE_GRADING
     for i in range(i_g, n_r):
         s = (i - i_g) / (n_r - 1 - i_g)
-        r[i] = rg + (ro - rg) * (1.0 - (1.0 - s) ** grading)
+        r[i] = rg + (ro - rg) * (1.0 - (1.0 - s) ** RADIAL_GRADING)
     r[n_r - 1] = ro
     for i in range(n_r):
         face[i] = 0.5 * (r[i] + r[i + 1]) if i + 1 < n_r else ro
-        log_width[i] = math.log(face[i] / (face[i - 1] if i > 0 else ri))
+        inner = face[i - 1] if i > 0 else ri
+        log_width[i] = math.log(face[i] / inner)
+        middle[i] = 2.0 / 3.0 * (inner + face[i] * face[i] / (inner + face[i]))
     for i in range(n_r):
         along[i] = face[i] / (r[i + 1] - r[i]) if i + 1 < n_r else 0.0
         gear_width[i] = math.log(face[i] / r[i]) if i == i_g else log_width[i]
@@ -340,6 +343,7 @@ def washer_model(par: Array) -> WasherModel:
         table2=par[L.D_TABLE2 : L.D_MESH],
         r=radial[L.RADIUS],
         r_face=radial[L.FACE],
+        middle=radial[L.MIDDLE],
         log_width=radial[L.LOG_WIDTH],
         weight1=radial[L.WEIGHT1],
         weight2=radial[L.WEIGHT2],

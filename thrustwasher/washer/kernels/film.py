@@ -21,6 +21,7 @@ from .gap import film_change
 from .layout import AT_FIXED, OVER_POSITIONS, TILT_X, TILT_Y, Z_WASHER
 from .workspace import Fields, Point
 
+AT_NODES = 0.07  # share of each node in the resistance between two
 MOST_MARKS = 30  # rounds that settle which nodes are full
 
 
@@ -34,7 +35,7 @@ def evaluate_film(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
         slope = m.sin_face[j] * gx - m.cos_face[j] * gy
         for i in range(n_r):
             k = np.uintp(j * n_r + i)
-            h = z_w + m.r[i] * slope
+            h = z_w + m.middle[i] * slope
             f.ct[k], f.dct[k] = 0.0, 0.0
             if 0 < i < n_r - 1:  # there is no pressure at the rims
                 c, dc = flow_conductance(h, m.sigma1)
@@ -49,11 +50,20 @@ def evaluate_film(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
             pull = 0.25 * pt.speed * (m.r_face[i] * m.r_face[i] - inner * inner)
             f.wedge[k], f.dwedge[k] = pull * gap, pull * dgap
         slope = m.sin[j] * gx - m.cos[j] * gy
+        c1, dc1 = flow_conductance(z_w + m.r[0] * slope, m.sigma1)
         for i in range(n_r - 1):
+            # in series: node, face, node; slopes as shares of the resistance
             k = np.uintp(j * n_r + i)
-            c, dc = flow_conductance(z_w + m.r_face[i] * slope, m.sigma1)
-            g = m.r_face[i] * m.width_t[j] / (24.0 * (m.r[i + 1] - m.r[i]))
-            f.cr[k], f.dcr[k] = g * c, g * dc
+            c0, dc0, r0, r1, face = c1, dc1, m.r[i], m.r[i + 1], m.r_face[i]
+            c1, dc1 = flow_conductance(z_w + r1 * slope, m.sigma1)
+            c, dc = flow_conductance(z_w + face * slope, m.sigma1)
+            s0, s1 = AT_NODES / (r0 * c0), AT_NODES / (r1 * c1)
+            s = (1.0 - 2.0 * AT_NODES) / (face * c)
+            whole = s0 + s + s1
+            s0, s, s1 = s0 / whole * dc0 / c0, s / whole * dc / c, s1 / whole * dc1 / c1
+            f.cr[k] = m.width_t[j] / (24.0 * (r1 - r0)) / whole
+            f.dcr[k] = f.cr[k] * (s0 + s + s1)
+            f.arm_cr[k] = (s0 * r0 + s * face + s1 * r1) / (s0 + s + s1)
 
 
 @kernel
@@ -185,8 +195,8 @@ def _right_sides(m: WasherModel, f: Fields) -> None:
                 f.ct[k],
                 drop,
                 f.dct[k] * fluid * drop + f.dwedge[k],
-                m.r[i] * m.cos_face[j],
-                m.r[i] * m.sin_face[j],
+                m.middle[i] * m.cos_face[j],
+                m.middle[i] * m.sin_face[j],
             )
         if not used:
             continue
@@ -201,8 +211,8 @@ def _right_sides(m: WasherModel, f: Fields) -> None:
                 f.cr[k],
                 drop,
                 f.dcr[k] * fluid * drop,
-                m.r_face[i] * m.cos[j],
-                m.r_face[i] * m.sin[j],
+                f.arm_cr[np.uintp(k)] * m.cos[j],
+                f.arm_cr[np.uintp(k)] * m.sin[j],
             )
 
 
@@ -372,7 +382,7 @@ def hold_pressure(
         jn = j + 1 if j + 1 < n_t else 0
         for i in range(n_r):
             k, o = np.uintp(j * n_r + i), np.uintp(jn * n_r + i)
-            x, y = m.r[i] * m.cos_face[j], m.r[i] * m.sin_face[j]
+            x, y = m.middle[i] * m.cos_face[j], m.middle[i] * m.sin_face[j]
             dh = dq[Z_WASHER] + y * dq[TILT_X] - x * dq[TILT_Y]
             fluid, dfluid = f.fluidity[k] + f.fluidity[o], f.lag[k, 0] + f.lag[o, 0]
             drop = f.p[k] - f.p[o]
@@ -383,7 +393,7 @@ def hold_pressure(
             )
             f.dflow_r[k] = 0.0
             if i + 1 < n_r:
-                x, y = m.r_face[i] * m.cos[j], m.r_face[i] * m.sin[j]
+                x, y = f.arm_cr[k] * m.cos[j], f.arm_cr[k] * m.sin[j]
                 dh = dq[Z_WASHER] + y * dq[TILT_X] - x * dq[TILT_Y]
                 o = k + np.uintp(1)
                 fluid, dfluid = f.fluidity[k] + f.fluidity[o], f.lag[k, 0] + f.lag[o, 0]

@@ -251,7 +251,7 @@ def _pressure_change(m: WasherModel, f: Fields, dq: Array, to: Array) -> None:
         jn = j + 1 if j + 1 < n_t else 0
         for i in range(n_r - 1):
             k, o = np.uintp(j * n_r + i), np.uintp(jn * n_r + i)
-            x, y = m.r[i] * m.cos_face[j], m.r[i] * m.sin_face[j]
+            x, y = m.middle[i] * m.cos_face[j], m.middle[i] * m.sin_face[j]
             dh = dq[Z_WASHER] + y * dq[TILT_X] - x * dq[TILT_Y]
             drop, ddrop = f.p[k] - f.p[o], f.dp[k] - f.dp[o]
             fluid, dfluid = f.fluidity[k] + f.fluidity[o], f.lag[k, 0] + f.lag[o, 0]
@@ -259,7 +259,7 @@ def _pressure_change(m: WasherModel, f: Fields, dq: Array, to: Array) -> None:
             made = (0.5 * slope * drop + f.ct[k] * fluid * ddrop) * drop
             to[k] += made
             to[o] += made
-            x, y = m.r_face[i] * m.cos[j], m.r_face[i] * m.sin[j]
+            x, y = f.arm_cr[k] * m.cos[j], f.arm_cr[k] * m.sin[j]
             dh = dq[Z_WASHER] + y * dq[TILT_X] - x * dq[TILT_Y]
             o = k + np.uintp(1)
             drop, ddrop = f.p[k] - f.p[o], f.dp[k] - f.dp[o]
@@ -334,7 +334,9 @@ def heat_change(
             w1 = m.weight1[i] * m.weight_t[j]
             v, dv = omega * m.r[i], domega * m.r[i]
             dh = dq[Z_WASHER] + y * dq[TILT_X] - x * dq[TILT_Y]
-            dht, dpc = f.dht[k] * dh, f.dpc[k] * dh
+            dht = f.dht[k] * dh
+            across = m.sin[j] * dq[TILT_X] - m.cos[j] * dq[TILT_Y]
+            dpc = f.dpc[k] * (dq[Z_WASHER] + f.arm_pc[k] * across)
             dmu = f.dmu[k] * (film_change(m, dtemp, j, i) + change.oil_temperature)
             per_gap = 1.0 / f.ht[k]
             part, dpart = 1.0, 0.0

@@ -87,7 +87,7 @@ MAP, FIELD, FINE = 1, 3, 4  # fidelity; 2 was coarser and runs as FIELD
 D_TABLE1 = N_PARAM + 16  # contact tables of film 1 and gap 2
 D_TABLE2 = D_TABLE1 + N_TABLE
 D_MESH = D_TABLE2 + N_TABLE  # arrays over the radial nodes, then over the angles
-RADIUS, FACE, LOG_WIDTH, WEIGHT1, WEIGHT2, ALONG, GEAR_WIDTH, N_RADIAL = range(8)
+RADIUS, FACE, MIDDLE, LOG_WIDTH, WEIGHT1, WEIGHT2, ALONG, GEAR_WIDTH, N_RADIAL = range(9)
 COS, SIN, COS_FACE, SIN_FACE, WEIGHT_T, WIDTH_T, STEP_T, PER_STEP, N_AROUND = range(9)
 
 # `inp`; of the branch there is no input to an FMU.

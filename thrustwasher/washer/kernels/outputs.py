@@ -203,10 +203,13 @@ def change_of_outputs(
                 + dpart * f.mu[k] * shear
             )
             viscous *= weight * r
-            torque += weight * r * (friction * f.dpc[k] * dh + dfriction * f.pc[k])
+            across = m.sin[j] * dq[TILT_X] - m.cos[j] * dq[TILT_Y]
+            dpc = f.dpc[k] * (dq[Z_WASHER] + f.arm_pc[k] * across)
+            torque += weight * r * (friction * dpc + dfriction * f.pc[k])
             # pressure flow through the face j..j+1
             o = np.uintp(jn * n_r + i)
-            dh = dq[Z_WASHER] + r * m.sin_face[j] * dq[TILT_X] - r * m.cos_face[j] * dq[TILT_Y]
+            across = m.sin_face[j] * dq[TILT_X] - m.cos_face[j] * dq[TILT_Y]
+            dh = dq[Z_WASHER] + m.middle[i] * across
             viscous += per_speed * (
                 f.dwedge[k] * dh * (f.p[o] - f.p[k]) + f.wedge[k] * (f.dp[o] - f.dp[k])
             )

@@ -7,7 +7,7 @@ from ...numerics.jit import Array, kernel, matrix
 from . import layout as L
 from .constants import WasherModel, washer_model
 
-N_NODAL = 36  # arrays of one number per node
+N_NODAL = 38  # arrays of one number per node
 N_THERMAL = 7  # arrays of one number per temperature
 
 
@@ -48,6 +48,7 @@ class Fields(NamedTuple):
     dht: Array
     pc: Array  # (n,) contact pressure of film 1 and its slope
     dpc: Array
+    arm_pc: Array  # (n,) radius at which the gap's change counts for it [m]
     ht2: Array  # the same in gap 2
     dht2: Array
     pc2: Array
@@ -59,6 +60,7 @@ class Fields(NamedTuple):
     dct: Array
     cr: Array  # (n,) conductance i..i+1 over fluidity sum, slope over h
     dcr: Array
+    arm_cr: Array  # (n,) radius at which the gap's change counts for it [m]
     wedge: Array  # (n,) what drives the film at the face j..j+1, slope over h
     dwedge: Array
     wet: Array  # (n,) 1 where the film is full, 0 where it cavitates
@@ -195,38 +197,40 @@ def fields_of(w: Workspace) -> Fields:
         dht=nodal[1],
         pc=nodal[2],
         dpc=nodal[3],
-        ht2=nodal[4],
-        dht2=nodal[5],
-        pc2=nodal[6],
-        dpc2=nodal[7],
-        mu=nodal[8],
-        dmu=nodal[9],
-        fluidity=nodal[10],
-        ct=nodal[11],
-        dct=nodal[12],
-        cr=nodal[13],
-        dcr=nodal[14],
-        wedge=nodal[15],
-        dwedge=nodal[16],
-        wet=nodal[17],
-        flow_t=nodal[18],
-        dflow_t=nodal[19],
-        flow_r=nodal[20],
-        dflow_r=nodal[21],
-        leaving=nodal[22],
-        dleaving=nodal[23],
-        rim=nodal[24],
-        drim=nodal[25],
-        liquid=nodal[26],
-        dliquid=nodal[27],
-        outlet=nodal[28],
-        doutlet=nodal[29],
-        edge=nodal[30],
-        dedge=nodal[31],
-        across=nodal[32],
-        dacross=nodal[33],
-        made=nodal[34],
-        exchange=nodal[35],
+        arm_pc=nodal[4],
+        ht2=nodal[5],
+        dht2=nodal[6],
+        pc2=nodal[7],
+        dpc2=nodal[8],
+        mu=nodal[9],
+        dmu=nodal[10],
+        fluidity=nodal[11],
+        ct=nodal[12],
+        dct=nodal[13],
+        cr=nodal[14],
+        dcr=nodal[15],
+        arm_cr=nodal[16],
+        wedge=nodal[17],
+        dwedge=nodal[18],
+        wet=nodal[19],
+        flow_t=nodal[20],
+        dflow_t=nodal[21],
+        flow_r=nodal[22],
+        dflow_r=nodal[23],
+        leaving=nodal[24],
+        dleaving=nodal[25],
+        rim=nodal[26],
+        drim=nodal[27],
+        liquid=nodal[28],
+        dliquid=nodal[29],
+        outlet=nodal[30],
+        doutlet=nodal[31],
+        edge=nodal[32],
+        dedge=nodal[33],
+        across=nodal[34],
+        dacross=nodal[35],
+        made=nodal[36],
+        exchange=nodal[37],
         place=work[place:film],
         film=work[film:rhs],
         film_rhs=matrix(work[rhs:lag], n, N_SIDES),

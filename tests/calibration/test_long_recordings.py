@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from thrustwasher import ClutchParams, ParameterError, calibrate, solve_clutch
-from thrustwasher.calibration.groups import GROUPS
 from thrustwasher.calibration.identifiability import information
 from thrustwasher.calibration.least_squares import Problem
+from thrustwasher.calibration.row_groups import GROUPS
 from thrustwasher.calibration.signs import folded, too_fast
 
 PACK = ClutchParams()

@@ -5,7 +5,8 @@ import pytest
 
 from tests.needed import package
 from thrustwasher.errors import ParameterError
-from thrustwasher.storage.tables.table import MANY, numbers, read_table
+from thrustwasher.storage.tables.table import MANY, numbers
+from thrustwasher.storage.tables.table_file import read_table
 
 UNITS = {"speed": "rad/s", "load": "N", "friction": "1"}
 RPM = np.pi / 30.0

@@ -14,10 +14,10 @@ from ..numerics.jit import Array
 from ..sweep.solve_rows import check_rung
 from .estimates import Calibration
 from .fit import chosen_names, fitted
-from .groups import grouped
 from .identifiability import Verdict, counted
 from .least_squares import Problem, best_fit
 from .measured import Measured, measured, output_units
+from .row_groups import grouped
 
 ModelCalibration = Calibration  # its name while a law's fit was another one
 STEP = 1e-3  # of a parameter's scale, for differences of converged solutions

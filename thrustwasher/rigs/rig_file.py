@@ -15,7 +15,8 @@ from ..model.toml_tables import nothing_else, read_file
 from ..shift import load_scene
 from ..shift.scene.scene import Scene
 from ..shift.steady_points import COLUMNS, RANGES
-from ..storage.tables.table import numbers, read_table
+from ..storage.tables.table import numbers
+from ..storage.tables.table_file import read_table
 
 ORIGINS = ("table", "figure", "text", "fit")
 TEXTS = ("title", "source", "measured", "conditions", "rights", "read", "reason")

@@ -4,7 +4,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ...errors import ParameterError, suggestion
-from ...storage.tables.table import Column, Table, numbers, read_table
+from ...storage.tables.table import Column, Table, numbers
+from ...storage.tables.table_file import read_table
 from ...units import parse_quantity
 from ._output import note
 

@@ -3,12 +3,11 @@
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import ParameterError, refuse_pipe, suggestion
+from ...errors import ParameterError, suggestion
 from ...units import UNITS, parse_quantity, unit_size
 
 LONGEST = 2_000_000  # rows; a larger file is none of measured points
@@ -143,29 +142,3 @@ def _converted(column: Column, unit: str, difference: bool) -> NDArray[np.float6
     with np.errstate(over="ignore"):
         si = np.asarray(values * factor + (0.0 if difference else offset), dtype=np.float64)
     return si if np.isfinite(si).all() else None
-
-
-def read_table(path: str | Path) -> Table:
-    """Return the table of a file.
-
-    Text (``.csv``, ``.txt``, ``.tsv`` or any other ending) in UTF-8, UTF-16 or Windows' western
-    code page; comma, semicolon or tab between the cells; decimal points, or decimal commas where
-    they cannot be anything else. ``.xlsx``, ``.mat`` and ``.mf4`` by packages that read them.
-
-    Raises
-    ------
-    ParameterError : the file cannot be read, or can be read in two ways; the message says which
-    """
-    path = Path(path)
-    if path.is_dir():
-        raise ParameterError(f"{path}: is a folder, a file with a table is required")
-    if path.exists():
-        refuse_pipe(path)
-    ending = path.suffix.lower()
-    if ending in (".xlsx", ".xlsm", ".mat", ".mf4", ".mdf"):
-        from .binary_file import read_binary
-
-        return read_binary(path)
-    from .text_file import read_text_table
-
-    return read_text_table(path)

@@ -46,7 +46,7 @@ def test_weights_of_a_repeated_node_are_refused():
 @pytest.mark.parametrize("grid", [(5, 8), (10, 32), (19, 64)])
 def test_the_mesh_knows_both_areas_and_the_full_turn(grid):
     m = bench(grid).m
-    assert m.i_g == max(1, (grid[0] - 1) // 3) and m.r[m.i_g] == 0.0156
+    assert m.i_g == max(1, (grid[0] - 1) // 4) and m.r[m.i_g] == 0.0156
     assert (m.r[0], m.r[-1]) == (RI, RO)
     assert m.weight1.sum() == pytest.approx((RO**2 - RI**2) / 2.0, rel=1e-13)
     assert m.weight2.sum() == pytest.approx((RO**2 - 0.0156**2) / 2.0, rel=1e-13)

@@ -57,7 +57,7 @@ def test_every_fmu_is_freed(fails, monkeypatch):
         alive.remove(self)
         return real[1](self, *problem)
 
-    def stopped(scene, make):
+    def stopped(scene, make, **_):
         for name, part in scene.parts.items():
             make(name, part)
         assert len(alive) == len(scene.parts)

@@ -43,7 +43,7 @@ def test_a_spring_parts_smooth_faces_in_the_time_of_the_closed_form(grooves):
     pack.step(0.0, 0.0, 1e-9)
     pack.par[k.D_OPEN_RATIO] = p.initial_film / p.roughness
     pack.step(0.0, 0.0, parting_time(300.0, drag, p.initial_film, start, end))
-    assert pack.out[k.O_FILM] == pytest.approx(end, rel=1e-5)
+    assert pack.out[k.O_FILM] == pytest.approx(end, rel=1e-4)
 
 
 def test_a_cavity_in_the_middle_of_a_narrow_pad_parts_it_faster():

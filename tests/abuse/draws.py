@@ -3,6 +3,8 @@
 import math
 from dataclasses import fields
 
+from thrustwasher.units import SHARE, ULPS
+
 NO_NUMBERS = (math.nan, math.inf, -math.inf, 1e300, -1e300, 1.7976931348623157e308)
 TINY = (0.0, -0.0, 5e-324, -5e-324, 2.2e-308, -2.2e-308, 1e-200)
 
@@ -23,8 +25,13 @@ def inside(rng, low, high):
 
 
 def outside(rng, low, high):
-    """Return a value that has to be refused."""
-    beside = [math.nextafter(low, -math.inf), math.nextafter(high, math.inf)]
+    """Return a value that has to be refused: what rounding alone puts outside is taken."""
+    size = max(abs(low), abs(high))
+    room = min(ULPS * math.ulp(1.0) * size, SHARE * (high - low))
+    beside = [
+        math.nextafter(low - 2.0 * room, -math.inf),
+        math.nextafter(high + 2.0 * room, math.inf),
+    ]
     far = [low - 1.0 - abs(low), high + 1.0 + abs(high)]
     return rng.choice([*beside, *far, *(x for x in NO_NUMBERS if not low <= x <= high)])
 

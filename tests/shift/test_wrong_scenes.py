@@ -62,7 +62,7 @@ WRONG = [
     ("planetary", f"{OIL}kinematic_viscosity = [[313, 3e-5], [373, 5e-6]]", "beside"),
     ("planetary", "[oil]\nviscositi = 3", "did you mean 'viscosity'"),
     ("planetary", "[oil]\ndensity = 8.5", "density = 8.5 kg/m3, allowed: 500 .. 1500"),
-    ("duty-cycle", '[sequence]\nwindow = "0.7 s"', "window = 0.7 s, allowed: from 0.967 s"),
+    ("duty-cycle", '[sequence]\nwindow = "0.7 s"', "window = 0.7 s, allowed: from 0.977 s"),
     ("duty-cycle", "[sequence]\nwindow = 0.0", "window = 0.0 s, allowed"),
     ("duty-cycle", "[sequence]\nshifts = []", "allowed: pairs"),
     ("duty-cycle", '[sequence]\nshifts = [[0.0, "side"]]', "allowed: pairs"),

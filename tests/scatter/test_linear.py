@@ -20,9 +20,7 @@ def deviations(name, table, **changes):
 
 
 def test_a_figure_in_proportion_to_a_source_has_its_relative_deviation():
-    found, nominal = deviations(
-        "clutch", {"friction_scale": "5 %"}, friction_temperature_slope=0.0
-    )
+    found, nominal = deviations("clutch", {"friction_scale": "5 %"}, friction_temperature_slope=0.0)
     share = found["friction_coefficient"] / nominal["friction_coefficient"]
     assert share == pytest.approx(0.05, rel=2e-3)
 

@@ -6,7 +6,7 @@ from thrustwasher import ClutchParams, calibrate, solve_clutch
 
 # Stand-in for a test rig: a pack with other constants, its friction read with some scatter.
 CONSTANTS = {"plough_weight": 0.2, "shear_floor": 0.4, "stick_speed": 1.5, "decay_speed": 2.0}
-RIG = ClutchParams(friction_law="wang", **CONSTANTS)
+RIG = ClutchParams(friction_law="wang", friction_temperature_slope=0.0, **CONSTANTS)
 SLIP = np.linspace(2.0, 160.0, 40)  # rad/s
 FORCE = np.where(np.arange(40) % 2, 2000.0, 6000.0)  # N
 

@@ -1,6 +1,7 @@
 """The standard deviation by gradient: exact where a figure is linear, a warning where it is not."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,9 +12,10 @@ from thrustwasher.scatter.linear import linear_deviations
 from thrustwasher.scatter.part_target import part_target
 
 
-def deviations(name, table, **changes):
+def deviations(name, table, **parameters):
     part = find_part(name)
-    target = part_target(part, part.scattered(table), {**part.starts, **changes})
+    part = replace(part, parameters={**part.parameters, **parameters})
+    target = part_target(part, part.scattered(table), part.starts)
     return linear_deviations(target), dict(
         zip((f.name for f in target.figures), target.nominal(), strict=False)
     )

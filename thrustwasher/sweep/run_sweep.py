@@ -88,7 +88,7 @@ def run_sweep(
     --------
     >>> table = run_sweep("clutch", {"load": "1 kN:3 kN:1 kN"}, at={"speed": 10.0})
     >>> table["friction_torque"].round(2).tolist(), table["status"].tolist()
-    ([35.65, 71.29, 106.94], ['OK', 'OK', 'OK'])
+    ([36.26, 68.76, 98.05], ['OK', 'OK', 'OK'])
     """
     refuse_import_by_worker()
     if workers is not None and not (isinstance(workers, int) and 1 <= workers <= MOST_WORKERS):

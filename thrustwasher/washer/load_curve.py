@@ -179,7 +179,7 @@ def load_curve(
     --------
     >>> curve = load_curve(WasherParams(), speed=545.0, tilt=0.002)
     >>> [f"{fold.kind} {fold.load:.0f} N" for fold in curve.folds]
-    ['film_lost 956 N', 'film_regained 659 N']
+    ['film_lost 958 N', 'film_regained 659 N']
     """
     rung = rung_named(SPEC, fidelity)
     nodes = resolve_grid(rung, grid)

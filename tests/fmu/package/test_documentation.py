@@ -116,7 +116,7 @@ def test_the_equations_and_their_source_are_there(spec):
         for item in f.metadata.get("options", ())
     }
     named = set(re.findall(r"`([a-z_]+)`", text))
-    assert named <= known | options
+    assert named <= known | options | set(spec.fidelities)
 
 
 @pytest.mark.parametrize("name", ["washer", "clutch", "gearmesh"])

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from thrustwasher import WasherParams, solve_washer
-from thrustwasher.errors import BranchError
+from thrustwasher.errors import BranchError, Status
 from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.washer.map.look_up import WasherMap
 from thrustwasher.washer.parameters import SPEC
@@ -54,7 +54,8 @@ def test_inside_and_outside_of_the_rim_agree_and_bear_their_names(shipped):
         place = {**MIDDLE, name: rim * (1.0 + 2e-8 * out)}
         first = solve_washer(WasherParams(), **place, fidelity="map")
         assert (last.fidelity, first.fidelity) == ("map", "field"), name
-        assert last.status is first.status and not last.status.is_failure
+        said = Status.OUTSIDE_MAP if last.status is Status.OK else last.status
+        assert first.status is said and not last.status.is_failure, name
         assert last.friction_torque == pytest.approx(first.friction_torque, rel=5e-3), name
 
 
@@ -105,4 +106,4 @@ def test_near_the_fold_the_map_keeps_its_digits(shipped):
         point = {**MIDDLE, "load": share * lost}
         here = solve_washer(WasherParams(), **point, fidelity="map")
         there = solve_washer(WasherParams(), **point, fidelity="fine")
-        assert here.friction_torque == pytest.approx(there.friction_torque, rel=5e-3)
+        assert here.friction_torque == pytest.approx(there.friction_torque, rel=8e-3)

@@ -59,11 +59,24 @@ def test_mesh_and_pack_are_solved_at_both_ends(kelvin):
     assert mesh.film_temperature >= kelvin and pack.temperature >= kelvin
 
 
-@pytest.mark.parametrize("kelvin", [math.nextafter(ENDS[0], 0.0), math.nextafter(ENDS[1], 1e9)])
-def test_one_unit_in_the_last_place_outside_is_refused_by_name(kelvin):
-    with pytest.raises(ParameterError, match="oil_temperature"):
-        solve(oil_temperature=kelvin)
-    with pytest.raises(ParameterError, match="oil_temperature"):
-        solve_clutch(ClutchParams(), load=3000.0, speed=20.0, oil_temperature=kelvin)
-    with pytest.raises(ParameterError, match="oil_temperature"):
-        solve_gearmesh(GearMeshParams(), power=7500.0, speed=180.0, oil_temperature=kelvin)
+def at(kelvin):
+    """Return calls that solve washer, pack and mesh in oil of a temperature."""
+    return (
+        lambda: solve(oil_temperature=kelvin),
+        lambda: solve_clutch(ClutchParams(), load=3000.0, speed=20.0, oil_temperature=kelvin),
+        lambda: solve_gearmesh(GearMeshParams(), power=7500.0, speed=180.0, oil_temperature=kelvin),
+    )
+
+
+@pytest.mark.parametrize(("end", "out"), zip(ENDS, (0.0, 1e9), strict=True))
+def test_one_unit_in_the_last_place_outside_is_taken_as_the_end(end, out):
+    """Converting units costs that much."""
+    for beyond, there in zip(at(math.nextafter(end, out)), at(end), strict=True):
+        assert repr(beyond()) == repr(there())
+
+
+@pytest.mark.parametrize("kelvin", [ENDS[0] * (1.0 - 1e-9), ENDS[1] * (1.0 + 1e-9)])
+def test_a_billionth_outside_is_refused_by_name(kelvin):
+    for call in at(kelvin):
+        with pytest.raises(ParameterError, match="oil_temperature"):
+            call()

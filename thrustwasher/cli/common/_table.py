@@ -1,13 +1,14 @@
 """Columns of a table in a file, found by their names, in SI units."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ...errors import ParameterError, suggestion
-from ...storage.tables.table import Column, Table, numbers
-from ...storage.tables.table_file import read_table
 from ...units import parse_quantity
 from ._output import note
+
+if TYPE_CHECKING:
+    from ...storage.tables.table import Column, Table
 
 SHOWN = 12  # names of columns that do not count
 
@@ -30,6 +31,9 @@ def read_columns(
     refused unless their names begin with _, and a cell may be empty: None. ``names``: texts
     NAME=CHANNEL of ``--column``. Errors name line and column.
     """
+    from ...storage.tables.table import numbers
+    from ...storage.tables.table_file import read_table
+
     table = read_table(path).renamed(_renaming(names))
     found, passed = _find(table, units, optional, strict)
     columns: dict[str, list[Any]] = {}
@@ -56,8 +60,8 @@ def _renaming(names: Sequence[str]) -> dict[str, str]:
 
 
 def _find(
-    table: Table, units: Mapping[str, str], optional: tuple[str, ...], strict: bool
-) -> tuple[dict[str, Column], list[str]]:
+    table: "Table", units: Mapping[str, str], optional: tuple[str, ...], strict: bool
+) -> tuple[dict[str, "Column"], list[str]]:
     """Return every column by its name, and those passed over."""
     path = table.path
     found: dict[str, Column] = {}

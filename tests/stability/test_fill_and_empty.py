@@ -38,7 +38,7 @@ def test_one_step_fills_as_a_hundred_do(step, fidelity):
         run(step, 1, fidelity=fidelity), run(step, 100, fidelity=fidelity), strict=True
     ):
         for name in SHOWN:
-            assert one[name] == pytest.approx(many[name], rel=2e-5), name
+            assert one[name] == pytest.approx(many[name], rel=1e-4), name
 
 
 def test_in_a_second_it_fills_and_empties_for_good():

@@ -61,7 +61,11 @@ def _called(package: str) -> Mapping[str, tuple[str, ...]]:
 def called(library: str) -> tuple[tuple[str, str, tuple[str, ...]], ...]:
     """Return module, name and arrays of two dimensions of each function of a library for Python."""
     found: list[tuple[str, str, tuple[str, ...]]] = []
-    for line in _called(library.rpartition(".")[0]).get(library, ()):
+    package, lines = library, tuple[str, ...]()
+    while "." in package and not lines:  # a package of kernels may have folders
+        package = package.rpartition(".")[0]
+        lines = _called(package).get(library, ())
+    for line in lines:
         place, *rest = line.split()
         if place.endswith(":"):
             found += [(place[:-1], name, ()) for name in rest]

@@ -125,10 +125,11 @@ class WasherResult(AtPoint):
 
     @property
     def error_estimate(self) -> float | None:
-        """[-] relative, of friction_torque; by its table or, with ``grid``, by a second solve.
+        """[-] relative, of friction_torque, at most 1; with ``grid`` by a second solve.
 
-        Tables were measured for their own parameters and box; elsewhere it is None. On a mesh the
-        solution itself says more: how steeply the torque follows the load (some milliseconds).
+        On the named meshes it follows from how steeply the torque follows the load (some
+        milliseconds), with the map from its card. Both hold for the parameters and the box that a
+        card was measured for; elsewhere it is None.
         """
         if self._error != BY_CARD:
             return self._error
@@ -136,7 +137,7 @@ class WasherResult(AtPoint):
         if known is None or self.fidelity not in OF_FILM:
             return known
         share = self.fluid_load / (self.fluid_load + self.contact_load)
-        return min(known, mesh_error(self.solved(), self.fidelity, share, self.film_ratio))
+        return mesh_error(self.solved(), self.fidelity, share, self.film_ratio)
 
     def _by_table(self) -> float | None:
         names = ("load", "speed", "tilt", "oil_temperature")

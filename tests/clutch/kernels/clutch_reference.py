@@ -62,8 +62,10 @@ def lift(p, u, eta, speed):
 
 def torn(suction):
     """How much faster the faces part than oil that bears any suction lets them."""
-    q = min(suction / 1e5, 0.97)
-    return 1.0 if q <= 2.0 / 3.0 else 1.0 / (13.5 * q * (1.0 - q) ** 2)
+    q = suction / 1e5
+    if not 2.0 / 3.0 < q < 1.0:
+        return 1.0 if q < 1.0 else 85.0
+    return 1.0 + 1.0 / (1.0 / (1.0 / (13.5 * q * (1.0 - q) ** 2) - 1.0) + 1.0 / 84.0)
 
 
 def thinned(p, eta, speed, temperature):

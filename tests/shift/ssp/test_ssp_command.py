@@ -81,7 +81,7 @@ def test_a_part_of_ones_own_is_in_the_package_by_its_name_and_runs(tmp_path, cap
     (tmp_path / "pack.toml").write_text(
         'model = "clutch"\nname = "MyPack"\ndescription = "Worn pack"\nnotes = "drawing 12"\n'
         'fidelity = "closed"\n[parameters]\nconstant_friction = 0.5\nfriction_scale = 0.9\n'
-        "faces = 1\neffective_radius = 2.0\nfilm_dynamics = false\n"
+        "faces = 1\neffective_radius = 2.0\nfilm_dynamics = false\nfriction_temperature_slope = 0\n"
     )
     scene, path = tmp_path / "scene.toml", tmp_path / "own.ssp"
     scene.write_text('base = "msl"\n[clutch]\npart = "pack.toml"\n')

@@ -17,7 +17,7 @@ from . import layout as L
 from .pack_friction import coefficient_slopes, cooling_slope, pack_torques
 
 LEAST_CDF = 1e-3
-MOST_TORN = 0.97  # of one atmosphere, mean suction
+MOST_TORN = 85.0  # times as fast as untorn oil lets them: no more
 
 
 @kernel
@@ -78,16 +78,19 @@ def torn(suction: float) -> tuple[float, float]:
 
     ``suction``: mean of the film's [Pa > 0]. A narrow pad's parabola reaches one atmosphere at a
     mean of 2/3 of it; from there on a cavity grows from its middle: 1/(9 (1 - q)^2) over 3 q/2, q
-    the mean suction in atmospheres. Held from q = MOST_TORN on: nothing but mass resists there.
+    the mean suction in atmospheres. The plates' mass, in series with it, lets it grow to MOST_TORN.
     Derived in docs/theory/clutch/release.md.
     """
     q = suction / L.AMBIENT
     if q <= 2.0 / 3.0:
         return 1.0, 0.0
-    if q >= MOST_TORN:
-        return 1.0 / (13.5 * MOST_TORN * (1.0 - MOST_TORN) * (1.0 - MOST_TORN)), 0.0
-    factor = 1.0 / (13.5 * q * (1.0 - q) * (1.0 - q))
-    return factor, factor * (2.0 / (1.0 - q) - 1.0 / q) / L.AMBIENT
+    if q >= 1.0:
+        return MOST_TORN, 0.0
+    rest = 13.5 * q * (1.0 - q) * (1.0 - q)  # 1 over the massless plates' factor
+    most = MOST_TORN - 1.0
+    below = most * rest + 1.0 - rest
+    slope = 13.5 * (1.0 - q) * (3.0 * q - 1.0)  # of -rest
+    return 1.0 + most * (1.0 - rest) / below, most * most * slope / (below * below) / L.AMBIENT
 
 
 @kernel

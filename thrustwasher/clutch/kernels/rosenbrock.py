@@ -48,7 +48,9 @@ NUDGE = 1e-3  # share of a substep after which the drift of the rates is read
 
 TOLERANCE_FILM = 1e-5  # error of a substep, of film ratio + 1
 LATE = 2e-4  # of the interval: by so much a substep's film may be early or late
-TOLERANCE_HEAT = 1e-4  # K, also of the energy, in the warmth of the pack's steel
+LATE_SHARE = 1e-1  # of its way in the substep: by no more
+TOLERANCE_HEAT = 1e-4  # K
+TOLERANCE_ENERGY = 1e-5  # the same, of the energy, in the warmth of the pack's steel
 TOLERANCE_RISE = 1e-3  # K, of a lumped pack's interface when conduction modes are on top
 SHARE_IN_RINGS = 0.3  # of the tolerance that a pack in rings may use
 FAR = 5.0  # of film ratio + 1: a substep after a refused one goes no further at the first rate
@@ -245,18 +247,22 @@ def substep(par: Array, ramp: Ramp, x: float, share: float, duration: float, wor
 def _error(par: Array, work: Array, last: int, duration: float) -> float:
     """Return the error of a substep, its last stage, in units of the tolerance.
 
-    An error of the film counts less where it moves: it is then a matter of when it is where.
+    An error of the film counts less where it moves: it is then a matter of when it is where, as
+    long as it is small beside the way that the film goes in the substep.
     """
     ratio = work[np.uintp(L.W_TRIAL + L.Y_FILM)]
     w = 1.0 + work[L.W_BEND] * (ratio - work[np.uintp(L.W_NOW + L.Y_FILM)])
     steep = 1.0 / (w * w * w)
     begins = abs(work[np.uintp(L.W_KEPT + L.R_RATE)])
     ends = abs(work[np.uintp(L.W_KEPT + (L.N_STAGES - 1) * L.N_RATES + L.R_RATE)])
-    allowed = TOLERANCE_FILM * (1.0 + abs(ratio)) * steep + LATE * duration * min(begins, ends)
+    gone = abs(ratio - work[np.uintp(L.W_NOW + L.Y_FILM)])
+    late = min(LATE * duration * min(begins, ends), LATE_SHARE * gone * steep)
+    allowed = TOLERANCE_FILM * (1.0 + abs(ratio)) * steep + late
     film = work[np.uintp(last + L.Y_FILM)] / allowed
     n, is_lumped = 1 + int(par[L.D_MODES]), par[L.D_FIRST] == 0.0
     tolerance = TOLERANCE_RISE if is_lumped and n > 1 else TOLERANCE_HEAT
-    error = max(abs(film), abs(work[np.uintp(last + L.Y_ENERGY)]) * par[L.D_GAIN] / TOLERANCE_HEAT)
+    energy = abs(work[np.uintp(last + L.Y_ENERGY)]) * par[L.D_GAIN]
+    error = max(abs(film), energy / TOLERANCE_ENERGY)
     for k in range(int(par[L.D_RINGS])):
         heat = 0.0
         for i in range(n):

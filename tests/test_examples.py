@@ -14,19 +14,19 @@ EXAMPLES = Path(__file__).parents[1] / "examples"
 PINNED = {  # value; relative tolerance
     "ex01_washer": (0.25810, 6e-3),  # N m
     "ex02_load_curve": (957.7, 0.02),  # N
-    "ex03_clutch": (-1.9868212651952575, 1e-9),  # N m s/rad: friction falls with slip
+    "ex03_clutch": (-1.7881391386757315, 1e-9),  # N m s/rad: friction falls with slip
     "ex04_shift": (2.1107904, 1e-5),  # s
     "ex05_gearmesh": (0.6747259775410824, 1e-9),  # of the contact stress allowed without heat
     "ex06_calibrate": (1.9784950022118957, 1e-6),  # m/s
     "ex07_braking_test": (1.2004398, 1e-7),  # s, from the middle of the ramp
-    "ex08_native_washer": (956.37, 3e-4),  # N, the fold of ex02 as the default mesh has it
+    "ex08_native_washer": (957.81, 3e-4),  # N, the fold of ex02 as the default mesh has it
     "ex09_package": (2.1107706965, 1e-9),  # s
     "ex10_sweep": (940.0, 1e-9),  # N, the last step of 20 N below the fold of ex08
-    "ex11_overload": ([3.75, 0.575, 0.125], 0.05),  # s
-    "ex12_engine_and_vehicle": (0.88947, 2e-4),  # s, the scene's own engine and vehicle: 0.889472
-    "ex13_engine_and_vehicle_ssp": (0.88947, 2e-4),  # s
-    "ex14_jackson_green": (0.15514, 1e-3),  # share of the film's heat that the solids take
-    "ex15_design": (0.256891, 1e-4),  # N m, at the film ratio of the limit
+    "ex11_overload": ([3.675, 0.55, 0.1], 0.05),  # s
+    "ex12_engine_and_vehicle": (0.885353, 2e-4),  # s, as the scene's own engine and vehicle
+    "ex13_engine_and_vehicle_ssp": (0.885353, 5e-4),  # s
+    "ex14_jackson_green": (0.15734, 1e-3),  # share of the film's heat that the solids take
+    "ex15_design": (0.257116, 1e-4),  # N m, at the film ratio of the limit
     "ex16_own_driveline": (91.724138, 1e-6),  # N m, the torque of rigid shafts
 }
 IN_SHORT = {"ex14_jackson_green": {"most": 1}}  # CI runs every example as it stands
@@ -96,11 +96,11 @@ def test_a_vehicle_of_ones_own_is_the_scenes():
 
 NOTEBOOKS = sorted((EXAMPLES / "notebooks").glob("*.ipynb"))
 SAID = {  # among what each one prints
-    "1_washer": "0.2582 N m at a film ratio of 20.8",
-    "2_own_part": "Python at 300 N: 0.08754 N m",
+    "1_washer": "0.2584 N m at a film ratio of 20.8",
+    "2_own_part": "Python at 300 N: 0.08755 N m",
     "3_calibrate": "stick_speed    not determined",
-    "4_shift": "as it is   locks at 0.8563 s",
-    "5_scatter": "locks at 0.856 s",
+    "4_shift": "as it is   locks at 0.8307 s",
+    "5_scatter": "locks at 0.831 s",
 }
 each_notebook = pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 

@@ -219,7 +219,7 @@ def test_a_wrong_argument_is_named(more, words):
         target_of(WASHER, {"load": "5 %"}, **more)
 
 
-def test_the_nominal_run_is_the_part_itself_and_its_error_that_of_the_card():
+def test_the_nominal_run_is_the_part_itself_and_its_error_its_own():
     target = target_of(WASHER, {"roughness": "5 %"})
     own = WASHER.solve()
     assert target.nominal()[0] == pytest.approx(own.friction_torque, rel=1e-6)

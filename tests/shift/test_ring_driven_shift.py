@@ -30,7 +30,7 @@ def test_the_phases_are_those_of_the_courses(run):
     assert figures["filled_time"] == pytest.approx(0.1075, abs=1e-9)
     assert run.phases[1].end == 0.2
     assert figures["torque_phase"] == pytest.approx(0.182, abs=0.0057)
-    assert figures["inertia_phase"] == pytest.approx(0.485, rel=0.03)
+    assert figures["inertia_phase"] == pytest.approx(0.446, rel=0.03)
 
 
 def test_the_shift_is_one_that_an_engineer_would_call_good(run):

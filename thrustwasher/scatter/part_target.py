@@ -3,6 +3,7 @@
 import hashlib
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from typing import Any, Literal
@@ -10,7 +11,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import FIRST_FAILURE, ParameterError, Status, suggestion
+from ..errors import FIRST_FAILURE, ParameterError, SolveError, Status, suggestion
 from ..ladder.error_table import QUANTITIES, error_estimate
 from ..model.advice import quantity_text
 from ..model.part_file import PartFile
@@ -162,7 +163,10 @@ class PartTarget:
                 yield f"{words}: {one}" if len(rows) == 1 else text
 
     def error(self) -> dict[str, float]:
-        """Return the mesh's error of figures at the nominal point, by its table of errors."""
+        """Return the mesh's error of figures at the nominal point.
+
+        Of a washer's torque it is what the solution itself tells, else by the table of errors.
+        """
         values = {f.name: float(x) for f, x in zip(self.figures, self._nominal, strict=False)}
         branch = None
         if LOST in self.outcomes:
@@ -182,9 +186,20 @@ class PartTarget:
             )
             if error is not None and math.isfinite(error) and value > 0.0 and unit != "K":
                 found[name] = error if unit is None else error / value
+        if "friction_torque" in found:
+            found["friction_torque"] = self._told(branch) or found["friction_torque"]
         if "friction_torque" in found and "friction_power" in values:
             found["friction_power"] = found["friction_torque"]
         return found
+
+    def _told(self, branch: str | None) -> float | None:
+        """Return the error of its torque that the nominal solution tells, if it tells one."""
+        asked = {} if branch is None else {"branch": branch}
+        with suppress(ParameterError, SolveError):
+            result = self.part.solve(**self.inputs, fidelity=self.fidelity, **asked)
+            told: float | None = getattr(result, "error_estimate", None)
+            return told
+        return None
 
     @cached_property
     def _nominal(self) -> Array:

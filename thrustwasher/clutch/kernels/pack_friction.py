@@ -165,12 +165,10 @@ def pack_torques(
     mu, mu_t, mu_s = coefficient_slopes(par, slip, temperature)
     lever, whole = par[L.P_FACES] * par[L.D_RADIUS], load / par[L.D_AREA]
     normal, normal_u, grows = lever * share * load, lever * share_u * load, 0.0
-    if pressure > whole * (2.0 - SETTLED) or whole < L.OPEN_PRESSURE:
+    if share >= 1.0 or whole < L.OPEN_PRESSURE:
         normal, normal_u = lever * pressure * par[L.D_AREA], lever * rise * par[L.D_AREA]
         if pressure > whole + L.AMBIENT:
             normal, normal_u, grows = lever * (load + L.AMBIENT * par[L.D_AREA]), 0.0, lever
-    elif share >= 1.0:
-        grows = lever
     contact = (normal * mu, mu * normal_u, normal * mu_t, normal * mu_s, mu * grows)
     full, by_u, by_t, by_s, by_d, eta, eta_t, area, area_u = viscous_slopes(
         par, slip, drum, u, temperature

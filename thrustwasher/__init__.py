@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from .shown import drawn_by as _drawn_by
 
-__version__ = "0.19.0"
+__version__ = "0.20.0"
 
 if TYPE_CHECKING:
     from .calibration.estimates import Calibration

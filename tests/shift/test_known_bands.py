@@ -30,9 +30,7 @@ def test_the_first_screen_says_that_the_nominal_jerk_is_luck(found):
     record = record_of(found)
     low, middle, high = known_bands(found.scene)["peak_jerk"].quantiles.values()
     assert found.figures["peak_jerk"] < low < middle < high
-    assert "by the scatter of this scene 13 m/s³ to 112 m/s³, median 47.2 m/s³" in headline(
-        record
-    )
+    assert "by the scatter of this scene 13 m/s³ to 112 m/s³, median 47.2 m/s³" in headline(record)
     (card,) = [c for c in _cards(record) if "change of acceleration" in c.name]
     assert "5 .. 95 %: 13 m/s³ .. 112 m/s³, median 47.2 m/s³" in str(card.note).replace(
         "\N{NO-BREAK SPACE}", " "

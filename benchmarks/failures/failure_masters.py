@@ -21,7 +21,7 @@ from .failure_cells import LIES, OK, SAYS, Cell, Group, off, table
 
 WRONG_HEAT = 0.02
 SMOOTHING = 2.0  # rad/s: torques may be handed over in steps of up to 1.2 ms
-STOP, LOCKED = 1.1, 0.70  # s
+STOP, LOCKED = 1.5, 0.85  # s
 TRUE_STEP, QUICK_TRUE_STEP = 1e-4, 2e-4  # of masters
 TRIED = {"capacity": (1e-3, 5e-3, 1e-2), "torque": (2e-4, 2e-3, 1e-2)}  # s
 HAZARDS = {f"{c}, {1e3 * step:g} ms": (c, step) for c, steps in TRIED.items() for step in steps}

@@ -222,12 +222,13 @@ static int is_step(Instance *m, double t, double h) {
     return 0;
 }
 
-/* A step so short that the time stays as it is, as what is left of it at the end of a run. */
+/* A step so short that the time stays as it is, as what is left of it at the end of a run: it fails
+   where the inputs of now have no solution. */
 static int stand_still(Instance *m, double t) {
     memset(m->now.inp + NINP, 0, NINP * sizeof *m->now.inp);
     m->now.time = t;
     m->happened = m->is_early = 0;
-    return GOOD;
+    return refresh(m);
 }
 
 /* Step from t to t + h, or leave everything as it was but for the status that tells why. */

@@ -135,7 +135,7 @@ def test_elsewhere_and_on_an_old_processor_it_steps_as_in_python(
 def test_c_sources_compiled_for_arm_step_as_in_python(model, tmp_path):
     before, target = emulator("aarch64-linux"), PLATFORMS["aarch64-linux"]
     shown = interface(find_spec(model))
-    files = c_sources.source_files(shown, 2, print, "0" * 32) | platform_libraries.headers()
+    files = c_sources.source_files(shown, 2, print, GUID) | platform_libraries.headers()
     made = link.shared_library(files, platform=target, name=shown.spec.name)
     found, wanted = stepped(model, target.name, before, tmp_path, made), expected(model)
     units = [v.unit for v in shown.outputs if v.store == "out"]

@@ -61,7 +61,7 @@ class Washer(Model):
             "branch": ("1", "which of the possible solutions this is"),
             "error_estimate": (
                 "1",
-                "relative error expected in friction_torque, by its card or a second mesh",
+                "relative error expected in friction_torque, by the solution; in pages by its card",
             ),
         },
     )

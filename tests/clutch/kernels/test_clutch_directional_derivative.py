@@ -215,9 +215,9 @@ def test_a_moving_film_is_followed_through_any_substeps(sizes, rung):
                 wrong, size = np.abs(found - wanted), np.abs(wanted)
                 film = wrong[0] / max(size[0], 1e-6)  # a change by less is none
                 best = min(best, max(film, wrong[1:].max() / max(size[1:].max(), 1e-9)))
-                if best < 1e-6:
+                if best < 2e-6:
                     break
-            assert best < 1e-6
+            assert best < 2e-6
 
 
 def test_a_pack_that_opens_at_another_instant_is_another_pack():

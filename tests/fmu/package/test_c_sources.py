@@ -155,7 +155,7 @@ def distance(name, found, wanted):
 @each_compiler
 def test_what_a_compiler_makes_of_them_steps_as_the_library_does(name, fmi, compiler):
     fmu, own = with_sources(name, fmi), compiled(name, fmi, compiler)
-    for rung in find_spec(name).fidelities:
+    for rung in find_spec(name).rungs:
         assert distance(name, run(own, name, rung), run(fmu, name, rung)) < SAME, rung
 
 

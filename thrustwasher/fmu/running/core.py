@@ -281,6 +281,7 @@ class Core:
         self.late = ""
         if t + h == t:  # what is left of a run at its end: nothing moves
             self.rates[:], self.events = 0.0, []
+            self.refresh()
             return
         rc = self._follow(h)
         if rc:

@@ -124,7 +124,7 @@ def test_half_shafts_swing_at_the_frequency_of_two_inertias():
 
 def test_cold_oil_makes_the_pack_drag_and_the_same_pressures_misfit(run):
     cold = shift("planetary-cold")
-    assert cold.figures["clutch_viscous_share"] > 2.0 * run.figures["clutch_viscous_share"]
+    assert cold.figures["clutch_viscous_share"] > 1.5 * run.figures["clutch_viscous_share"]
     assert cold.figures["brake_heat_per_area"] > 10.0 * run.figures["brake_heat_per_area"]
     assert any("The brake is let go at" in line for line in cold.found)
     assert "tie_up_torque" in cold.figures

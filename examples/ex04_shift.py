@@ -6,7 +6,7 @@ from pathlib import Path
 
 from thrustwasher.fmu.build import build
 from thrustwasher.fmu.stepper import Instance
-from thrustwasher.shift import load_scene, run_shift
+from thrustwasher.shift import cosimulate, load_scene
 
 
 def lock_time(step: float, fmus: dict[str, Path]) -> float:
@@ -18,7 +18,7 @@ def lock_time(step: float, fmus: dict[str, Path]) -> float:
             )
             for name, part in scene.parts.items()
         }
-        return run_shift(scene, instances).figures["lock_time"]
+        return cosimulate(scene, instances).figures["lock_time"]
 
 
 def main() -> float:

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from thrustwasher.fmu.running.direct_instance import DirectInstance
-from thrustwasher.shift import Scene, ShiftResult, load_scene, run_shift
+from thrustwasher.shift import Scene, ShiftResult, cosimulate, load_scene
 
 
 def brake(scene: Scene) -> ShiftResult:
@@ -12,7 +12,7 @@ def brake(scene: Scene) -> ShiftResult:
         name: DirectInstance(part.spec, parameters=part.parameters())
         for name, part in scene.parts.items()
     }
-    return run_shift(scene, instances)
+    return cosimulate(scene, instances)
 
 
 def main() -> float:

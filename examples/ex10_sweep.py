@@ -5,7 +5,7 @@ import numpy as np
 from thrustwasher import run_sweep
 
 SPEEDS = (436.0, 545.0, 654.0)
-UP_AND_DOWN = "300:1200:20, 1180:300:-20"  # one line: the walk remembers its branch
+UP_AND_DOWN = "300:1200:20, 1180:300:-20"  # one line: the path remembers its branch
 
 
 def main() -> float:

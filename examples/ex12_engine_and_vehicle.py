@@ -1,4 +1,4 @@
-"""A transmission in FMPy between an engine and a vehicle that are FMUs of one's own."""
+"""A transmission in FMPy between an engine and a vehicle that are your own FMUs."""
 
 import tempfile
 from pathlib import Path

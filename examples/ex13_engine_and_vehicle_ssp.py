@@ -1,4 +1,4 @@
-"""The same as ex12 as an SSP package: an engine and a vehicle beside the package's own parts."""
+"""The same as ex12 as an SSP package: an engine and a vehicle next to the package's own parts."""
 
 import tempfile
 from pathlib import Path

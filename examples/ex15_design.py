@@ -1,4 +1,4 @@
-"""The washer with the least friction that keeps a film, and what would make it better still."""
+"""The washer with the minimum friction that keeps a film, and what would make it better still."""
 
 from thrustwasher import optimise
 
@@ -7,7 +7,7 @@ def main() -> float:
     found = optimise(
         "washer",
         vary={"roughness": "0.3 um:1 um", "washer_thickness": "0.5 mm:2 mm"},
-        least="friction_torque",
+        minimise="friction_torque",
         limits=["film_ratio>=18"],
         at={"load": "300 N", "speed": "953 rad/s", "tilt": 0.002},
     )

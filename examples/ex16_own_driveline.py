@@ -1,4 +1,4 @@
-"""A clutch FMU in a driveline of one's own: engine, pack, hub, elastic shaft, vehicle.
+"""A clutch FMU in a driveline of your own: engine, pack, hub, elastic shaft, vehicle.
 
 ``--serial``: the driveline takes the torque of this step, else that of the step before.
 """
@@ -58,7 +58,7 @@ def main(serial: bool = False, plot: str = "") -> float:
         age, locked = fmu.getInteger([ref["plant_age"]])[0], fmu.getBoolean([ref["locked"]])[0]
         fmu.terminate()
         fmu.freeInstance()
-    print(f"The slip sees {inertia:.5f} kg m2, torques act {age} steps late;")
+    print(f"The slip sees {inertia:.5f} kg m2, torques act {age} step(s) late;")
     print(f"locked: {bool(locked)}; {heat / 1e3:.3f} kJ; {rows[-1][2]:.3f} N m hold the pack.")
     if plot:
         from matplotlib import pyplot as plt

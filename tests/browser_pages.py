@@ -13,7 +13,7 @@ try:
 except ImportError:
     sync_playwright = None
 
-AXE = Path(__file__).parents[1] / "node_modules" / "axe-core" / "axe.min.js"
+AXE = Path(__file__).parents[1] / "lab" / "pages" / "node_modules" / "axe-core" / "axe.min.js"
 SERIOUS = ("serious", "critical")
 
 
@@ -32,7 +32,7 @@ def chromium():
 
 
 class Seen:
-    """A page in a context of its own, with all that it said and asked for."""
+    """A page in a context of its own, with all that it said and requested."""
 
     def __init__(self, browser, address, *, init="", ready="", **look):
         self.address, self.context = address, browser.new_context(**look)
@@ -85,7 +85,7 @@ def opened(
 def faults(page):
     """Return the serious findings of an automated check of access."""
     if not AXE.is_file():
-        missing("node_modules/axe-core (npm install --no-save axe-core)")
+        missing("lab/pages/node_modules/axe-core (npm ci --prefix lab/pages)")
     page.evaluate("() => document.querySelectorAll('details').forEach((d) => { d.open = true; })")
     page.wait_for_timeout(100)
     page.evaluate(AXE.read_text("utf-8"))

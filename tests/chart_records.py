@@ -1,4 +1,4 @@
-"""Records of charts as ``thrustwasher chart`` writes them, made up for tests."""
+"""Records of charts as ``python -m lab.chart`` writes them, made up for tests."""
 
 QUANTITY = {"name": "friction_torque", "kind": "relative", "unit": "1", "floor": 1e-3}
 MACHINE = {"cpu": "a cpu", "cores": 2, "os": "an os", "python": "3", "numpy": "2", "numba": "1"}
@@ -22,7 +22,13 @@ def sample(label, cost, error, **other):
     """Return a measured way; None of a cost or an error that is not known."""
     known = error is not None
     errors = {"worst": error, "rms": 0.4 * error if known else None, "case": "a < b"}
-    where = {"family": "rungs", "label": label, "knob": "rung", "value": label, "cases": "0"}
+    where = {
+        "family": "fidelity levels",
+        "label": label,
+        "knob": "rung",
+        "value": label,
+        "cases": "0",
+    }
     costs = {"call_median": cost, "call_min": cost, "first_call_s": cost, "slowest_call_s": cost}
     return {
         **where,
@@ -43,7 +49,7 @@ def record(model, samples, groups, **more):
     survey = {**of_cases, "quantities": [QUANTITY], "truths": [], "samples": samples}
     return {
         "schema": 1,
-        "command": "thrustwasher chart",
+        "command": "python -m lab.chart",
         "date": "2026-11-21T18:00:00Z",
         "machine": {**MACHINE, "compiled": True, "threads": {}, "load": 0.1},
         "package": {"version": "0", "kernels": "0", "commit": "abc", "dirty": True},

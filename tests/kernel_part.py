@@ -7,7 +7,7 @@ from thrustwasher.model.registry import find_spec, kernel_of
 
 
 class Part:
-    """A part at a rung, from nothing; ``work`` starts as NaN, since it may hold anything."""
+    """A part at a level, from nothing; ``work`` starts as NaN, since it may hold anything."""
 
     def __init__(self, model, rung, params=None, **changes):
         self.spec = find_spec(model)

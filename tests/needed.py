@@ -29,7 +29,7 @@ def package(name):
 
 
 def tool(name):
-    """Return the command that a package put beside Python."""
+    """Return the command that a package put next to Python."""
     found = Path(sys.executable).parent / name
     return found if found.exists() else missing(f"{name} is missing: {DEV}")
 

@@ -8,7 +8,7 @@ import numba
 import pytest
 
 from thrustwasher.fmu.running.direct_instance import DirectInstance
-from thrustwasher.shift import load_scene, run_shift
+from thrustwasher.shift import cosimulate, load_scene
 
 NO_DRAG = {"washer": None, "mesh": None, "transmission": {"washers": 0}}
 slow_without_jit = pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="minutes without JIT")
@@ -63,7 +63,7 @@ def instances(scene):
 def shift(name, *, parts=None, **options):
     """Run a scene by name; ``parts`` maps a part to changed parameters, or to None to leave it.
 
-    A ``fidelity`` among the parameters is the part's rung.
+    A ``fidelity`` among the parameters is the part's level.
     """
     scene = load_scene(name).with_options(**options)
     changed = dict(scene.parts)
@@ -76,7 +76,7 @@ def shift(name, *, parts=None, **options):
             params = replace(changed[part].params, **given)
             changed[part] = replace(changed[part], params=params, fidelity=rung)
     scene = replace(scene, parts=changed)
-    return run_shift(scene, instances(scene))
+    return cosimulate(scene, instances(scene))
 
 
 def changed(folder, text, base="planetary"):
@@ -95,7 +95,7 @@ def with_all_parts(scene):
 @cache
 def real_shift(name):
     """Return a scene's result with its own washer."""
-    return run_shift(*with_all_parts(load_scene(name)))
+    return cosimulate(*with_all_parts(load_scene(name)))
 
 
 @cache

@@ -1,4 +1,4 @@
-"""Tables of errors made up for tests: of any rungs, over any regions, with any errors."""
+"""Tables of errors made up for tests: of any levels, over any regions, with any errors."""
 
 from thrustwasher.ladder import error_table as home
 from thrustwasher.ladder.error_table import (
@@ -54,7 +54,7 @@ def film_ratios(*worst):
 def rung(
     fidelity="field", worst=5e-3, *more, box=None, beside_fold=0.0, sources=None, files=(), **charts
 ):
-    """Return a rung of the washer: one chart of ``worst``, or several by name."""
+    """Return a level of the washer: one chart of ``worst``, or several by name."""
     found = charts or {"": worst}
     return RungErrors(
         fidelity,

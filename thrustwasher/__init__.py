@@ -8,13 +8,12 @@
 
 from typing import TYPE_CHECKING, Any
 
-from .shown import drawn_by as _drawn_by
+from .moved import follow as _follow
+from .moved import renamed as _renamed
 
-__version__ = "0.20.0"
+__version__ = "0.22.0"
 
 if TYPE_CHECKING:
-    from .calibration.estimates import Calibration
-    from .calibration.model_fit import ModelCalibration, calibrate
     from .clutch.engagement import Engagement, engage_clutch
     from .clutch.release import Release, release_clutch
     from .clutch.solve import ClutchParams, ClutchResult, boundary_friction, solve_clutch
@@ -25,17 +24,22 @@ if TYPE_CHECKING:
     from .losses.solve import LossesParams, LossesResult, solve_losses
     from .model.oil import Oil, oil
     from .model.part_file import PartFile, load_part
-    from .optimisation.optimum import Optimum
-    from .optimisation.whole_search import optimise
-    from .scatter.propagate import propagate
-    from .scatter.result import ScatterResult
-    from .scatter.whole_shift import run_shift
     from .shift.scene.scene_file import load_scene
     from .shift.several_shifts import SequenceResult
     from .shift.shift_result import ShiftResult
-    from .sweep.run_sweep import run_sweep
-    from .sweep.sweep_table import SweepTable
-    from .washer.follow import WasherCourse, follow_washer
+    from .shift.whole_shift import run_shift
+    from .studio.calibration.engagement.trace_fit import calibrate_traces
+    from .studio.calibration.estimates import Calibration
+    from .studio.calibration.model_fit import ModelCalibration
+    from .studio.calibration.run_calibration import calibrate
+    from .studio.optimisation.optimum import Optimum
+    from .studio.optimisation.whole_search import optimise
+    from .studio.scatter.propagate import propagate
+    from .studio.scatter.result import ScatterResult
+    from .studio.sweep.run_sweep import run_sweep
+    from .studio.sweep.sweep_table import SweepTable
+    from .train.solve import TrainParams, TrainResult, solve_train
+    from .washer.follow import WasherHistory, follow_washer
     from .washer.load_curve import LoadCurve, load_curve
     from .washer.solve import WasherParams, WasherResult, solve_washer
 
@@ -43,28 +47,31 @@ _HOMES = {
     "ladder.choose": ("Choice", "choose"),
     "model.oil": ("Oil", "oil"),
     "model.part_file": ("PartFile", "load_part"),
-    "optimisation.whole_search": ("optimise",),
-    "optimisation.optimum": ("Optimum",),
+    "studio.optimisation.whole_search": ("optimise",),
+    "studio.optimisation.optimum": ("Optimum",),
     "fmu.build": ("build_fmu",),
     "errors": ("BranchError", "ParameterError", "SolveError", "Status"),
     "clutch.solve": ("ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"),
-    "calibration.estimates": ("Calibration",),
-    "calibration.model_fit": ("ModelCalibration", "calibrate"),
+    "studio.calibration.estimates": ("Calibration",),
+    "studio.calibration.model_fit": ("ModelCalibration",),
+    "studio.calibration.run_calibration": ("calibrate",),
+    "studio.calibration.engagement.trace_fit": ("calibrate_traces",),
     "gearmesh.solve": ("GearMeshParams", "GearMeshResult", "solve_gearmesh"),
     "clutch.engagement": ("Engagement", "engage_clutch"),
     "clutch.release": ("Release", "release_clutch"),
     "losses.solve": ("LossesParams", "LossesResult", "solve_losses"),
-    "scatter.propagate": ("propagate",),
-    "scatter.result": ("ScatterResult",),
-    "scatter.whole_shift": ("run_shift",),
+    "studio.scatter.propagate": ("propagate",),
+    "studio.scatter.result": ("ScatterResult",),
+    "shift.whole_shift": ("run_shift",),
     "shift.scene.scene_file": ("load_scene",),
     "shift.several_shifts": ("SequenceResult",),
     "shift.shift_result": ("ShiftResult",),
+    "train.solve": ("TrainParams", "TrainResult", "solve_train"),
     "washer.solve": ("WasherParams", "WasherResult", "solve_washer"),
-    "washer.follow": ("WasherCourse", "follow_washer"),
+    "washer.follow": ("WasherHistory", "follow_washer"),
     "washer.load_curve": ("LoadCurve", "load_curve"),
-    "sweep.run_sweep": ("run_sweep",),
-    "sweep.sweep_table": ("SweepTable",),
+    "studio.sweep.run_sweep": ("run_sweep",),
+    "studio.sweep.sweep_table": ("SweepTable",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
@@ -91,12 +98,15 @@ __all__ = [
     "SolveError",
     "Status",
     "SweepTable",
-    "WasherCourse",
+    "TrainParams",
+    "TrainResult",
+    "WasherHistory",
     "WasherParams",
     "WasherResult",
     "boundary_friction",
     "build_fmu",
     "calibrate",
+    "calibrate_traces",
     "choose",
     "engage_clutch",
     "follow_washer",
@@ -112,6 +122,7 @@ __all__ = [
     "solve_clutch",
     "solve_gearmesh",
     "solve_losses",
+    "solve_train",
     "solve_washer",
 ]
 
@@ -119,7 +130,7 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     """Import a public name when it is first used: ``import thrustwasher`` stays quick."""
     if name not in _HOME_OF:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        return _renamed(__name__, globals(), name, {"WasherCourse": "WasherHistory"})
     from importlib import import_module
 
     value = getattr(import_module(f".{_HOME_OF[name]}", __name__), name)
@@ -127,14 +138,7 @@ def __getattr__(name: str) -> Any:
     return value
 
 
-def _picture(result: Any) -> Any:
-    """Return the picture of a result: what draws lies above results."""
-    from .report.result_plots import figure_of
-
-    return figure_of(result)
-
-
-_drawn_by(_picture)
+_follow()
 
 
 def __dir__() -> list[str]:

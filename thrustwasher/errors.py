@@ -118,7 +118,7 @@ class Status(IntEnum):
     )
 
     def __new__(cls, code: int, advice: str = "") -> "Status":
-        """Keep the number as the value and the sentence beside it."""
+        """Keep the number as the value and the sentence next to it."""
         status = int.__new__(cls, code)
         status._value_, status.advice = code, advice
         return status

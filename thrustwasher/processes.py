@@ -51,7 +51,7 @@ def local_processes(n: int) -> Iterator[Executor]:
         raise
 
 
-def run_here(job: Callable[[Any], Any], tasks: Sequence[Any], _chunksize: int) -> Iterator[Any]:
+def run_here(job: Callable[[Any], Any], tasks: Sequence[object], _chunksize: int) -> Iterator[Any]:
     """Give what a job makes of each task, in order, by this process."""
     return map(job, tasks)
 

@@ -1,20 +1,21 @@
 """How results show themselves: as plain data, as a table in a notebook, as a picture, in pandas.
 
-Results lie below what draws them: the head of the package hands over who does (``drawn_by``).
+Results lie below what draws them, which ``plugins`` names.
 """
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from html import escape
 from typing import Any, NamedTuple
 
 from .errors import EnvironmentProblem
-from .units import format_quantity
+from .plugins import called
+from .units import format_quantity, format_time
 
+HOUR = 3600.0  # s
 MOST_WORDS = 5  # different texts of a column that are listed
-_drawers: list[Callable[[Any], Any]] = []
 
 
 class Words(NamedTuple):
@@ -62,7 +63,7 @@ class Shown:
         ------
         ParameterError : of this result there is nothing to draw; the message says why
         """
-        return _drawers[-1](self)
+        return called("figure_of")(self)
 
     def _card(self) -> Card:
         """Return the result as a person reads it."""
@@ -105,19 +106,15 @@ class Tabled(Shown):
         return frame
 
 
-def drawn_by(drawer: Callable[[Any], Any]) -> None:
-    """Let this function make the pictures of results."""
-    _drawers.append(drawer)
-
-
 def public_names(result: Any) -> list[str]:
     """Return the names of a result's fields and properties, but those that begin with _."""
     names = [f.name for f in fields(result)]
-    names += [n for n, what in vars(type(result)).items() if isinstance(what, property)]
-    return [name for name in names if not name.startswith("_")]
+    for base in type(result).__mro__:
+        names += [n for n, what in vars(base).items() if isinstance(what, property)]
+    return [name for name in dict.fromkeys(names) if not name.startswith("_")]
 
 
-def plain(value: Any) -> Any:
+def plain(value: object) -> Any:
     """Return what JSON can hold: names for enumerations, lists for arrays, None for NaN."""
     if isinstance(value, Enum):
         return value.name
@@ -138,15 +135,17 @@ def plain(value: Any) -> Any:
     return plain(value.tolist()) if hasattr(value, "tolist") else str(value)
 
 
-def plain_dict(found: Mapping[str, Any]) -> dict[str, Any]:
+def plain_dict(found: Mapping[str, object]) -> dict[str, Any]:
     """Return a mapping as JSON can hold it."""
     return {name: plain(value) for name, value in found.items()}
 
 
-def text_of(value: Any, unit: str, difference: bool = False, digits: int = 5) -> str:
-    """Return a value as a person reads it."""
+def text_of(value: object, unit: str, difference: bool = False, digits: int = 5) -> str:
+    """Return a value as a person reads it; times below an hour are in seconds."""
     if isinstance(value, bool):
         return "yes" if value else "no"
+    if isinstance(value, int | float) and unit == "s" and abs(value) < HOUR:
+        return format_time(float(value), digits)
     if isinstance(value, int | float):
         return format_quantity(float(value), unit, difference=difference, digits=digits)
     return value.name if isinstance(value, Enum) else str(value)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 
-def filled(path: Path, **told: Any) -> bytes:
+def filled(path: Path, **told: object) -> bytes:
     """Return a template filled in; values are escaped as in XML and HTML, but for Markdown."""
     return bytes(template(path).render(told), "utf-8")
 

@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 from .errors import ParameterError
 
@@ -95,7 +94,7 @@ def unit_size(written: str, unit: str) -> tuple[float, float] | None:
     return known.get(written)
 
 
-def has_unit(value: Any) -> bool:
+def has_unit(value: object) -> bool:
     """Tell if a quantity is written with a unit: there is no question then which was meant.
 
     >>> has_unit("30000 rpm"), has_unit("30000")
@@ -108,7 +107,7 @@ def has_unit(value: Any) -> bool:
 def into_range(low: float, high: float, value: float) -> float:
     """Return a number; the end of the range in place of one that only rounding put outside.
 
-    -40 degC typed in a unit of one's own may come as 233.14999999999998 K. Other numbers, and
+    -40 degC typed in a unit of your own may come as 233.14999999999998 K. Other numbers, and
     those that are not finite, come back as they are. C code of FMUs does the same.
 
     Examples
@@ -181,6 +180,17 @@ def format_quantity(value: float, unit: str, *, difference: bool = False, digits
     shown, factor = display_unit(value, unit)
     text = _rounded(value / factor, digits)
     return text if shown == "1" else f"{text} {shown}"
+
+
+def format_time(value: float, digits: int = 4) -> str:
+    """Return a time of a run, or how long something in it lasted: in seconds always.
+
+    Examples
+    --------
+    >>> format_time(0.83654), format_time(2e-3)
+    ('0.8365 s', '0.002 s')
+    """
+    return f"{value:.{digits}g} s"
 
 
 def display_unit(value: float, unit: str) -> tuple[str, float]:

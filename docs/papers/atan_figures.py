@@ -3,12 +3,13 @@
     python docs/papers/atan_figures.py [FOLDER]
 
 Writes atan2005-fig03-*.png and -fig04-*.png (bounded: the model's defaults; literal: the paper
-taken at its word), atan2005-flash.png and atan2005-viscous.png, by default to docs/images; takes
-about ten seconds. Prints the table of flash temperatures that stands on the paper's page.
+taken at its word), atan2005-flash.png and atan2005-viscous.png, by default to the folder
+figures, in about ten seconds. Prints the table of flash temperatures of the paper's page.
 """
 
 from __future__ import annotations
 
+import argparse
 import math
 import sys
 from collections.abc import Callable, Sequence
@@ -39,9 +40,9 @@ from closed_forms.involute_mesh import (
 from closed_forms.line_contact import compliance, full_width
 
 from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
-from thrustwasher.report.model_plots.gearmesh_plot import draw_ratios, draw_temperatures
-from thrustwasher.report.palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY
-from thrustwasher.report.style import heading, label, legend_below, new_figure, styled
+from thrustwasher.studio.report.model_plots.gearmesh_plot import draw_ratios, draw_temperatures
+from thrustwasher.studio.report.palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY
+from thrustwasher.studio.report.style import heading, label, legend_below, new_figure, styled
 
 POWER, SPEED, CENTRES, PHI, FACE = 7500.0, 180.0, 0.254, math.radians(20.0), 0.05
 INLET = 299.85  # K
@@ -181,10 +182,10 @@ def viscous_figure() -> Figure:
 
 def flash_table() -> str:
     """Return Eq 3 over Blok for ratios and numbers of teeth as a Markdown table."""
-    teeth = (17, 18, 20, 25, 30, 40, 60)
+    teeth = (17, 20, 30, 60)
     lines = ["| ratio | " + " | ".join(f"{n} teeth" for n in teeth) + " |"]
     lines.append("|---" * (len(teeth) + 1) + "|")
-    for ratio in range(1, 9):
+    for ratio in (2, 5, 8):
         forms = [flash_forms(float(ratio), n) for n in teeth]
         lines.append(f"| {ratio} | " + " | ".join(f"{a / b:.2f}" for a, b, _ in forms) + " |")
     return "\n".join(lines)
@@ -206,6 +207,8 @@ def main(folder: str | Path | None = None) -> list[Path]:
 
 
 if __name__ == "__main__":
-    for file in main(*sys.argv[1:2]):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", nargs="?", default="figures", help="to write to; default figures")
+    for file in main(parser.parse_args().folder):
         print(file)
     print(flash_table())

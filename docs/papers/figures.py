@@ -2,15 +2,16 @@
 
     python docs/papers/figures.py [FOLDER]
 
-Writes jg2006-fig06.png ... jg2006-fig15.png, by default to docs/images; takes about half a minute.
+Writes jg2006-fig06.png ... jg2006-fig15.png, by default to the folder
+figures, in about half a minute.
 The preset "paper" has these equations and nothing more. Lines are all solutions that exist;
 markers are the load steps of a washer that is loaded up from light load, as in the paper.
 """
 
 from __future__ import annotations
 
+import argparse
 import math
-import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -27,8 +28,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from thrustwasher import WasherParams, load_curve, solve_washer
-from thrustwasher.report.palette import BLACK, BLUE, GREEN, GREY, ORANGE, RED
-from thrustwasher.report.style import label, legend_below, new_figure, styled
+from thrustwasher.studio.report.palette import BLACK, BLUE, GREEN, GREY, ORANGE, RED
+from thrustwasher.studio.report.style import label, legend_below, new_figure, styled
 from thrustwasher.tribology.viscosity import viscosity
 
 TILT = 0.002  # rad
@@ -255,5 +256,7 @@ def main(folder: str | Path | None = None) -> list[Path]:
 
 
 if __name__ == "__main__":
-    for file in main(*sys.argv[1:2]):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", nargs="?", default="figures", help="to write to; default figures")
+    for file in main(parser.parse_args().folder):
         print(file)

@@ -2,14 +2,15 @@
 
     python docs/papers/wang_figures.py [FOLDER]
 
-Writes wang2012-fig04.png ... wang2012-fig15.png, by default to docs/images, in a few seconds. The
-paper's own figures were not at hand: ranges and parameters it does not print are chosen here.
+Writes wang2012-fig04.png ... wang2012-fig15.png, by default to the folder figures,
+in a few seconds. The paper's own figures were not at hand: ranges and parameters it does not print
+are chosen here.
 """
 
 from __future__ import annotations
 
+import argparse
 import math
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -17,8 +18,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from thrustwasher import ClutchParams, boundary_friction, solve_clutch
-from thrustwasher.report.palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED
-from thrustwasher.report.style import label, legend_below, new_figure, styled
+from thrustwasher.studio.report.palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED
+from thrustwasher.studio.report.style import label, legend_below, new_figure, styled
 
 SAMPLE = {"inner_radius": 0.0325, "outer_radius": 0.0425}  # m, Fig. 12
 PACK = ClutchParams(**SAMPLE)
@@ -169,5 +170,7 @@ def main(folder: str | Path | None = None) -> list[Path]:
 
 
 if __name__ == "__main__":
-    for file in main(*sys.argv[1:2]):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", nargs="?", default="figures", help="to write to; default figures")
+    for file in main(parser.parse_args().folder):
         print(file)

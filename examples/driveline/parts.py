@@ -1,4 +1,4 @@
-"""The FMUs of a shift with an engine and a vehicle of one's own, and who passes what to whom."""
+"""The FMUs of a shift with an engine and a vehicle of your own, and who passes what to whom."""
 
 from dataclasses import replace
 from pathlib import Path

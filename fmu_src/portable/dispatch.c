@@ -20,7 +20,7 @@ enum { FAULT = -1000 };
 /* What comes back beside the return value, and room for arrays that lie outside of the block. */
 typedef struct {
     int32_t result, exception;
-    double inp[sizeof ((Instance *)0)->now.inp / sizeof(double)], seed[AT_LEAST_ONE(NSEED)];
+    double inp[sizeof((Instance *)0)->now.inp / sizeof(double)], seed[AT_LEAST_ONE(NSEED)];
     double out[AT_LEAST_ONE(NOUT)];
 } Handed;
 
@@ -55,17 +55,17 @@ static u32 place(u8 *m, const double *array, size_t room, size_t size) {
     return (u32)(HANDED + room);
 }
 #define INSIDE(array) ((u32)((uintptr_t)(array) - (uintptr_t)m))
-#define PLACE(array, member) place(m, array, offsetof(Handed, member), sizeof ((Handed *)0)->member)
+#define PLACE(array, member) place(m, array, offsetof(Handed, member), sizeof((Handed *)0)->member)
 #define RESULT (u32)(HANDED + offsetof(Handed, result))
 #define EXCEPTION (u32)(HANDED + offsetof(Handed, exception))
 
 /* The host may round otherwise or trap: numbers would differ or the process end. Then the host's own
    settings again. */
-#define CALL(entry, ...)                                              \
-    fenv_t host;                                                      \
-    fegetenv(&host);                                                  \
-    fesetenv(FE_DFL_ENV);                                             \
-    ((Own *)(void *)m)->trapped = 0;                                  \
+#define CALL(entry, ...)                                                  \
+    fenv_t host;                                                          \
+    fegetenv(&host);                                                      \
+    fesetenv(FE_DFL_ENV);                                                 \
+    ((Own *)(void *)m)->trapped = 0;                                      \
     const u32 raised = module_##entry(m, RESULT, EXCEPTION, __VA_ARGS__); \
     fesetenv(&host)
 
@@ -91,8 +91,8 @@ int tw_rule(const double *par) {
 #endif
 }
 
-int tw_step(double *par, double *inp, double *state, double *work, double *out, int32_t *iout,
-            double t, double dt) {
+int tw_step(double *par, double *inp, double *state, double *work, double *out, int32_t *iout, double t,
+            double dt) {
     u8 *m = block_of(par);
     const u32 given = PLACE(inp, inp);
     CALL(step, INSIDE(par), given, INSIDE(state), INSIDE(work), INSIDE(out), INSIDE(iout), t, dt);

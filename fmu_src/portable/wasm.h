@@ -11,15 +11,16 @@
 #include <stdint.h>
 #include <string.h>
 
-#if (defined(__BYTE_ORDER__) && __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__) \
-    || defined(__BIG_ENDIAN__) || defined(__ARMEB__) || defined(__MIPSEB__)
+#if (defined(__BYTE_ORDER__) && __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__) || defined(__BIG_ENDIAN__) \
+    || defined(__ARMEB__) || defined(__MIPSEB__)
 #error "this FMU is for little-endian machines"
 #endif
 #ifdef __FAST_MATH__
 #error "numbers would differ: compile without -ffast-math"
 #endif
 #if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD == 2
-#error "numbers would differ: this compiler computes with more digits than double has (try -msse2 -mfpmath=sse)"
+#error \
+    "numbers would differ: this compiler computes with more digits than double has (try -msse2 -mfpmath=sse)"
 #endif
 /* No product and sum in one step, whatever the options: all machines give the same numbers. */
 #if defined(__clang__)
@@ -50,16 +51,16 @@ typedef struct {
 #define TRAP (((Own *)(void *)m)->trapped = 1)
 #define UNREACHABLE TRAP
 
-#define LOAD(name, kept, result)                          \
-    static inline result name(const u8 *m, u64 place) {   \
-        kept x;                                           \
-        memcpy(&x, m + (size_t)place, sizeof x);          \
-        return (result)x;                                 \
+#define LOAD(name, kept, result)                        \
+    static inline result name(const u8 *m, u64 place) { \
+        kept x;                                         \
+        memcpy(&x, m + (size_t)place, sizeof x);        \
+        return (result)x;                               \
     }
-#define STORE(name, kept, given)                          \
+#define STORE(name, kept, given)                             \
     static inline void name(u8 *m, u64 place, given value) { \
-        kept x = (kept)value;                             \
-        memcpy(m + (size_t)place, &x, sizeof x);          \
+        kept x = (kept)value;                                \
+        memcpy(m + (size_t)place, &x, sizeof x);             \
     }
 LOAD(i32_load, u32, u32)
 LOAD(i64_load, u64, u64)
@@ -85,19 +86,17 @@ STORE(i64_store8, u8, u64)
 STORE(i64_store16, u16, u64)
 STORE(i64_store32, u32, u64)
 
-static inline void memory_fill(u8 *m, u32 place, u32 value, u32 n) {
-    memset(m + place, (int)value, n);
-}
+static inline void memory_fill(u8 *m, u32 place, u32 value, u32 n) { memset(m + place, (int)value, n); }
 
 static inline void memory_copy(u8 *m, const u8 *from, u32 to_place, u32 from_place, u32 n) {
     memmove(m + to_place, from + from_place, n);
 }
 
-#define BITS(name, from, to)              \
-    static inline to name(from x) {       \
-        to bits;                          \
-        memcpy(&bits, &x, sizeof bits);   \
-        return bits;                      \
+#define BITS(name, from, to)            \
+    static inline to name(from x) {     \
+        to bits;                        \
+        memcpy(&bits, &x, sizeof bits); \
+        return bits;                    \
     }
 BITS(f32_reinterpret_i32, u32, f32)
 BITS(i32_reinterpret_f32, f32, u32)
@@ -136,21 +135,17 @@ static inline u64 count_ones(u64 x) {
 #define I32_ROTR(x, y) ROTATED((u32)(x), 0 - (u32)(y), 32)
 #define I64_ROTR(x, y) ROTATED((u64)(x), 0 - (u64)(y), 64)
 
-#define DIVIDE(width, least)                                                          \
-    static inline u##width divided_s##width(u8 *m, u##width x, u##width y) {          \
-        if (y == 0 || (x == (u##width)least && y == (u##width)-1)) return TRAP, 0;    \
-        return (u##width)((s##width)x / (s##width)y);                                 \
-    }                                                                                 \
-    static inline u##width rest_s##width(u8 *m, u##width x, u##width y) {             \
-        if (y == 0) return TRAP, 0;                                                   \
-        return y == (u##width)-1 ? 0 : (u##width)((s##width)x % (s##width)y);         \
-    }                                                                                 \
-    static inline u##width divided_u##width(u8 *m, u##width x, u##width y) {          \
-        return y ? x / y : (TRAP, 0);                                                 \
-    }                                                                                 \
-    static inline u##width rest_u##width(u8 *m, u##width x, u##width y) {             \
-        return y ? x % y : (TRAP, 0);                                                 \
-    }
+#define DIVIDE(width, least)                                                                                 \
+    static inline u##width divided_s##width(u8 *m, u##width x, u##width y) {                                 \
+        if (y == 0 || (x == (u##width)least && y == (u##width) - 1)) return TRAP, 0;                         \
+        return (u##width)((s##width)x / (s##width)y);                                                        \
+    }                                                                                                        \
+    static inline u##width rest_s##width(u8 *m, u##width x, u##width y) {                                    \
+        if (y == 0) return TRAP, 0;                                                                          \
+        return y == (u##width) - 1 ? 0 : (u##width)((s##width)x % (s##width)y);                              \
+    }                                                                                                        \
+    static inline u##width divided_u##width(u8 *m, u##width x, u##width y) { return y ? x / y : (TRAP, 0); } \
+    static inline u##width rest_u##width(u8 *m, u##width x, u##width y) { return y ? x % y : (TRAP, 0); }
 DIVIDE(32, INT32_MIN)
 DIVIDE(64, INT64_MIN)
 #define I32_DIV_S(x, y) divided_s32(m, x, y)

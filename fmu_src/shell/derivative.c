@@ -8,15 +8,16 @@
 
 /* Real outputs; real inputs, tunable parameters and, while they still count as values, all real ones.
    Hosts name all that an output depends on and give what they do not ask for the seed 0. */
-static int are_known(Instance *m, const uint32_t *references, size_t n, uint32_t causes,
-                     const double *seed) {
+static int are_known(Instance *m, const uint32_t *references, size_t n, uint32_t causes, const double *seed) {
     for (size_t i = 0; i < n; i++) {
         const Variable *v = find(m, references[i]);
         if (!v) return 0;
         const int counts = v->bits & causes || (causes & CAUSE_BIT(CAUSE_INPUT) && v->tunable);
         if (counts && (v->type == TYPE_REAL || (seed && seed[i] == 0.0))) continue;
-        fail(m, "%s: derivatives are of real outputs, with respect to inputs, tunable parameters and, "
-             "in initialization mode, real parameters", v->name);
+        fail(m,
+             "%s: derivatives are of real outputs, with respect to inputs, tunable parameters and, "
+             "in initialization mode, real parameters",
+             v->name);
         return 0;
     }
     return 1;
@@ -30,8 +31,8 @@ static int is_possible(Instance *m, const Direction *d, int forward) {
         return 0;
     }
     if (!are_known(m, d->unknowns, d->n_unknowns, CAUSE_BIT(CAUSE_OUTPUT), NULL)) return 0;
-    if (!are_known(m, d->knowns, d->n_knowns, CAUSE_BIT(CAUSE_INPUT) | parameters,
-                   forward ? d->seed : NULL)) return 0;
+    if (!are_known(m, d->knowns, d->n_knowns, CAUSE_BIT(CAUSE_INPUT) | parameters, forward ? d->seed : NULL))
+        return 0;
     for (size_t i = 0; i < n_seed; i++) {
         if (is_finite(d->seed[i])) continue;
         fail(m, "a seed of the derivative is not finite");
@@ -197,8 +198,8 @@ int adjoint(Instance *m, const Direction *d, double *sensitivity) {
         double seed[AT_LEAST_ONE(NSEED)] = {0}, dout[AT_LEAST_ONE(NOUT)] = {0};
         if (refresh_work(m)) return BAD;
         if (v->cause == CAUSE_INPUT) seed[v->slot] = 1.0;
-        if (v->cause == CAUSE_INPUT ? differentiate(m, seed, dout)
-                                    : add_parameter(m, v, 1.0, dout)) return BAD;
+        if (v->cause == CAUSE_INPUT ? differentiate(m, seed, dout) : add_parameter(m, v, 1.0, dout))
+            return BAD;
         sensitivity[k] = 0.0;
         for (size_t i = 0; i < d->n_unknowns; i++) {
             const Variable *u = &VARIABLES[d->unknowns[i]];

@@ -5,7 +5,7 @@
 #include "shell.h"
 
 #define RESOLUTION 1e-7 /* s: how closely the instant is enclosed */
-#define MOST_TRIALS 64 /* from 1e12 s down to the resolution */
+#define MOST_TRIALS 64  /* from 1e12 s down to the resolution */
 #define MOST_IN_A_ROW 8 /* early returns before a whole step is made */
 
 int has_changed(const Instance *m) {
@@ -47,9 +47,7 @@ static int from_before(Instance *m, const double *given, double t, double h) {
 }
 
 /* A row of early returns ends when time has gone over the step in which it began. */
-static int may_return_early(const Snap *s, double t) {
-    return s->n_early < MOST_IN_A_ROW || t >= s->row_end;
-}
+static int may_return_early(const Snap *s, double t) { return s->n_early < MOST_IN_A_ROW || t >= s->row_end; }
 
 static void note_early_return(Snap *s, double t, double h) {
     if (s->n_early == 0 || t >= s->row_end) {

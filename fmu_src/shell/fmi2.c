@@ -9,14 +9,12 @@ const char *fmi2GetVersion(void) { return fmi2Version; }
 
 /* The text is the format, its % doubled: some hosts take no arguments behind it. */
 static void send_message(const Log *log, int status, const char *category, const char *text) {
-    ((fmi2CallbackLogger)log->logger)(log->environment, log->name, (fmi2Status)status, category,
-                                      text);
+    ((fmi2CallbackLogger)log->logger)(log->environment, log->name, (fmi2Status)status, category, text);
 }
 
 fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2String fmuGUID,
-                              fmi2String fmuResourceLocation,
-                              const fmi2CallbackFunctions *functions, fmi2Boolean visible,
-                              fmi2Boolean loggingOn) {
+                              fmi2String fmuResourceLocation, const fmi2CallbackFunctions *functions,
+                              fmi2Boolean visible, fmi2Boolean loggingOn) {
     (void)visible; /* there is nothing to see */
     Log log = {0};
     log.send = send_message;
@@ -44,8 +42,7 @@ fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean loggingOn, size_t nC
 }
 
 fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fmi2Real tolerance,
-                               fmi2Real startTime, fmi2Boolean stopTimeDefined,
-                               fmi2Real stopTime) {
+                               fmi2Real startTime, fmi2Boolean stopTimeDefined, fmi2Real stopTime) {
     (void)toleranceDefined, (void)tolerance; /* the solver's tolerance is that of its tests */
     (void)stopTimeDefined, (void)stopTime;
     ENTER(fmi2SetupExperiment);
@@ -74,8 +71,7 @@ fmi2Status fmi2Reset(fmi2Component c) {
     return (fmi2Status)reset(m);
 }
 
-fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint,
-                      fmi2Real communicationStepSize,
+fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint, fmi2Real communicationStepSize,
                       fmi2Boolean noSetFMUStatePriorToCurrentPoint) {
     (void)noSetFMUStatePriorToCurrentPoint; /* going back is always possible */
     ENTER(fmi2DoStep);

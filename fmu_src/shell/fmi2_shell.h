@@ -6,8 +6,8 @@
 #include "shell.h"
 
 /* First line of every function: the instance, if the call is allowed now. */
-#define ENTER(function)                        \
-    Instance *m = enter(c, CALL_##function);   \
+#define ENTER(function)                      \
+    Instance *m = enter(c, CALL_##function); \
     if (!m) return fmi2Error
 
 /* A pointer the host has to give, for n values. */

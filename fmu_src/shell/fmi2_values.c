@@ -2,21 +2,19 @@
 #include "fmi2_shell.h"
 
 static const Kind REAL = {"Real", TYPE_BIT(TYPE_REAL), FORM_DOUBLE};
-static const Kind INTEGER = {"Integer", TYPE_BIT(TYPE_INTEGER) | TYPE_BIT(TYPE_ENUMERATION),
-                             FORM_INT32};
+static const Kind INTEGER = {"Integer", TYPE_BIT(TYPE_INTEGER) | TYPE_BIT(TYPE_ENUMERATION), FORM_INT32};
 static const Kind BOOLEAN = {"Boolean", TYPE_BIT(TYPE_BOOLEAN), FORM_INT32};
 static const Kind STRING = {"String", 0, FORM_NONE};
 
-#define VALUES(Name, type, kind)                                                                  \
-    fmi2Status fmi2Get##Name(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,          \
-                             type value[]) {                                                      \
-        ENTER(fmi2Get##Name);                                                                     \
-        return (fmi2Status)get_values(m, CALL_fmi2Get##Name, vr, nvr, &kind, value);              \
-    }                                                                                             \
-    fmi2Status fmi2Set##Name(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,          \
-                             const type value[]) {                                                \
-        ENTER(fmi2Set##Name);                                                                     \
-        return (fmi2Status)set_values(m, CALL_fmi2Set##Name, vr, nvr, &kind, value);              \
+#define VALUES(Name, type, kind)                                                                         \
+    fmi2Status fmi2Get##Name(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, type value[]) { \
+        ENTER(fmi2Get##Name);                                                                            \
+        return (fmi2Status)get_values(m, CALL_fmi2Get##Name, vr, nvr, &kind, value);                     \
+    }                                                                                                    \
+    fmi2Status fmi2Set##Name(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,                 \
+                             const type value[]) {                                                       \
+        ENTER(fmi2Set##Name);                                                                            \
+        return (fmi2Status)set_values(m, CALL_fmi2Set##Name, vr, nvr, &kind, value);                     \
     }
 
 VALUES(Real, fmi2Real, REAL)
@@ -46,8 +44,8 @@ fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate, si
     return (fmi2Status)state_size(m, FMUstate, size);
 }
 
-fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate,
-                                 fmi2Byte serializedState[], size_t size) {
+fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate, fmi2Byte serializedState[],
+                                 size_t size) {
     ENTER(fmi2SerializeFMUstate);
     NEED(fmi2SerializeFMUstate, serializedState, size);
     return (fmi2Status)write_state(m, FMUstate, (unsigned char *)serializedState, size);
@@ -62,9 +60,8 @@ fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte serializedSta
 }
 
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference vUnknown_ref[],
-                                        size_t nUnknown, const fmi2ValueReference vKnown_ref[],
-                                        size_t nKnown, const fmi2Real dvKnown[],
-                                        fmi2Real dvUnknown[]) {
+                                        size_t nUnknown, const fmi2ValueReference vKnown_ref[], size_t nKnown,
+                                        const fmi2Real dvKnown[], fmi2Real dvUnknown[]) {
     ENTER(fmi2GetDirectionalDerivative);
     NEED(fmi2GetDirectionalDerivative, vUnknown_ref, nUnknown);
     NEED(fmi2GetDirectionalDerivative, dvUnknown, nUnknown);

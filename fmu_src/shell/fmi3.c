@@ -24,40 +24,41 @@ static fmi3Instance refuse_instance(const Log *log, const char *why) {
     return NULL;
 }
 
-fmi3Instance fmi3InstantiateCoSimulation(
-    fmi3String instanceName, fmi3String instantiationToken, fmi3String resourcePath,
-    fmi3Boolean visible, fmi3Boolean loggingOn, fmi3Boolean eventModeUsed,
-    fmi3Boolean earlyReturnAllowed, const fmi3ValueReference requiredIntermediateVariables[],
-    size_t nRequiredIntermediateVariables, fmi3InstanceEnvironment instanceEnvironment,
-    fmi3LogMessageCallback logMessage, fmi3IntermediateUpdateCallback intermediateUpdate) {
+fmi3Instance fmi3InstantiateCoSimulation(fmi3String instanceName, fmi3String instantiationToken,
+                                         fmi3String resourcePath, fmi3Boolean visible, fmi3Boolean loggingOn,
+                                         fmi3Boolean eventModeUsed, fmi3Boolean earlyReturnAllowed,
+                                         const fmi3ValueReference requiredIntermediateVariables[],
+                                         size_t nRequiredIntermediateVariables,
+                                         fmi3InstanceEnvironment instanceEnvironment,
+                                         fmi3LogMessageCallback logMessage,
+                                         fmi3IntermediateUpdateCallback intermediateUpdate) {
     (void)visible; /* there is nothing to see */
     const Log log = open_log(instanceName, loggingOn, instanceEnvironment, logMessage);
     const int ends_early = eventModeUsed && earlyReturnAllowed && N_SWITCHES > 0;
     Instance *m = instantiate(&log, instantiationToken, resourcePath, ends_early);
     if (!m) return NULL;
     m->has_events = eventModeUsed != 0;
-    if (begin_updates(m, requiredIntermediateVariables, nRequiredIntermediateVariables,
-                      intermediateUpdate)) {
+    if (begin_updates(m, requiredIntermediateVariables, nRequiredIntermediateVariables, intermediateUpdate)) {
         free_instance(m);
         return NULL;
     }
     return m;
 }
 
-fmi3Instance fmi3InstantiateModelExchange(
-    fmi3String instanceName, fmi3String instantiationToken, fmi3String resourcePath,
-    fmi3Boolean visible, fmi3Boolean loggingOn, fmi3InstanceEnvironment instanceEnvironment,
-    fmi3LogMessageCallback logMessage) {
+fmi3Instance fmi3InstantiateModelExchange(fmi3String instanceName, fmi3String instantiationToken,
+                                          fmi3String resourcePath, fmi3Boolean visible, fmi3Boolean loggingOn,
+                                          fmi3InstanceEnvironment instanceEnvironment,
+                                          fmi3LogMessageCallback logMessage) {
     (void)instantiationToken, (void)resourcePath, (void)visible;
     const Log log = open_log(instanceName, loggingOn, instanceEnvironment, logMessage);
     return refuse_instance(&log, "is for co-simulation, not for model exchange");
 }
 
 fmi3Instance fmi3InstantiateScheduledExecution(
-    fmi3String instanceName, fmi3String instantiationToken, fmi3String resourcePath,
-    fmi3Boolean visible, fmi3Boolean loggingOn, fmi3InstanceEnvironment instanceEnvironment,
-    fmi3LogMessageCallback logMessage, fmi3ClockUpdateCallback clockUpdate,
-    fmi3LockPreemptionCallback lockPreemption, fmi3UnlockPreemptionCallback unlockPreemption) {
+    fmi3String instanceName, fmi3String instantiationToken, fmi3String resourcePath, fmi3Boolean visible,
+    fmi3Boolean loggingOn, fmi3InstanceEnvironment instanceEnvironment, fmi3LogMessageCallback logMessage,
+    fmi3ClockUpdateCallback clockUpdate, fmi3LockPreemptionCallback lockPreemption,
+    fmi3UnlockPreemptionCallback unlockPreemption) {
     (void)instantiationToken, (void)resourcePath, (void)visible;
     (void)clockUpdate, (void)lockPreemption, (void)unlockPreemption;
     const Log log = open_log(instanceName, loggingOn, instanceEnvironment, logMessage);
@@ -105,7 +106,7 @@ fmi3Status fmi3EnterEventMode(fmi3Instance instance) {
     ENTER(fmi3EnterEventMode);
     if (!m->has_events) {
         return (fmi3Status)fail(m, "fmi3EnterEventMode: the instance was made with eventModeUsed "
-                                "= false");
+                                   "= false");
     }
     m->now.mode = EVENTS;
     return fmi3OK;
@@ -121,11 +122,10 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discrete
                                     fmi3Boolean *terminateSimulation,
                                     fmi3Boolean *nominalsOfContinuousStatesChanged,
                                     fmi3Boolean *valuesOfContinuousStatesChanged,
-                                    fmi3Boolean *nextEventTimeDefined,
-                                    fmi3Float64 *nextEventTime) {
+                                    fmi3Boolean *nextEventTimeDefined, fmi3Float64 *nextEventTime) {
     fmi3Boolean *const flags[] = {discreteStatesNeedUpdate, terminateSimulation,
-                                  nominalsOfContinuousStatesChanged,
-                                  valuesOfContinuousStatesChanged, nextEventTimeDefined};
+                                  nominalsOfContinuousStatesChanged, valuesOfContinuousStatesChanged,
+                                  nextEventTimeDefined};
     (void)nextEventTime; /* not defined */
     ENTER(fmi3UpdateDiscreteStates);
     for (int i = 0; i < 5; i++) {
@@ -153,8 +153,7 @@ static void write_flags(fmi3Boolean *event, fmi3Boolean *end, fmi3Boolean *early
 
 /* What is pointed to is written in every case: hosts read it after errors too. */
 fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoint,
-                      fmi3Float64 communicationStepSize,
-                      fmi3Boolean noSetFMUStatePriorToCurrentPoint,
+                      fmi3Float64 communicationStepSize, fmi3Boolean noSetFMUStatePriorToCurrentPoint,
                       fmi3Boolean *eventHandlingNeeded, fmi3Boolean *terminateSimulation,
                       fmi3Boolean *earlyReturn, fmi3Float64 *lastSuccessfulTime) {
     (void)noSetFMUStatePriorToCurrentPoint; /* going back is always possible */

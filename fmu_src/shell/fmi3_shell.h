@@ -27,8 +27,8 @@ void ask_ahead(Instance *m, double t, double h);
 void show_end(Instance *m); /* Let the host read values at the end of a step. */
 
 static inline int uneven(const Instance *m, int call, size_t n, size_t n_values) {
-    return fail(m, "%s: %lu values for %lu scalar variables", CALLS[call].name,
-                (unsigned long)n_values, (unsigned long)n);
+    return fail(m, "%s: %lu values for %lu scalar variables", CALLS[call].name, (unsigned long)n_values,
+                (unsigned long)n);
 }
 
 #endif

@@ -23,15 +23,15 @@ fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUSta
     return (fmi3Status)state_size(m, FMUState, size);
 }
 
-fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState FMUState,
-                                 fmi3Byte serializedState[], size_t size) {
+fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState FMUState, fmi3Byte serializedState[],
+                                 size_t size) {
     ENTER(fmi3SerializeFMUState);
     NEED(fmi3SerializeFMUState, serializedState, size);
     return (fmi3Status)write_state(m, FMUState, serializedState, size);
 }
 
-fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte serializedState[],
-                                   size_t size, fmi3FMUState *FMUState) {
+fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte serializedState[], size_t size,
+                                   fmi3FMUState *FMUState) {
     ENTER(fmi3DeserializeFMUState);
     NEED(fmi3DeserializeFMUState, serializedState, size);
     NEED(fmi3DeserializeFMUState, FMUState, 1);
@@ -39,9 +39,9 @@ fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte seriali
 }
 
 fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
-                                        size_t nUnknowns, const fmi3ValueReference knowns[],
-                                        size_t nKnowns, const fmi3Float64 seed[], size_t nSeed,
-                                        fmi3Float64 sensitivity[], size_t nSensitivity) {
+                                        size_t nUnknowns, const fmi3ValueReference knowns[], size_t nKnowns,
+                                        const fmi3Float64 seed[], size_t nSeed, fmi3Float64 sensitivity[],
+                                        size_t nSensitivity) {
     ENTER(fmi3GetDirectionalDerivative);
     NEED(fmi3GetDirectionalDerivative, unknowns, nUnknowns);
     NEED(fmi3GetDirectionalDerivative, knowns, nKnowns);
@@ -54,9 +54,9 @@ fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueRe
 }
 
 fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
-                                    size_t nUnknowns, const fmi3ValueReference knowns[],
-                                    size_t nKnowns, const fmi3Float64 seed[], size_t nSeed,
-                                    fmi3Float64 sensitivity[], size_t nSensitivity) {
+                                    size_t nUnknowns, const fmi3ValueReference knowns[], size_t nKnowns,
+                                    const fmi3Float64 seed[], size_t nSeed, fmi3Float64 sensitivity[],
+                                    size_t nSensitivity) {
     ENTER(fmi3GetAdjointDerivative);
     NEED(fmi3GetAdjointDerivative, unknowns, nUnknowns);
     NEED(fmi3GetAdjointDerivative, knowns, nKnowns);
@@ -86,8 +86,10 @@ int begin_updates(Instance *m, const fmi3ValueReference wanted[], size_t n,
         m->asks |= v->cause == CAUSE_INPUT;
         m->shows |= v->cause == CAUSE_OUTPUT;
         if (v->cause == CAUSE_OUTPUT || (v->cause == CAUSE_INPUT && v->type == TYPE_REAL)) continue;
-        return fail(m, "%s is required between communication points, allowed: outputs and Float64 "
-                    "inputs", v->name);
+        return fail(m,
+                    "%s is required between communication points, allowed: outputs and Float64 "
+                    "inputs",
+                    v->name);
     }
     return GOOD;
 }
@@ -100,8 +102,8 @@ void ask_ahead(Instance *m, double t, double h) {
     if (!m->asks || !(h > 0.0) || !is_finite(t + h)) return;
     memcpy(start, s->inp, sizeof start);
     s->mode = UPDATING;
-    ((fmi3IntermediateUpdateCallback)m->update)(m->log.environment, t + h, fmi3True, fmi3False,
-                                                fmi3False, fmi3False, &early, &early_time);
+    ((fmi3IntermediateUpdateCallback)m->update)(m->log.environment, t + h, fmi3True, fmi3False, fmi3False,
+                                                fmi3False, &early, &early_time);
     s->mode = STEPPING;
     for (int i = 0; i < NINP; i++) s->inp[NINP + i] = (s->inp[i] - start[i]) / h;
     memcpy(s->inp, start, sizeof start);
@@ -115,7 +117,7 @@ void show_end(Instance *m) {
     double early_time = m->now.time;
     if (!m->update || !m->shows) return;
     m->now.mode = UPDATED;
-    ((fmi3IntermediateUpdateCallback)m->update)(m->log.environment, m->now.time, fmi3False,
-                                                fmi3True, fmi3True, fmi3False, &early, &early_time);
+    ((fmi3IntermediateUpdateCallback)m->update)(m->log.environment, m->now.time, fmi3False, fmi3True,
+                                                fmi3True, fmi3False, &early, &early_time);
     m->now.mode = STEPPING;
 }

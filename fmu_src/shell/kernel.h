@@ -11,8 +11,8 @@ void tw_free(void *memory);
 int tw_derive(double *par);
 int tw_rule(const double *par); /* 0, or the place (from 1) of the first broken rule in RULES */
 /* Behind the inputs lie NRATES rates; models without them (0) do not look there. */
-int tw_step(double *par, double *inp, double *state, double *work, double *out, int32_t *iout,
-            double t, double dt);
+int tw_step(double *par, double *inp, double *state, double *work, double *out, int32_t *iout, double t,
+            double dt);
 /* `seed`: changes of the inputs, and behind them, if NSEED > NINP, of the tunable parameters. */
 int tw_sens(double *par, double *inp, double *state, double *work, double *seed, double *dout);
 

@@ -84,8 +84,8 @@ Instance *enter(void *instance, int call) {
         return NULL;
     }
     if (!(c->modes & m->now.mode)) {
-        fail(m, "%s is not allowed in state %s; call fmi%d%s first", c->name,
-             mode_name(m->now.mode), (int)m->log.fmi, way(m->now.mode, c->modes));
+        fail(m, "%s is not allowed in state %s; call fmi%d%s first", c->name, mode_name(m->now.mode),
+             (int)m->log.fmi, way(m->now.mode, c->modes));
         return NULL;
     }
     return m;
@@ -100,75 +100,6 @@ int begin(Instance *m, double start_time) {
     }
     m->now.time = start_time;
     return GOOD;
-}
-
-/* Check the rules between parameters and compute the derived constants. */
-int prepare(Instance *m) {
-    if (m->now.prepared) return load_table(m);
-    int32_t failed = m->now.latch;
-    m->now.latch = STATUS_BAD_INPUT;
-#if HAS_RULES
-    int rule = tw_rule(m->now.par);
-    if (rule) {
-        tell_rule(m, rule > 0 && rule <= N_RULES ? RULES[rule - 1].text : "a rule is broken");
-        return BAD;
-    }
-#endif
-    int rc = tw_derive(m->now.par);
-    if (rc < 0 || rc >= FIRST_FAILURE) {
-        return fail(m, "the parameters cannot be used: %s", status_text(rc)->advice);
-    }
-    m->table_ready = 0;
-    if (load_table(m)) return BAD;
-    m->now.prepared = 1;
-    m->now.latch = failed;
-    return GOOD;
-}
-
-static int all_finite(const double *x, int n) {
-    int bad = 0;
-    for (int i = 0; i < n; i++) bad += !is_finite(x[i]);
-    return !bad;
-}
-
-/* The kernels leave `state` alone when they fail, and say so of a solution that is not finite. A small
-   state is kept all the same; to copy a large one would take longer than to look a solution up. */
-#define KEEPS_STATE (NSTATE <= 1024)
-
-static void copy_solution(Solution *to, const Solution *from) {
-    if (KEEPS_STATE) memcpy(to->state, from->state, sizeof to->state);
-    memcpy(to->out, from->out, sizeof to->out);
-    memcpy(to->iout, from->iout, sizeof to->iout);
-}
-
-void put_back(Instance *m) {
-    copy_solution(&m->now.solution, &m->undo);
-    memcpy(m->now.inp, m->given, sizeof m->given);
-}
-
-int solve(Instance *m, double t, double h) {
-    Solution *s = &m->now.solution;
-    copy_solution(&m->undo, s);
-    memcpy(m->given, m->now.inp, sizeof m->given);
-    int rc = tw_step(m->now.par, m->now.inp, s->state, m->work, s->out, s->iout, t, h);
-    if (rc < 0 || (rc < FIRST_FAILURE && !all_finite(s->out, NOUT))) rc = STATUS_NOT_FINITE;
-    m->work_fits = rc < FIRST_FAILURE && h == 0.0; /* derivatives hold the memory */
-    if (rc < FIRST_FAILURE) return 0;
-    put_back(m);
-    return rc;
-}
-
-/* Bring the outputs up to date, at most once per change. */
-int refresh(Instance *m) {
-    if (!m->now.dirty) return GOOD;
-    if (!m->unsolved) { /* else the same values would fail again */
-        if (prepare(m)) return BAD;
-        m->unsolved = solve(m, m->now.time, 0.0);
-        if (m->unsolved) m->now.latch = m->unsolved;
-    }
-    m->now.dirty = m->unsolved != 0;
-    if (m->unsolved) tell_failure(m, m->unsolved, m->now.time, 0.0);
-    return m->unsolved ? BAD : GOOD;
 }
 
 static void note_switches(Instance *m) {

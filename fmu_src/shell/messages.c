@@ -133,8 +133,8 @@ void tell_refusal(Instance *m, const Variable *v, double value) {
         add(&text, "%s is an %s variable; it cannot be set", v->name,
             v->cause == CAUSE_OUTPUT ? "output" : "independent");
     } else if (!may_set(m, v)) {
-        add(&text, "%s is a fixed parameter%s; it can be set before the initialization ends",
-            v->name, v->tunable ? " with fidelity 'map', made for one value" : "");
+        add(&text, "%s is a fixed parameter%s; it can be set before the initialization ends", v->name,
+            v->tunable ? " with fidelity 'map', made for one value" : "");
     } else {
         add_reason(&text, m, v, value);
     }
@@ -189,9 +189,12 @@ void tell_effort(const Instance *m) {
 
 /* Warn once when an input leaves a range of its own. Returns if one is outside what was verified. */
 static int tell_ranges(Instance *m) {
-    static const char *const begin[] = {"", "OUTSIDE_VERIFIED: "}, *const end[] = {
-        "the part's box: solved all the same, but it is not what the part is meant for; change the "
-        "input, or [box] in the part file", "for which the accuracy was verified; use with care"};
+    static const char *const
+        begin[] = {"", "OUTSIDE_VERIFIED: "},
+        *const end[] = {
+            "the part's box: solved all the same, but it is not what the part is meant for; change the "
+            "input, or [box] in the part file",
+            "for which the accuracy was verified; use with care"};
     int unverified = 0;
     for (int i = 1; VARIABLES[i].store == STORE_INP; i++) { /* the first variables after time */
         const Variable *v = &VARIABLES[i];

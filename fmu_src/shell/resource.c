@@ -58,7 +58,7 @@ static void take_resources(Instance *m, const char *location) {
 #ifdef _WIN32
 /* UTF-8 to UTF-16: the C library takes bytes for letters of its own code page. */
 static FILE *open_file(const char *path) {
-    wchar_t wide[sizeof ((Instance *)0)->resources];
+    wchar_t wide[sizeof((Instance *)0)->resources];
     size_t n = 0;
     for (const unsigned char *c = (const unsigned char *)path; *c && n + 2 < sizeof wide / 2;) {
         int more = *c >= 0xf0 ? 3 : *c >= 0xe0 ? 2 : *c >= 0xc0 ? 1 : 0;
@@ -112,9 +112,10 @@ int load_part(Instance *m, const char *location, const char *guid) {
     take_resources(m, location); /* where there are tables: nothing else is read */
     m->part = COMPILED_PART[0];
     if (guid && !strcmp(guid, m->part.guid)) return GOOD;
-    return fail(m, "%s: the description has the identifier %s, these sources have %s; they are of "
-                "different builds, use both from one FMU", m->part.name, guid ? guid : "none",
-                m->part.guid);
+    return fail(m,
+                "%s: the description has the identifier %s, these sources have %s; they are of "
+                "different builds, use both from one FMU",
+                m->part.name, guid ? guid : "none", m->part.guid);
 }
 
 #else
@@ -125,9 +126,9 @@ static int read_part(Instance *m) {
     FILE *file = open_resource(m, "part.bin");
     if (!file) return -1;
     int good = fread(part, sizeof *part, 1, file) == 1
-        && is_whole(file, checksum(0, (const unsigned char *)part, sizeof *part))
-        && !memcmp(part->magic, "twpart2", sizeof part->magic)
-        && !memcmp(part->build, BUILD, sizeof part->build);
+               && is_whole(file, checksum(0, (const unsigned char *)part, sizeof *part))
+               && !memcmp(part->magic, "twpart2", sizeof part->magic)
+               && !memcmp(part->build, BUILD, sizeof part->build);
     fclose(file);
     part->guid[WORD_LENGTH - 1] = part->name[WORD_LENGTH - 1] = '\0';
     return good;
@@ -137,8 +138,10 @@ int load_part(Instance *m, const char *location, const char *guid) {
     const Part *part = &m->part;
     take_resources(m, location);
     if (!m->resources[0]) {
-        return fail(m, "the host names no folder of resources (up to %d bytes), from which "
-                    "part.bin is read: the FMU's name and start values", PATH_LENGTH - 1);
+        return fail(m,
+                    "the host names no folder of resources (up to %d bytes), from which "
+                    "part.bin is read: the FMU's name and start values",
+                    PATH_LENGTH - 1);
     }
     int found = read_part(m);
     if (found <= 0) {
@@ -146,9 +149,10 @@ int load_part(Instance *m, const char *location, const char *guid) {
                     found ? "missing" : "damaged, or of another build than this library");
     }
     if (guid && !strcmp(guid, part->guid)) return GOOD;
-    return fail(m, "%s: the description has the identifier %s, part.bin in %s has %s; they are of "
-                "different builds, use both from one FMU", part->name, guid ? guid : "none",
-                shown_folder(m), part->guid);
+    return fail(m,
+                "%s: the description has the identifier %s, part.bin in %s has %s; they are of "
+                "different builds, use both from one FMU",
+                part->name, guid ? guid : "none", shown_folder(m), part->guid);
 }
 
 #endif
@@ -156,8 +160,7 @@ int load_part(Instance *m, const char *location, const char *guid) {
 #if TABLE_ROOM > 0
 
 static int made_for(const double *table, const double *par) {
-    return table[0] == TABLE_MAGIC
-        && memcmp(table + TABLE_PARAMS, par, TABLE_N_PARAMS * sizeof *par) == 0;
+    return table[0] == TABLE_MAGIC && memcmp(table + TABLE_PARAMS, par, TABLE_N_PARAMS * sizeof *par) == 0;
 }
 
 #ifdef TABLE_COMPILED_IN
@@ -223,8 +226,10 @@ int load_table(Instance *m) {
     if (m->table_ready) return GOOD;
     m->now.latch = STATUS_BAD_INPUT;
     if (found == -2) return fail(m, "a map in %s is damaged; unpack the FMU again", shown_folder(m));
-    return fail(m, "fidelity = 'map': no map was made for these parameters; make one with "
-                "`thrustwasher map build`, or use fidelity 'field' (looked in %s)", shown_folder(m));
+    return fail(m,
+                "fidelity = 'map': no map was made for these parameters; make one with "
+                "`thrustwasher map build`, or use fidelity 'field' (looked in %s)",
+                shown_folder(m));
 }
 
 #else

@@ -28,12 +28,12 @@ typedef struct {
     double par[NPAR], inp[2 * AT_LEAST_ONE(NINP)], time; /* inputs, then their rates [unit/s] */
     Solution solution;
     uint32_t mode;
-    int32_t latch;     /* the failure to be seen in solver_status until something changes */
-    int32_t dirty;     /* the outputs are not those of the present values */
-    int32_t prepared;  /* rules checked and derived constants computed */
-    int32_t n_refused; /* inputs, parameters whose last value was not taken over ... */
-    int32_t n_early;   /* early returns in a row, which began with a step to ... */
-    double row_end;    /* ... this time [s] */
+    int32_t latch;                /* the failure to be seen in solver_status until something changes */
+    int32_t dirty;                /* the outputs are not those of the present values */
+    int32_t prepared;             /* rules checked and derived constants computed */
+    int32_t n_refused;            /* inputs, parameters whose last value was not taken over ... */
+    int32_t n_early;              /* early returns in a row, which began with a step to ... */
+    double row_end;               /* ... this time [s] */
     int32_t seen[N_SWITCHES + 1]; /* Boolean outputs at the last communication point */
     uint8_t refused[N_VARIABLES]; /* ... 1: by the refusal kept as a text, 2: by an earlier one */
 } Snap;
@@ -72,21 +72,25 @@ typedef struct {
     int32_t warned;    /* the status the host was last told, -1: nothing yet */
     int32_t told_late; /* the host was told that a step did not begin where the last one ended */
     uint8_t beyond[2][AT_LEAST_ONE(NINP)]; /* the inputs that it was told are outside their ranges */
-    int32_t work_fits; /* `work` belongs to the present solution */
-    int32_t last_step; /* what the last step returned */
-    int32_t has_events; /* the host goes through event mode; FMI 3 only */
-    Solution *before;   /* ... and lets steps end early: room for the solution at a step's start */
+    int32_t work_fits;                     /* `work` belongs to the present solution */
+    int32_t last_step;                     /* what the last step returned */
+    int32_t has_events;                    /* the host goes through event mode; FMI 3 only */
+    Solution *before;           /* ... and lets steps end early: room for the solution at a step's start */
     int32_t happened, is_early; /* of the last step: a Boolean output changed, it ended early */
-    void (*update)(void); /* the host's intermediateUpdate, or NULL; FMI 3 only ... */
-    int32_t asks, shows;  /* ... it is called for inputs before a step, to read after it */
-    int32_t table_ready; /* the table in `work` is that of the present parameters, or not wanted */
+    void (*update)(void);       /* the host's intermediateUpdate, or NULL; FMI 3 only ... */
+    int32_t asks, shows;        /* ... it is called for inputs before a step, to read after it */
+    int32_t table_ready;        /* the table in `work` is that of the present parameters, or not wanted */
     char resources[PATH_LENGTH + WORD_LENGTH]; /* the folder, in UTF-8; room for a file's name */
     char refusal[TEXT_LENGTH];
     double work[AT_LEAST_ONE(NWORK)]; /* carries nothing between calls, the table aside */
 } Instance;
 
 /* How a host hands over values: which types of variables, in which form. */
-typedef struct { const char *name; uint32_t takes; int form; } Kind;
+typedef struct {
+    const char *name;
+    uint32_t takes;
+    int form;
+} Kind;
 enum { FORM_DOUBLE, FORM_INT32, FORM_INT64, FORM_BYTE, FORM_NONE };
 
 /* lifecycle.c */
@@ -99,12 +103,7 @@ Instance *enter(void *instance, int call); /* NULL: not allowed now, and said so
 int begin(Instance *m, double start_time);
 int leave_initialization(Instance *m);
 int reset(Instance *m);
-int prepare(Instance *m);
-int refresh(Instance *m);
 int advance(Instance *m, double t, double h);
-int solve(Instance *m, double t, double h); /* 0 or a failure, which changes nothing */
-/* Outputs, memory, inputs as before the last solve; memory that is large: if h was 0. */
-void put_back(Instance *m);
 
 /* events.c */
 int has_changed(const Instance *m); /* a Boolean output, since the last communication point */
@@ -120,10 +119,12 @@ static inline int is_finite(double x) {
 /* By the compiler, not by a function that a host could have one of its own of. */
 static inline double size_of(double x) { return __builtin_fabs(x); }
 
-/* course.c */
-/* Rates of inputs for the next step; `orders` of derivatives, of which there is the first. */
-int set_rates(Instance *m, int call, const uint32_t *references, size_t n, const int32_t *orders,
-              const double *rates);
+/* solution.c */
+int prepare(Instance *m);
+int refresh(Instance *m);
+int solve(Instance *m, double t, double h); /* 0 or a failure, which changes nothing */
+/* Outputs, memory, inputs as before the last solve; memory that is large: if h was 0. */
+void put_back(Instance *m);
 int follow(Instance *m, double t, double h); /* as solve, h > 0, along the inputs' rates */
 
 /* resource.c */
@@ -133,8 +134,10 @@ int load_table(Instance *m); /* BAD: the fidelity wants a table that is not ther
 /* values.c */
 int set_values(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind,
                const void *values);
-int get_values(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind,
-               void *values);
+int get_values(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind, void *values);
+/* Rates of inputs for the next step; `orders` of derivatives, of which there is the first. */
+int set_rates(Instance *m, int call, const uint32_t *references, size_t n, const int32_t *orders,
+              const double *rates);
 int is_missing(Instance *m, int call, const void *array, size_t n);
 const Variable *find(Instance *m, uint32_t reference);
 
@@ -144,8 +147,7 @@ static inline double value_of(const Instance *m, const Variable *v) {
     case STORE_OUT: return s->solution.out[v->slot];
     case STORE_INP: return s->inp[v->slot];
     case STORE_PAR: return s->par[v->slot];
-    case STORE_IOUT:
-        return s->latch && v->slot == IO_STATUS ? s->latch : s->solution.iout[v->slot];
+    case STORE_IOUT: return s->latch && v->slot == IO_STATUS ? s->latch : s->solution.iout[v->slot];
     default: return s->time;
     }
 }
@@ -162,7 +164,7 @@ static inline int has_table_for(const Instance *m, const Variable *v) {
 
 static inline int may_set(const Instance *m, const Variable *v) {
     return (ACCESS[v->cause].set & m->now.mode)
-        || (v->tunable && m->now.mode & (STEPPING | EVENTS) && !has_table_for(m, v));
+           || (v->tunable && m->now.mode & (STEPPING | EVENTS) && !has_table_for(m, v));
 }
 
 /* A finite value outside a range by a rounding error is the end of the range: some units in the last
@@ -199,7 +201,11 @@ int directional(Instance *m, const Direction *d, double *sensitivity);
 int adjoint(Instance *m, const Direction *d, double *sensitivity);
 
 /* text.c: sentences that grow piece by piece, and are cut between letters where the memory ends */
-typedef struct { size_t n; int is_full; char text[TEXT_LENGTH]; } Text;
+typedef struct {
+    size_t n;
+    int is_full;
+    char text[TEXT_LENGTH];
+} Text;
 size_t whole_letters(const char *text, size_t n); /* at most n bytes of UTF-8: no letter is cut */
 void add(Text *t, const char *format, ...);
 void add_number(Text *t, double value);

@@ -62,8 +62,15 @@ static int is_living(const void *state) {
 }
 
 static void write_head(Head *head, const Instance *m) {
-    const uint32_t sizes[9] = {NPAR, NINP, NSTATE, NOUT, NIOUT, N_VARIABLES, N_SWITCHES,
-                               (uint32_t)sizeof(Snap), (uint32_t)sizeof(State)};
+    const uint32_t sizes[9] = {NPAR,
+                               NINP,
+                               NSTATE,
+                               NOUT,
+                               NIOUT,
+                               N_VARIABLES,
+                               N_SWITCHES,
+                               (uint32_t)sizeof(Snap),
+                               (uint32_t)sizeof(State)};
     memset(head, 0, sizeof *head);
     memcpy(head->magic, "thrustw3", sizeof head->magic);
     memcpy(head->guid, m->part.guid, sizeof head->guid);
@@ -74,10 +81,10 @@ static void write_head(Head *head, const Instance *m) {
 
 /* CRC-32, four bits at a time; of what follows earlier bytes: from their result on. */
 uint32_t checksum(uint32_t crc, const unsigned char *bytes, size_t n) {
-    static const uint32_t table[16] = {
-        0x00000000u, 0x1db71064u, 0x3b6e20c8u, 0x26d930acu, 0x76dc4190u, 0x6b6b51f4u,
-        0x4db26158u, 0x5005713cu, 0xedb88320u, 0xf00f9344u, 0xd6d6a3e8u, 0xcb61b38cu,
-        0x9b64c2b0u, 0x86d3d2d4u, 0xa00ae278u, 0xbdbdf21cu};
+    static const uint32_t table[16] = {0x00000000u, 0x1db71064u, 0x3b6e20c8u, 0x26d930acu,
+                                       0x76dc4190u, 0x6b6b51f4u, 0x4db26158u, 0x5005713cu,
+                                       0xedb88320u, 0xf00f9344u, 0xd6d6a3e8u, 0xcb61b38cu,
+                                       0x9b64c2b0u, 0x86d3d2d4u, 0xa00ae278u, 0xbdbdf21cu};
     crc = ~crc;
     for (size_t i = 0; i < n; i++) {
         crc = table[(crc ^ bytes[i]) & 15u] ^ (crc >> 4);
@@ -101,8 +108,8 @@ static State *known(Instance *m, void *state) {
         fail(m, "FMU state = %s, allowed: one that was got before",
              s ? "a pointer that this FMU has not given or has freed" : "none");
     } else if (strcmp(s->head.guid, m->part.guid) != 0) {
-        fail(m, "FMU state of another model or version (%.64s), allowed: %s %s", s->head.guid,
-             m->part.name, m->part.guid);
+        fail(m, "FMU state of another model or version (%.64s), allowed: %s %s", s->head.guid, m->part.name,
+             m->part.guid);
     } else {
         return s;
     }
@@ -173,8 +180,8 @@ int write_state(Instance *m, void *state, unsigned char *bytes, size_t size) {
     State *s = known(m, state);
     if (!s) return BAD;
     if (size < sizeof *s) {
-        return fail(m, "room for an FMU state = %lu bytes, allowed: %lu and more",
-                    (unsigned long)size, (unsigned long)sizeof *s);
+        return fail(m, "room for an FMU state = %lu bytes, allowed: %lu and more", (unsigned long)size,
+                    (unsigned long)sizeof *s);
     }
     s->head.check = check_of(s);
     memcpy(bytes, s, sizeof *s);
@@ -184,8 +191,8 @@ int write_state(Instance *m, void *state, unsigned char *bytes, size_t size) {
 /* Numbers that no run of this model leaves behind, though the checksum is right. */
 static int is_sound(const Snap *s) {
     int refused = 0, good = is_finite(s->time);
-    good &= s->mode == INSTANTIATED || s->mode == INITIALIZING || s->mode == STEPPING
-            || s->mode == TERMINATED || s->mode == EVENTS;
+    good &= s->mode == INSTANTIATED || s->mode == INITIALIZING || s->mode == STEPPING || s->mode == TERMINATED
+            || s->mode == EVENTS;
     good &= (s->dirty == 0 || s->dirty == 1) && (s->prepared == 0 || s->prepared == 1);
     good &= s->n_early >= 0 && is_finite(s->row_end);
     good &= s->latch >= 0 && s->latch <= STATUS_NOT_IN_MAP;

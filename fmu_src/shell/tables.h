@@ -6,8 +6,13 @@
 
 /* Where an instance is in its life; the bits of Call.modes and Access. */
 enum {
-    INSTANTIATED = 1, INITIALIZING = 2, STEPPING = 4, TERMINATED = 8, EVENTS = 16,
-    UPDATING = 32, UPDATED = 64 /* within intermediateUpdate: before a step, after it */
+    INSTANTIATED = 1,
+    INITIALIZING = 2,
+    STEPPING = 4,
+    TERMINATED = 8,
+    EVENTS = 16,
+    UPDATING = 32,
+    UPDATED = 64 /* within intermediateUpdate: before a step, after it */
 };
 
 enum { TYPE_REAL, TYPE_INTEGER, TYPE_BOOLEAN, TYPE_ENUMERATION };
@@ -29,36 +34,69 @@ typedef struct {
     uint8_t bits;     /* TYPE_BIT of the type and CAUSE_BIT of the causality */
 } Variable;
 
-typedef struct { int32_t number; const char *name; } Item;
-typedef struct { const char *name; int32_t n; const Item *items; } Enumeration;
+typedef struct {
+    int32_t number;
+    const char *name;
+} Item;
+typedef struct {
+    const char *name;
+    int32_t n;
+    const Item *items;
+} Enumeration;
 
 /* How a solution was obtained; from FIRST_FAILURE on there is none. */
-typedef struct { int32_t number; const char *name, *advice; } StatusText;
+typedef struct {
+    int32_t number;
+    const char *name, *advice;
+} StatusText;
 
 /* A Boolean output whose changes are events: what happens when it becomes true, then false, and the
    places in `out` of the times [s] of both, -1: not told. */
-typedef struct { int32_t slot; const char *on, *off; int32_t instant[2]; } Switch;
+typedef struct {
+    int32_t slot;
+    const char *on, *off;
+    int32_t instant[2];
+} Switch;
 
 /* What the solver counts, and where in `work` the number lies. */
-typedef struct { const char *text; int32_t place; } Count;
+typedef struct {
+    const char *text;
+    int32_t place;
+} Count;
 
 /* What is said when parameters contradict each other; {names} in braces stand for their values. */
-typedef struct { const char *text; } Rule;
+typedef struct {
+    const char *text;
+} Rule;
 
 /* A category of messages; declared: this model's description lists it. */
-typedef struct { const char *name; int32_t declared; } Category;
+typedef struct {
+    const char *name;
+    int32_t declared;
+} Category;
 enum { LOG_WARNING, LOG_ERROR, LOG_SOLVER, LOG_EVENTS, LOG_ALL, N_CATEGORIES };
 
 /* An FMI function: the modes it is allowed in; declined: why it does nothing, else NULL. */
-typedef struct { const char *name; uint32_t modes; const char *declined; } Call;
+typedef struct {
+    const char *name;
+    uint32_t modes;
+    const char *declined;
+} Call;
 
 /* In which modes the values of a causality may be set, and read. */
-typedef struct { uint32_t set, get; } Access;
+typedef struct {
+    uint32_t set, get;
+} Access;
 
 /* What a type is called in messages, by FMI 2 and 3; the place is that of the enum. */
-typedef struct { const char *fmi2, *fmi3; } TypeText;
+typedef struct {
+    const char *fmi2, *fmi3;
+} TypeText;
 
 /* What a mode is called, and the function that leads out of it, without "fmi2", "fmi3". */
-typedef struct { uint32_t mode; const char *name, *leave; } ModeText;
+typedef struct {
+    uint32_t mode;
+    const char *name, *leave;
+} ModeText;
 
 #endif

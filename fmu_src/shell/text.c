@@ -123,8 +123,7 @@ int choose_categories(Instance *m, int on, size_t n, const char *const names[]) 
             const char *name = names[i] ? names[i] : "NULL";
             size_t n = strlen(name);
             if (n > WORD_LENGTH) n = whole_letters(name, WORD_LENGTH);
-            return fail(m, "there is no category %.*s of messages in %s", (int)n, name,
-                        m->part.name);
+            return fail(m, "there is no category %.*s of messages in %s", (int)n, name, m->part.name);
         }
     }
     uint8_t *switched = m->log.on;

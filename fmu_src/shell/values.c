@@ -1,4 +1,4 @@
-/* Setting and getting values: everything is checked before the first value is taken over. */
+/* Setting and getting values, and setting rates: everything is checked before the first is taken over. */
 #include <string.h>
 
 #include "shell.h"
@@ -42,8 +42,7 @@ static int misfit(Instance *m, uint32_t reference, const Kind *kind) {
     const Variable *v = find(m, reference);
     if (!v) return 0;
     const TypeText *type = &TYPES[v->type];
-    fail(m, "%s is of type %s, not %s", v->name, m->log.fmi == 2 ? type->fmi2 : type->fmi3,
-         kind->name);
+    fail(m, "%s is of type %s, not %s", v->name, m->log.fmi == 2 ? type->fmi2 : type->fmi3, kind->name);
     return 0;
 }
 
@@ -104,8 +103,34 @@ int set_values(Instance *m, int call, const uint32_t *references, size_t n, cons
         return BAD;
     }
     for (size_t i = 0; i < n; i++) {
-        take_over(m, references[i],
-                  read_value(&VARIABLES[references[i]], kind->form, values, i));
+        take_over(m, references[i], read_value(&VARIABLES[references[i]], kind->form, values, i));
+    }
+    return GOOD;
+}
+
+int set_rates(Instance *m, int call, const uint32_t *references, size_t n, const int32_t *orders,
+              const double *rates) {
+    if (is_missing(m, call, references, n) || is_missing(m, call, orders, n) || is_missing(m, call, rates, n))
+        return BAD;
+    for (size_t i = 0; i < n; i++) {
+        const Variable *v = find(m, references[i]);
+        if (v && v->cause == CAUSE_INPUT && v->type == TYPE_REAL && orders[i] == 1 && is_finite(rates[i]))
+            continue;
+        m->now.latch = STATUS_BAD_INPUT;
+        if (!v) return BAD;
+        if (v->cause != CAUSE_INPUT || v->type != TYPE_REAL) {
+            return fail(m, "%s: only Real inputs have a rate of change", v->name);
+        }
+        if (orders[i] != 1) {
+            return fail(m, "%s: derivative of order %ld, allowed: 1", v->name, (long)orders[i]);
+        }
+        Text text = {0};
+        add(&text, "%s: rate of change = ", v->name);
+        add_exact(&text, rates[i]);
+        return fail(m, "%s %s/s, allowed: a finite number", text.text, v->unit);
+    }
+    for (size_t i = 0; i < n; i++) {
+        m->now.inp[NINP + VARIABLES[references[i]].slot] = rates[i];
     }
     return GOOD;
 }
@@ -132,8 +157,7 @@ static int are_solved(Instance *m, const uint32_t *references, size_t n) {
     return refresh(m) == GOOD;
 }
 
-int get_values(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind,
-               void *values) {
+int get_values(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind, void *values) {
     uint32_t found = 0;
     if (!all_fit(m, call, references, n, kind, values, &found)) return BAD;
     if (found & CAUSE_BIT(CAUSE_OUTPUT) && !are_solved(m, references, n)) return BAD;

@@ -31,7 +31,7 @@ def dowson_higginson(
     entrainment: float,
     pressure_viscosity: float,
 ) -> float:
-    """Return the least film thickness [m] of an elastohydrodynamic line contact.
+    """Return the minimum film thickness [m] of an elastohydrodynamic line contact.
 
     ``entrainment`` [m/s] is the mean of the two surface speeds, ``pressure_viscosity`` in 1/Pa,
     E' = 2/theta. h = 2.65 U^0.7 G^0.54 W^-0.13 R. Source: Dowson & Higginson 1977.

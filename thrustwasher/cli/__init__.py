@@ -1,9 +1,12 @@
+# PYTHON_ARGCOMPLETE_OK
 """The command line: one file per command; a new command is that file and its name below.
 
-A command module has ``HELP`` (one sentence), ``add_arguments(parser)`` and ``run(arguments)``,
-which returns the exit status. Heavy imports happen inside ``run``: ``--help`` answers at once.
-A command that solves a model at one point is no file: ``common`` makes it from the record, and has
-what commands share.
+Commands that the models, their FMUs and shifts do not need lie elsewhere, as ``plugins`` says.
+
+A command module has ``HELP`` (a line), ``EXAMPLES`` (two command lines that run),
+``add_arguments(parser)`` and ``run(arguments)``, which returns the exit status. Heavy imports
+happen inside ``run``: ``--help`` answers at once. A command that solves a model at one point is no
+file: ``common`` makes it from the record, and has what commands share.
 """
 
 import argparse
@@ -11,42 +14,36 @@ import errno
 import gc
 import os
 import re
+import shlex
 import signal
 import sys
 import threading
 import time
-from collections.abc import Sequence
+import warnings
+from collections.abc import Callable, Sequence
 from importlib import import_module
-from types import FrameType
+from textwrap import wrap
+from types import FrameType, ModuleType
 from typing import Any, NoReturn
 
-from .. import __version__
+from .. import __version__, plugins
 from ..errors import EnvironmentProblem, ParameterError, SolveError, suggestion
 from ..model.registry import models_with_points
+from . import _completion
 from ._streams import named_streams
 
 MODELS = models_with_points()
-COMMANDS = (
-    *(name for model in MODELS.values() for name in model.commands()),
-    *(
-        "part",
-        "calibrate",
-        "explore",
-        "shift",
-        "efficiency",
-        "compare",
-        "sweep",
-        "optimise",
-        "scatter",
-        "chart",
-        "worst",
-        "build",
-        "cards",
-        "doctor",
-    ),
-)
+OF_MODELS = tuple(name for model in MODELS.values() for name in model.commands())
+GROUPS = {
+    "solve": tuple(name for name in OF_MODELS if name != "map"),
+    "build and run": ("build", "shift", "efficiency", "explore", "doctor"),
+    "study": ("sweep", "scatter", "optimise", "calibrate", "compare"),
+    "files": ("part", "map", "fidelity"),
+}
+COMMANDS = tuple(name for group in GROUPS.values() for name in group)
 DONE, DEFECT, WRONG_INPUT, NO_SOLUTION, PIPE_CLOSED = 0, 1, 2, 3, 141
 LONGEST = 2000  # characters of a message
+WIDTH = 79  # of what stands below the examples
 SIGNALS: dict[int, str] = {signal.SIGINT: "stopped", signal.SIGTERM: "terminated"}
 if hasattr(signal, "SIGHUP"):  # not on Windows
     SIGNALS[signal.SIGHUP] = "the terminal has closed"
@@ -59,22 +56,63 @@ EPILOG = (
 )
 
 
+RENAMED = {"cards": "fidelity"}  # commands, for one version
+RENAMED_OPTIONS = {
+    "optimise": {"--least": "--minimise", "--most": "--maximise"},
+    "scatter": {"--scheduler": "--cluster"},
+}
+GONE = {  # commands that were: what to call now
+    "chart": "python -m lab.chart, in a checkout",
+    "worst": "python -m lab.worst, in a checkout",
+}
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit status; never raises, never shows a traceback."""
-    words = list(sys.argv[1:] if argv is None else argv)
+    if argv is None:
+        _completion.complete(
+            _Parser,
+            dict.fromkeys(COMMANDS, ""),
+            lambda name, parser: _command(name).add_arguments(parser),
+        )
+    words = _renamed(list(sys.argv[1:] if argv is None else argv))
     label = f"thrustwasher {words[0]}" if words and words[0] in COMMANDS else "thrustwasher"
     with named_streams(is_program=argv is None):
-        return _ended(words, label, is_program=argv is None)
+        return _ended(lambda: _dispatch(words), label, is_program=argv is None)
 
 
-def _ended(words: list[str], label: str, *, is_program: bool) -> int:
+def main_of(command: ModuleType, label: str, argv: Sequence[str] | None = None) -> int:
+    """Run a command that is a program of its own, as ``main`` does; return its exit status."""
+    words = list(sys.argv[1:] if argv is None else argv)
+    with named_streams(is_program=argv is None):
+        return _ended(lambda: _run(command, label, words), label, is_program=argv is None)
+
+
+def _renamed(words: list[str]) -> list[str]:
+    """Return the words with names of before as they are now, and say which."""
+    new = list(words)
+    if words:
+        new[0] = RENAMED.get(words[0], words[0])
+        options = RENAMED_OPTIONS.get(new[0], {})
+        for i, word in enumerate(words[1:], 1):
+            name, equals, value = word.partition("=")
+            new[i] = options.get(name, name) + equals + value
+    for old, now in zip(words, new, strict=True):
+        if old != now:
+            old, now = old.partition("=")[0], now.partition("=")[0]
+            print(f"note: {old} is now {now}; the next version takes only this", file=sys.stderr)
+    return new
+
+
+def _ended(run: Callable[[], int], label: str, *, is_program: bool) -> int:
     """Run a command to its end, whatever that is."""
     watch = Watch()
     try:
         if is_program:  # no function in somebody's process
             watch.begin()
             gc.set_threshold(RARELY)
-        status = _dispatch(words)
+            warnings.showwarning = _show_warning  # type: ignore[assignment]
+        status = run()
         watch.close()
         sys.stdout.flush()
         return status
@@ -83,6 +121,14 @@ def _ended(words: list[str], label: str, *, is_program: bool) -> int:
         if watch.number or isinstance(error, KeyboardInterrupt):
             return _say(label, watch.word, watch.status)
         return _status_of(error, label)
+
+
+def _show_warning(
+    message: Warning | str, category: type[Warning], filename: str, lineno: int, *_: Any
+) -> None:
+    """Write what the author of a file is to know in one line, without the line of source."""
+    shown = warnings.formatwarning(message, category, filename, lineno)
+    print(f"warning: {message}" if category is FutureWarning else shown, file=sys.stderr)
 
 
 def _status_of(error: BaseException, label: str) -> int:
@@ -159,20 +205,23 @@ class _Parser(argparse.ArgumentParser):
 def _dispatch(words: list[str]) -> int:
     """Parse the words and run the command they name."""
     if words and not words[0].startswith("-"):
+        if words[0] in GONE:
+            raise ParameterError(f"the command {words[0]} is now {GONE[words[0]]}")
         if words[0] not in COMMANDS:
             hint = suggestion(words[0], COMMANDS, "; did you mean {}?")
             raise ParameterError(
                 f"command = {words[0]!r}, allowed in this version: {', '.join(COMMANDS)}{hint}"
             )
-        command = _command(words[0])
-        parser = _Parser(f"thrustwasher {words[0]}", description=command.HELP, epilog=EPILOG)
-        command.add_arguments(parser)
-        return int(command.run(parser.parse_args(words[1:])))
-    lines = [f"  {name:9} {_command(name).HELP}" for name in COMMANDS]
+        return _run(_command(words[0]), f"thrustwasher {words[0]}", words[1:])
+    lines = [
+        line
+        for group, names in GROUPS.items()
+        for line in (f"\n{group}:", *(f"  {name:10} {_help(name)}" for name in names))
+    ]
     parser = _Parser(
         prog="thrustwasher",
         usage="thrustwasher COMMAND [OPTION ...]",
-        description="Friction units for drivetrain simulation.\n\ncommands:\n" + "\n".join(lines),
+        description="Friction units for drivetrain simulation.\n" + "\n".join(lines),
         epilog="thrustwasher COMMAND --help says more.\n" + EPILOG.replace(". ", ".\n"),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -182,11 +231,53 @@ def _dispatch(words: list[str]) -> int:
     return DONE
 
 
+def _run(command: Any, label: str, words: list[str]) -> int:
+    """Parse the words behind a command and run it."""
+    parser = _parser(command, label)
+    arguments = parser.parse_args(words)
+    arguments.command_line = shlex.join([*label.split(), *words])
+    return int(command.run(arguments))
+
+
+def _parser(command: Any, label: str) -> _Parser:
+    """Return the parser of a command; its help ends with examples."""
+    examples = [f"  {line}" for line in getattr(command, "EXAMPLES", ())]
+    parser = _Parser(
+        label,
+        description=command.HELP,
+        epilog="\n".join(
+            [*(["examples:", *examples, ""] if examples else []), *wrap(EPILOG, WIDTH)]
+        ),
+        formatter_class=_Help,
+    )
+    command.add_arguments(parser)
+    return parser
+
+
+class _Help(argparse.RawDescriptionHelpFormatter):
+    """Help whose description is folded to the screen, and whose examples are left as they are."""
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        if "\n" in text:
+            return super()._fill_text(text, width, indent)
+        return "\n".join(wrap(text, width))
+
+
 def _command(name: str) -> Any:
     """Return the command of that name: a module, or made from the record of a model."""
     if name in MODELS:
         return import_module(".common._solve", __name__).PointCommand(MODELS[name])
+    if name in plugins.COMMANDS:
+        return plugins.command(name)
     return import_module(f".{name}", __name__)
+
+
+def _help(name: str) -> str:
+    """Return what a command does, in a line."""
+    try:
+        return str(_command(name).HELP)
+    except EnvironmentProblem as problem:
+        return f"({problem})"
 
 
 def _say(label: str, message: str, status: int) -> int:

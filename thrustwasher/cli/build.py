@@ -6,13 +6,18 @@ from typing import Any
 from ..errors import ParameterError
 from ..model.oil import sheet_oil
 from ..model.part_file import PartFile, is_part, load_part
-from ..model.registry import all_models, all_specs, find_spec
+from ..model.registry import all_specs, find_spec
 from ..model.spec import ModelSpec
 from ..units import parse_quantity
 from .common import _options, _output
 
 TOL = "0.01"  # by default
-HELP = f"build FMUs for co-simulation: {', '.join(model.name for model in all_models())}"
+HELP = "build FMUs for co-simulation, of all models or of your own part"
+EXAMPLES = (
+    "thrustwasher build ThrustWasher WetClutch --platforms local --out dist",
+    "thrustwasher part new clutch --name Pack --out pack.toml && thrustwasher build "
+    "pack.toml --platforms local",
+)
 OPTIONS = {
     "--platforms LIST": "native only: names with commas (linux64, win64, aarch64-linux, "
     "darwin-x86_64, darwin-arm64), all, or local; default: all (of what was edited: those that "
@@ -20,7 +25,7 @@ OPTIONS = {
     "--out DIR": "the FMUs go to DIR/<target>-fmi<N>/<MODEL>.fmu; default dist",
     "--no-maps": "native only: leave out what the washer's fidelity map looks up (2.5 MB); it is "
     "refused then",
-    "--fidelity RUNG": "native only: an FMU of this fidelity alone; map: the washer without its "
+    "--fidelity LEVEL": "native only: an FMU of this fidelity alone; map: the washer without its "
     "solver, in a tenth of the memory",
     "--tol X": "relative error of the torque allowed in the map of a part file's washer, which is "
     "built and kept if there is none; default 0.01",

@@ -7,13 +7,18 @@ from typing import Any
 
 from ..errors import ParameterError
 from ..model.part_file import PartFile
+from ..plugins import called
 from ..units import format_quantity, parse_quantity
 from ..washer.model import GRID
 from ..washer.parameters import SPEC
 from .common import _options, _output
 from .common._solve import Ranking, print_ranking
 
-HELP = "trace the washer's load curve with the folds where the film is lost and regained"
+HELP = "the washer's load curve, with the folds (limit loads) of its film"
+EXAMPLES = (
+    'thrustwasher curve --speed "5200 rpm" --plot curve.png',
+    'thrustwasher curve --speed "5200 rpm" --load 100:1500 --out curve.csv',
+)
 INPUTS = [signal for signal in SPEC.inputs if signal.name != "load"]
 COLUMNS = _output.columns(
     SPEC,
@@ -35,7 +40,7 @@ LOAD_MIN, LOAD_MAX = 20.0, 3000.0  # N
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     _options.add_inputs(parser, INPUTS)
-    ends = "ends of the curve [N], 1 .. 10000; default 20:3000, wider if the part's [box] is"
+    ends = "ends of the curve [N], 1 .. 200000; default 20:3000, wider if the part's [box] is"
     _options.add(parser, {"--load LOW:HIGH": ends})
     _options.add_parameters(parser, SPEC)
     _options.add_options(parser, [GRID])
@@ -63,12 +68,11 @@ def run(arguments: argparse.Namespace) -> int:
     slopes = curve.fold_sensitivities() if arguments.sensitivities else []
     ranking = _ranking(curve.folds, slopes, at.part.params)
     if targets.plot:
-        from ..report.model_plots import ranking_figure
-        from ..report.model_plots.washer_plots import curve_figure
-
         ranked = arguments.sensitivities and ranking
         targets.draw(
-            ranking_figure(at.part.name, ranking) if ranked else curve_figure(curve, point)
+            called("ranking_figure")(at.part.name, ranking)
+            if ranked
+            else called("curve_figure")(curve, point)
         )
     if arguments.json:
         found: dict[str, Any] = {
@@ -99,7 +103,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _ranking(folds: Sequence[Any], slopes: Sequence[Any], params: Any) -> Ranking:
-    """Return the changes of the loads of folds by one percent of each parameter, greatest first."""
+    """Return the changes of the loads of folds by one percent of each parameter, maximum first."""
     found: Ranking = {}
     for number, (fold, row) in enumerate(zip(folds, slopes, strict=False)):
         if row is not None:
@@ -110,7 +114,7 @@ def _ranking(folds: Sequence[Any], slopes: Sequence[Any], params: Any) -> Rankin
 
 
 def _loads(text: str | None) -> dict[str, float]:
-    """Return the ends of the curve [N] that are asked for."""
+    """Return the ends of the curve [N] that are requested."""
     if text is None:
         return {}
     ends = text.split(":")
@@ -122,7 +126,7 @@ def _loads(text: str | None) -> dict[str, float]:
 
 
 def _of_part(part: PartFile) -> dict[str, Any]:
-    """Return the ends of the curve [N], wider if the box is, and the part's rung."""
+    """Return the ends of the curve [N], wider if the box is, and the part's level."""
     low, high = part.box.get("load", (LOAD_MIN, LOAD_MAX))
     rung = "field" if part.fidelity == "map" else part.fidelity  # a curve takes a mesh
     ends = {"load_min": max(min(low, LOAD_MIN), 1.0), "load_max": max(high, LOAD_MAX)}

@@ -4,7 +4,11 @@ import argparse
 
 from .common import _output
 
-HELP = "say what works on this machine, and why not"
+HELP = "check what works on this machine"
+EXAMPLES = (
+    "thrustwasher doctor",
+    "thrustwasher doctor --json",
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -6,10 +6,15 @@ from typing import Any
 
 from ..clutch.parameters import SPEC
 from ..model.parameters import check_number
+from ..plugins import called
 from ..units import format_quantity, parse_quantity
 from .common import _options, _output
 
-HELP = "engage a wet pack: torque, film and interface temperature over time"
+HELP = "engagement of a wet pack: torque, film and temperature over time"
+EXAMPLES = (
+    "thrustwasher engage --load 4000 --speed 100 --plot engagement.png",
+    'thrustwasher engage --load 4000 --speed "955 rpm" --duration "0.5 s" --out engagement.csv',
+)
 COLUMNS = _output.columns(
     SPEC,
     (
@@ -56,13 +61,13 @@ def run(arguments: argparse.Namespace) -> int:
     began = time.perf_counter()
     result = _engage(at.part.params, point, times, arguments.fidelity or at.part.fidelity)
     wall_time = time.perf_counter() - began
-    warnings = at.warn([*_short(times, point["load"]), *result.warnings])
+    warnings = at.warn(
+        [*_short(times, point["load"]), *at.part.over_limits(result), *result.warnings]
+    )
     series = {name: getattr(result, name) for name in COLUMNS}
     targets.write(COLUMNS, series)
     if targets.plot:
-        from ..report.model_plots.clutch_plot import engagement_figure
-
-        targets.draw(engagement_figure(result))
+        targets.draw(called("engagement_figure")(result))
     if arguments.json:
         inputs = {**times, **{n: point[n] for n in ("oil_temperature", "drum_speed")}}
         _output.print_json({**result.to_dict(), **inputs, **at.record(warnings, wall_time)})
@@ -127,8 +132,8 @@ def _print_summary(result: Any) -> None:
     """Say the largest torque and temperature, the heat, and when the asperities carry."""
     import numpy as np
 
-    def at(name: str, index: Any) -> str:
-        return format_quantity(float(getattr(result, name)[index]), COLUMNS[name])
+    def at(name: str, index: object) -> str:
+        return _output.text_of(float(getattr(result, name)[index]), COLUMNS[name], digits=4)
 
     top, hot = abs(result.friction_torque).argmax(), result.temperature.argmax()
     thin = (result.film_ratio < 1.0).nonzero()[0]

@@ -1,6 +1,7 @@
 """``thrustwasher map``: build a washer's map, list the maps there are, check one."""
 
 import argparse
+from collections.abc import Callable
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -18,9 +19,14 @@ BUILD = (  # options of a map to build alone
     *(signal.name for signal in INPUTS),
 )
 POINTS = 60  # by default
-HELP = "chart a washer's solutions for look-up (build), list maps, check one against the mesh"
+HELP = "tables of a washer's solutions for look-up: build, list, check"
+EXAMPLES = (
+    "thrustwasher map list",
+    "thrustwasher part new washer --out w.toml && thrustwasher map build w.toml "
+    "--load 100:400 --speed 400:900 --tilt 0.001:0.002",
+)
 OPTIONS = {
-    "--fidelity RUNG": "mesh to chart: fine, field; default: as the tolerance needs",
+    "--fidelity LEVEL": "mesh to chart: fine, field; default: as the tolerance needs",
     "--out FILE": "default washer.twm, PART.twm of a part file",
     "--json": "one JSON object instead of words",
 }
@@ -87,16 +93,29 @@ def _build(arguments: argparse.Namespace) -> int:
     from ..washer.map.map_tables import TABLES, keep_own
 
     tolerance = parse_quantity(arguments.tolerance or TOLERANCE, "1", "tolerance")
-    card = make_map(
-        params,
-        Path(out),
-        box=box,
-        tolerance=tolerance,
-        fidelity=arguments.fidelity,
-        workers=arguments.workers,
-        points=arguments.points,
-        progress=_output.time_left,
-    )
+    journal, kept = out.with_name(f"{out.name}.journal"), "the curves that are done"
+    with _output.going_on(arguments, journal, lambda *_: None, kept) as progress:
+
+        def show(label: str) -> Callable[[int, int], None]:
+            """Return what shows how far a part of the work is, and marks that some is done."""
+            line = _output.time_left(label)
+
+            def both(done: int, total: int) -> None:
+                progress(done, total)
+                line(done, total)
+
+            return both
+
+        card = make_map(
+            params,
+            Path(out),
+            box=box,
+            tolerance=tolerance,
+            fidelity=arguments.fidelity,
+            workers=arguments.workers,
+            points=arguments.points,
+            progress=show,
+        )
     if left := [s for s in INPUTS if s.name not in box]:
         spans = (f"{s.name} = {range_text(s, DEFAULT_BOX[s.name])}" for s in left)
         _output.note(f"taken by default: {', '.join(spans)}")
@@ -147,7 +166,9 @@ def _check(arguments: argparse.Namespace) -> int:
     try:
         params = WasherParams(**file.card["params"])
     except (KeyError, TypeError):
-        raise ParameterError(f"map = {arguments.file!r}: its card names no parameters") from None
+        raise ParameterError(
+            f"map = {arguments.file!r}: its metadata names no parameters"
+        ) from None
     with runner(arguments.workers or 1) as run:
         verdict = check_map(
             params,
@@ -163,16 +184,14 @@ def _check(arguments: argparse.Namespace) -> int:
 
 
 def _show(card: dict[str, Any], path: str, as_json: bool) -> None:
-    """Print a card, as one JSON object or in words."""
+    """Print metadata, as one JSON object or in words."""
     if as_json:
         _output.print_json({"file": path, **card})
         return
     from ..washer.map.map_check import mesh_of
 
-    units = {s.name: s.unit for s in INPUTS}
-    box = ", ".join(
-        f"{name} {ends[0]:g} .. {ends[1]:g} {units[name]}" for name, ends in card["box"].items()
-    )
+    known = {s.name: s for s in INPUTS}
+    box = ", ".join(f"{name} {range_text(known[name], ends)}" for name, ends in card["box"].items())
     print(f"{path}: {box}")
     finer = ""
     if card.get("finer_lines"):

@@ -20,7 +20,11 @@ from ..model.record import Model
 from ..model.registry import all_models, find_model
 from .common import _options, _output
 
-HELP = "write a part file of one's own (new), check one, list the presets"
+HELP = "write a file of your own part (new), check one, list the presets"
+EXAMPLES = (
+    "thrustwasher part new clutch --name Pack --set faces=6 --out pack.toml",
+    "thrustwasher part list washer",
+)
 NEW = ("name", "preset", "settings", "out")  # of a new part alone
 OPTIONS = {
     "--name NAME": "new: name of the part and of its FMU, default MyMODEL",
@@ -72,7 +76,7 @@ def _new(arguments: argparse.Namespace) -> None:
 
 
 def _usual_box(model: Model) -> dict[str, tuple[float, float]]:
-    """Return the box of the default parameters' cards; without cards there is none."""
+    """Return the box of the default parameters' verification tables, empty without any."""
     boxes = model.ladder.boxes.get("default", {}) if model.ladder else {}
     return {name: (low, high) for name, (low, high, _) in boxes.items()}
 

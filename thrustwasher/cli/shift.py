@@ -10,18 +10,22 @@ from threading import Thread
 from typing import Any
 
 from ..errors import ParameterError
+from ..plugins import called
 from ..units import parse_quantity
-from . import scatter as _scatter
 from .build import chosen_platforms
-from .common import _options, _output, _two_shifts
+from .common import _options, _output
 from .common._solve import print_ranking
 
 HELP = "run a gear shift as co-simulation of FMUs and write its report"
+EXAMPLES = (
+    "thrustwasher shift",
+    "thrustwasher shift --scene msl --out msl-report",
+)
 OF_A_RUN = (
     *("scene", "compare", "no_report", "step", "master", "master_tolerance", "fidelity"),
     *("no_guard", "ssp", "fmi", "platforms", "oil", "scatter", "sensitivities"),
 )
-REPORT, TABLE, LIVE, FOLDER = "report.html", "shift.csv", "try.html", "shift-report"
+REPORT, FOLDER = "report.html", "shift-report"
 FMI = ("2", "3")  # versions of a package's FMUs
 RUNS, STUDY = "256", "scatter"  # base points of a study, its folder in that of the report
 OPTIONS = {
@@ -32,11 +36,12 @@ OPTIONS = {
     "--no-report": "write no files, only say what came out",
     "--step QUANTITY": "communication step [s], if not the scene's; up to a twentieth of the shift",
     "--master NAME": "gauss-seidel, jacobi or linearly-implicit, if not the scene's",
-    "--fidelity [PART=]RUNG ...": "a rung for all parts that have it, or for one: field, "
+    "--fidelity [PART=]LEVEL ...": "a fidelity level for all parts that have it, or for "
+    "one: field, "
     "washer=map; auto:0.01 chooses the cheapest that holds 1 %% and checks it after the run; may "
     "be repeated",
     "--no-guard": "do not check the run afterwards: neither its step, nor whether steady washers "
-    "hold, nor rungs that auto chose",
+    "hold, nor fidelity levels that auto chose",
     "--ssp FILE.ssp": "write the shift as an SSP package for other tools, instead of running it",
     "--fmi N": "version of the package's FMUs, 2 or 3; default 2",
     "--platforms LIST": "of the package's FMUs: names with commas, all, or local; default: all "
@@ -50,17 +55,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser, OPTIONS)
     parser.set_defaults(out=FOLDER)
     parser.add_argument(
-        "--compare",
-        metavar=("A", "B"),
-        nargs=2,
-        help="two shifts on one page, compare.html: each a report's folder, or a scene, which runs",
-    )
-    parser.add_argument(
         "--scatter",
         nargs="?",
         const=RUNS,
         metavar="N",
-        help="then study how sure the figures are: the scene's [scatter] through N shifts "
+        help="then study the uncertainty of the figures: the scene's [scatter] through N shifts "
         f"(default {RUNS}) and as many per input, with bands in the report; stopped, the same "
         "command goes on with the study",
     )
@@ -73,6 +72,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "energy and jerk: paths with commas, as in [scatter]; default pressures and friction",
     )
     parser.add_argument("--master-tolerance", help=argparse.SUPPRESS)
+    parser.add_argument("--compare", nargs="*", help=argparse.SUPPRESS)  # is gone
     parser.add_argument(
         "--fmu", choices=["native", "python"], default="native", help="kind of FMU; default native"
     )
@@ -84,8 +84,11 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.list:
         _options.refuse_unused(arguments, "--list", OF_A_RUN, out=FOLDER, fmu="native")
         return _list(arguments.json)
-    if arguments.compare:
-        return _two_shifts.run(arguments, _scene, _simulate)
+    if arguments.compare is not None:
+        raise ParameterError(
+            "--compare is gone: thrustwasher explore SCENE writes a page that runs the scene, pins "
+            "a run as A and lays others over it"
+        )
     if arguments.no_report and arguments.out != FOLDER:
         raise ParameterError(f"--out {arguments.out}: --no-report writes no files; leave one out")
     from ..shift.from_fmus import check_rungs
@@ -105,18 +108,21 @@ def run(arguments: argparse.Namespace) -> int:
     runs = _scatter_runs(arguments, scene)
     if arguments.sensitivities is not None and (scene.sequence or arguments.fmu == "python"):
         raise ParameterError("--sensitivities: of one shift of native FMUs; leave it out")
+    if arguments.sensitivities is not None:
+        called("scene_sensitivities")  # before the run, if it is missing
     folder = None if arguments.no_report else _output.check_folder(arguments.out, "--out")
+    report = called("write_report") if folder else None
 
     began = time.perf_counter()
     result, study = _simulate(arguments, scene), None
 
-    def write(study: Any) -> None:
-        if folder:
+    def write(study: object) -> None:
+        if folder and report:
             with _output.whole_folder(folder) as draft:
-                _write(result, study, draft)
+                report(result, study, draft)
 
     try:
-        study = _study(result.scene, runs, folder, write) if runs else None
+        study = _study(arguments, result.scene, runs, folder, write) if runs else None
     finally:  # what stops the study leaves the shift
         if study is None:
             write(None)
@@ -133,24 +139,24 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         _say(result, folder)
     if study:
-        _scatter.say(study, folder and folder / STUDY)
+        called("say_study")(study, folder and folder / STUDY)
     if slopes:
         _say_slopes(result, slopes)
     return 0
 
 
-def _slopes(scene: Any, paths: str | None) -> dict[str, dict[str, float | None]]:
-    """Return the derivatives that are asked for, {} if none are."""
+def _slopes(scene: object, paths: str | None) -> dict[str, dict[str, float | None]]:
+    """Return the derivatives that are requested, {} if none are."""
     if paths is None:
         return {}
-    from ..scatter.scene_sensitivities import scene_sensitivities
-
     names = [path.strip() for path in paths.split(",") if path.strip()]
-    return scene_sensitivities(scene, paths=names or None)
+    found: dict[str, dict[str, float | None]]
+    found = called("scene_sensitivities")(scene, paths=names or None)
+    return found
 
 
 def _say_slopes(result: Any, slopes: dict[str, dict[str, float | None]]) -> None:
-    """Print what one percent more changes, the greatest first, and what has no derivative."""
+    """Print what one percent more changes, largest first, and what has no derivative."""
     from ..shift.scene.places import scene_places
 
     places = scene_places(result.scene)
@@ -167,36 +173,38 @@ def _say_slopes(result: Any, slopes: dict[str, dict[str, float | None]]) -> None
             print(f"  {figure} has a corner, and no derivative, over {', '.join(corners)}")
 
 
-def _scatter_runs(arguments: argparse.Namespace, scene: Any) -> int | None:
+def _scatter_runs(arguments: argparse.Namespace, scene: object) -> int | None:
     """Return how many base points a study has, None without one; all that stops it is said here."""
     text = arguments.scatter
     if text is None:
         return None
-    from ..scatter.whole_shift import runs_of_study
-
     number = int(text) if text.strip().isdecimal() and len(text) < 12 else text
-    runs = runs_of_study(f"--scatter {text}", scene, number)
+    runs: int = called("runs_of_study")(f"--scatter {text}", scene, number)
     if arguments.fmu == "python":
         raise ParameterError("--fmu python: a study runs native FMUs; leave out it or --scatter")
     return runs
 
 
-def _study(scene: Any, runs: int, folder: Path | None, write: Callable[[Any], None]) -> Any:
+def _study(
+    arguments: argparse.Namespace,
+    scene: object,
+    runs: int,
+    folder: Path | None,
+    write: Callable[[Any], None],
+) -> Any:
     """Return the study of a scene; its page and tables go to a folder of their own.
 
     ``write`` writes the report; the journal goes after all files.
     """
-    from ..scatter.propagate import propagate
-
     out = folder and folder / STUDY
 
-    def finish(study: Any) -> None:
+    def finish(study: object) -> None:
         if out:
-            _scatter.write_files(study, scene, None, out)
+            called("write_study")(study, scene, None, out)
         write(study)
 
-    with _scatter.kept_runs(out) as progress:
-        return propagate(scene, runs=runs, out=out, progress=progress, finish=finish)
+    with called("kept_runs")(out, arguments) as progress:
+        return called("propagate")(scene, runs=runs, out=out, progress=progress, finish=finish)
 
 
 def _list(as_json: bool) -> int:
@@ -209,18 +217,6 @@ def _list(as_json: bool) -> int:
     else:
         _output.print_rows([(name, title, "") for name, title in titles.items()])
     return 0
-
-
-def _load_report() -> None:
-    """Load what draws and read the templates while the shift runs: its steps leave Python free."""
-    from scipy.stats import qmc  # noqa: F401 (the live page draws from it)
-
-    from ..explore import scene_page  # noqa: F401
-    from ..report.html import PAGE
-    from ..report.shift import shift_report  # noqa: F401 (it draws)
-    from ..templates import template
-
-    template(PAGE)
 
 
 def _scene(arguments: argparse.Namespace, name: str) -> Any:
@@ -242,7 +238,7 @@ def _simulate(arguments: argparse.Namespace, scene: Any) -> Any:
     progress = _output.time_left(scene.name) if sys.stderr.isatty() else None
     # Ctrl-C in an import may leave another one waiting for ever: what draws is loaded by a thread
     # that nobody waits for then, and this one imports nothing of it before that has ended.
-    loader = Thread(target=_load_report, daemon=True)
+    loader = Thread(target=lambda: called("load_report")(), daemon=True)
     with _fmu_instances(scene, arguments.fmu) as make:
         if not arguments.no_report:
             loader.start()
@@ -255,9 +251,9 @@ def _simulate(arguments: argparse.Namespace, scene: Any) -> Any:
 
 def _say(result: Any, folder: Path | None) -> None:
     """Print what happened in the shift, and where its report is."""
-    from ..report.shift import summary
-    from ..report.shift.shift_record import record_of
-    from ..report.shift.what_happened import known_texts
+    from ..shift.account import summary
+    from ..shift.account.shift_record import record_of
+    from ..shift.account.what_happened import known_texts
 
     record = record_of(result)
     chosen = result.selection.words() if result.selection else []
@@ -276,7 +272,7 @@ def _say(result: Any, folder: Path | None) -> None:
 
 def _say_sequence(result: Any) -> None:
     """Print a line per shift of a scene of several."""
-    from ..report.shift import summary
+    from ..shift.account import summary
 
     oil = result.oil_temperature - 273.15
     print(
@@ -292,37 +288,6 @@ def _fmu_instances(scene: Any, target: str) -> Any:
     from ..shift.from_fmus import fmu_instances
 
     return fmu_instances(scene, target)
-
-
-def _write(result: Any, study: Any, folder: Path) -> None:
-    """Write page, plots and time series into a folder that is still a draft."""
-    from ..report.html import render, save_plots
-
-    if result.scene.sequence:
-        from ..report.shift.sequence_report import sequence_page
-
-        page = sequence_page(result)
-    else:
-        from ..report.shift.shift_record import record_of
-        from ..report.shift.shift_report import shift_page
-
-        live = _write_live(result, folder)
-        page = shift_page(record_of(result, study), live)
-    (folder / REPORT).write_text(render(page), encoding="utf-8")
-    save_plots(page, folder)
-    result.write_csv(folder / TABLE)
-
-
-def _write_live(result: Any, folder: Path) -> str:
-    """Write the page in which the scene is run again; return its name, "" where there is none."""
-    from ..explore.scene_page import scene_page
-
-    try:
-        text = scene_page(result.scene, result)
-    except ParameterError:  # a master that no page runs
-        return ""
-    (folder / LIVE).write_text(text, encoding="utf-8")
-    return LIVE
 
 
 def _export(arguments: argparse.Namespace, scene: Any) -> int:

@@ -2,10 +2,11 @@
 
 ================  =========================================================================
 ``parameters``    parameters; with ``interface.toml`` the one list all interfaces come from
-``model``         its record: command, rungs, sweeps
+``model``         its record: command, levels, sweeps
 ``solve``         boundary friction, and a pack that slips at a constant speed
 ``engagement``    load and slip are given over time, torque and heat follow
-``calibration``   the friction law fitted to measurements, and what they tell of it
 ``kernels``       compiled code
+``course``        A pack along given profiles of load and slip, by its kernels
+``release``       what a pack drags after it was let go: a cold release against a warm one
 ================  =========================================================================
 """

@@ -1,4 +1,4 @@
-"""A pack along given courses of load and slip, by its kernels."""
+"""A pack along given profiles of load and slip, by its kernels."""
 
 from typing import Any
 

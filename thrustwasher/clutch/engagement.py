@@ -6,6 +6,7 @@ from typing import ClassVar
 from numpy.typing import ArrayLike
 
 from ..errors import Status
+from ..face_load import face_loads
 from ..model.parameters import check_number
 from ..model.prepare import course_of, rising
 from ..model.rungs import rung_named
@@ -48,6 +49,11 @@ class Engagement(OverTime):
     energy: Array
     oil_heat: Array  # [W] heat that reached the oil, mean since the point before; 0 at the first
     stored_heat: Array
+    face_pressure: Array
+    sliding_speed: Array
+    pressure_velocity: Array
+    power_per_area: Array
+    energy_per_area: Array
     regime: list[str]
     status: Status  # HOT if the interface passed 523 K, OK otherwise
     substeps: int  # Implicit substeps that all intervals together took
@@ -85,7 +91,7 @@ def engage_clutch(
 
     Notes
     -----
-    Substeps are chosen inside each interval; points need only be as close as the courses of load
+    Substeps are chosen inside each interval; points need only be as close as the profiles of load
     and slip ask for.
 
     Examples
@@ -106,6 +112,8 @@ def engage_clutch(
     rows, substeps = outputs_over(par, points, forces, slips, oil, drums)
     kept, stages = {f.name for f in fields(Engagement)}, list(REGIMES)
     columns = {n: rows[:, i].copy() for i, n in enumerate(SPEC.real_outputs) if n in kept}
+    columns |= face_loads(params.face, forces, slips, columns["friction_power"])
+    columns["energy_per_area"] = columns["energy"] / params.lining_area
     hottest = float(columns["temperature"].max())
     status = Status.HOT if hottest > k.HOT_LIMIT else Status.OK
     return Engagement(

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from ..face_load import FACE_LOADS, Face
 from ..model.record import Command, Fits, Ladder, Model, Sweep
 from ..model.spec import ModelSpec, Signal
 
@@ -34,7 +35,11 @@ class Clutch(Model):
         "Give the slip its sign; the torque has the same sign and acts against the slip.",
     )
     command = Command(
-        help="friction torque of a wet clutch or brake pack at one load and slip speed",
+        help="friction torque and temperatures of a wet pack at one point",
+        examples=(
+            'thrustwasher clutch --load 3000 --speed "50 rpm" --plot pack.png',
+            "thrustwasher clutch --load 3000 --speed 2 --set faces=8 --sensitivities",
+        ),
         title="friction pack",
         ranks=True,
         plot="draw shear ratio, coefficient and torque over slip",
@@ -56,6 +61,7 @@ class Clutch(Model):
                 "friction torque of the pack, sign of the slip, 0 without slip",
             ),
             "temperature": ("K", "interface temperature if this slip lasted for ever"),
+            **FACE_LOADS,
         },
     )
     ladder = Ladder(
@@ -84,6 +90,11 @@ class Clutch(Model):
 
         return doubts_of_lining(params, inputs["load"])
 
+    def face(self, params: Any) -> Face:
+        """Return the friction faces of a pack."""
+        face: Face = params.face
+        return face
+
     @property
     def sweep(self) -> Sweep:
         """What a sweep of it does otherwise: a pack that slips for ever."""
@@ -93,10 +104,10 @@ class Clutch(Model):
 
     @property
     def fits(self) -> Fits:
-        """The law of friction."""
-        from .calibration.friction_fit import FITS
-
-        return FITS
+        """The coefficient of friction, which a law of its own follows."""
+        return Fits(
+            units={"friction": "1"}, sliding_radius=lambda params: float(params.friction_radius)
+        )
 
 
 MODEL = Clutch()

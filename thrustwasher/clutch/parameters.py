@@ -7,7 +7,8 @@ from operator import attrgetter
 from typing import Any
 
 from ..errors import ParameterError
-from ..model.parameters import check_ranges, check_rules, choice, count, flag, quantity
+from ..face_load import Face, even_radius
+from ..model.parameters import check_ranges, check_rules, choice, count, flag, other_names, quantity
 from ..model.part_file import preset_params
 from ..model.spec import Rule
 from ..model.toml_tables import spec_beside
@@ -19,20 +20,21 @@ FRICTION_LAWS = {
     "table": "a measured curve over slip speed: table_friction_0 .. 5 at 0 and table_speed_1 .. 5",
 }
 
-INPUT_COURSES = {
+INPUT_PROFILES = {
     "held": "inputs stay as they are during a step; all outputs are those at its end",
     "linear": "inputs run straight from point to point; outputs after a step are of its start",
 }
 
 FRICTION_DATA = {
     "total": "friction measured on a settled pack, shear of its oil included",
-    "boundary": "friction of the asperities alone (a rig at low speed): all shear of oil is added",
+    "boundary": "friction of the asperities alone (a test rig at low speed): "
+    "all shear of oil is added",
 }
 
 N_TABLE = 5
 OF_TABLE = (("friction_law", "table"),)
 OF_WANG = (("friction_law", "wang"),)
-OVER_SPEED = (  # the rung closed has the constant law
+OVER_SPEED = (  # the level closed has the constant law
     *(("fidelity", rung) for rung in ("stribeck", "field", "fine")),
     ("friction_law", "constant"),
 )
@@ -67,6 +69,7 @@ RULES = (
 )
 
 
+@other_names
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ClutchParams:
     """A pack of wet friction plates: geometry, lining, friction law, oil and steel.
@@ -218,12 +221,14 @@ class ClutchParams:
     )
     film_dynamics: bool = flag(
         True,
-        "field rung: oil takes time to leave and resists shear (False: film settled, no shear)",
+        "field fidelity level: oil takes time to leave and resists shear (False: film "
+        "settled, no shear)",
         read_by=WITH_FILM,
     )
     shear_heating: bool = flag(
         True,
-        "field rung: oil between the faces is thinned by its own shear (False: as the faces)",
+        "field fidelity level: oil between the faces is thinned by its own shear (False: as "
+        "the faces)",
         read_by=WITH_FILM,
     )
     oil_flow: float = quantity(
@@ -259,11 +264,12 @@ class ClutchParams:
     speed_smoothing: float = quantity(
         0.1, "rad/s", 1e-6, 100.0, "slip over which friction_torque passes through zero"
     )
-    input_course: str = choice(
+    input_profile: str = choice(
         "held",
-        INPUT_COURSES,
-        "InputCourse",
+        INPUT_PROFILES,
+        "InputProfile",
         "what load and slip do between two steps",
+        formerly="input_course",
         of_a_run=True,
     )
     holding: str = holding_choice("the pack")
@@ -283,7 +289,7 @@ class ClutchParams:
         check_rules(self, RULES, broken_rule)
 
     @classmethod
-    def preset(cls, name: str, **changes: Any) -> "ClutchParams":
+    def preset(cls, name: str, **changes: object) -> "ClutchParams":
         """Return the parameters of a preset, some of them changed.
 
         ``"paper"``: the sample of Wang, Wei & Wu (2012), two plain faces of 85 x 65 mm, with their
@@ -304,9 +310,12 @@ class ClutchParams:
     @property
     def friction_radius(self) -> float:
         """Radius [m] friction acts at: the one that was set, or that of even pressure."""
-        outer, inner = self.outer_radius, self.inner_radius
-        even = 2.0 * (outer**3 - inner**3) / (3.0 * (outer**2 - inner**2))
-        return float(self.effective_radius) or even
+        return float(self.effective_radius) or even_radius(self.inner_radius, self.outer_radius)
+
+    @property
+    def face(self) -> Face:
+        """The friction faces."""
+        return Face(self.lining_area / self.faces, self.faces, self.friction_radius)
 
     @classmethod
     def with_table(

@@ -1,4 +1,4 @@
-"""What a pack drags after it was let go: a cold release beside a warm one."""
+"""What a pack drags after it was let go: a cold release against a warm one."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -14,7 +14,7 @@ from .parameters import DRUM, LOAD, OIL, SPEED, ClutchParams
 from .solve import prepare
 
 AFTER = 0.1  # s: what a pack drags is said so long after it was let go
-COLD, WARM = 283.15, 353.15  # K: a release is called cold below; what it is set beside
+COLD, WARM = 283.15, 353.15  # K: a release is called cold below; what it is compared with
 LONGEST = 60.0  # s: no pack is followed further
 FALL = 1e-3  # s in which its load goes
 LAW = (
@@ -109,9 +109,9 @@ def cold_release(
     energy: Array,
     oil_temperature: float,
 ) -> Iterator[str]:
-    """Yield a line if a pack with a film is let go cold, beside the same warm.
+    """Yield a line if a pack with a film is let go cold, against the same warm.
 
-    ``time`` .. ``energy`` : (n,) a course of the pack; ``fidelity`` : its rung.
+    ``time`` .. ``energy`` : (n,) a time history of the pack; ``fidelity`` : its level.
     """
     if oil_temperature >= COLD or fidelity not in ("field", "fine") or not params.film_dynamics:
         return

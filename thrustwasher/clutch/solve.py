@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SolveError, Status
+from ..face_load import Face, OnFaces
 from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
 from ..model.parameters import check_number
@@ -32,13 +33,21 @@ LININGS = {  # law of friction -> lining that it stands for, Pa on the land that
     "table": ("an organic lining", 3e6),
     "wang": ("a lining of sintered bronze", 6e6),
 }
+LINING = (  # texts of warnings; the page of a scene has them too
+    "load = {load:g} N presses the land of the faces with {pressure:.3g} MPa; above {most:g} MPa "
+    "{kind} does not last (a rule of thumb; its maker's limit decides)"
+)
+WARMTH = (
+    "interface at {at}: friction over temperature is an estimate for {low:.0f} .. {high:.0f} degC; "
+    "beyond, it stays as it is there"
+)
 LEAST_PRESSURE = 2e4  # Pa, an estimate: lightest pressure that friction over slip is measured at
 ROUNDED = 1e-6  # K
 __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
 
 
 @dataclass(frozen=True, slots=True)
-class ClutchResult(Differentiable):
+class ClutchResult(Differentiable, OnFaces):
     """A pack slipping at constant load and speed: torque and steady temperatures, SI units."""
 
     friction_torque: float  # [N m] with the sign of the slip; 0 at slip 0
@@ -57,9 +66,13 @@ class ClutchResult(Differentiable):
     status: Status
     iterations: int
     fidelity: str
-    _asked: Asked = field(repr=False, compare=False)
+    _request: Asked = field(repr=False, compare=False)
     warnings: tuple[str, ...] = ()
     """What a reader must not miss, a line each."""
+
+    def _on_faces(self) -> tuple[Face, float, float]:
+        _, params, point = self._request
+        return params.face, point["load"], point["speed"]
 
 
 def _in_range(name: str, values: ArrayLike, low: float, high: float) -> Any:
@@ -239,7 +252,7 @@ def solve_clutch(
     ratio, _, film, turns = pack_friction.settled_slope(par, load, guess)
     if speed != 0.0 and steady.steady_cooling(par, load, ratio) == 0.0:
         raise ParameterError(
-            "heat_transfer = 0 W/(m2.K), allowed: above 0 where a steady temperature is asked for"
+            "heat_transfer = 0 W/(m2.K), allowed: above 0 where a steady temperature is requested"
         )
     s = steady_pack(par, load, speed, drum, oil, ratio)
     status = _status(max(Status(film), Status(s.status)), ratio, s.hottest)
@@ -262,7 +275,7 @@ def solve_clutch(
         status=status,
         iterations=int(turns + s.iterations),
         fidelity=rung_named(SPEC, fidelity),
-        _asked=Asked(SPEC.key, params, {**point, "fidelity": fidelity}),
+        _request=Asked(SPEC.key, params, {**point, "fidelity": fidelity}),
         warnings=(
             *doubts_of_pack(params, fidelity),
             *_light(params, load, fidelity),
@@ -283,7 +296,7 @@ def _status(solved: Status, ratio: float, hottest: float) -> Status:
 
 
 def doubts_of_pack(params: ClutchParams, fidelity: str) -> tuple[str, ...]:
-    """Return what contradicts itself in parameters, and what has no effect beside the others."""
+    """Return what contradicts itself in parameters, and what has no effect next to the others."""
     radius, faces = params.effective_radius, (params.inner_radius, params.outer_radius)
     found = list(idle_warnings(SPEC.key, params, fidelity))
     if radius and not faces[0] <= radius <= faces[1] and fidelity != "closed":
@@ -302,7 +315,8 @@ def _light(params: ClutchParams, load: float, fidelity: str) -> list[str]:
         return []
     return [
         f"load = {load:g} N is {pressure:.3g} Pa on the faces: friction of settled packs is "
-        f"measured above some {LEAST_PRESSURE:g} Pa; shear of the oil beside it is left out, "
+        f"measured above some {LEAST_PRESSURE:g} Pa; the shear of the oil that adds to it "
+        f"is left out, "
         "with friction_data = 'boundary' it counts"
     ]
 
@@ -312,10 +326,7 @@ def doubts_of_lining(params: ClutchParams, load: float) -> Iterator[str]:
     kind, most = LININGS.get(params.friction_law, LININGS["table"])
     pressure = load * params.faces / params.lining_area / params.land_share
     if pressure > most:
-        yield (
-            f"load = {load:g} N presses the land of the faces with {pressure / 1e6:.3g} MPa; above "
-            f"{most / 1e6:g} MPa {kind} does not last (a rule of thumb; its maker's limit decides)"
-        )
+        yield LINING.format(load=load, pressure=pressure / 1e6, most=most / 1e6, kind=kind)
 
 
 def doubts_of_warmth(params: ClutchParams, coldest: float, hottest: float) -> Iterator[str]:
@@ -325,10 +336,7 @@ def doubts_of_warmth(params: ClutchParams, coldest: float, hottest: float) -> It
     if params.friction_temperature_slope == 0.0 or inside or hottest > k.HOT_LIMIT:
         return
     at = hottest if hottest > high else coldest
-    yield (
-        f"interface at {format_quantity(at, 'K')}: friction over temperature is an estimate for "
-        f"{low - 273.15:.0f} .. {high - 273.15:.0f} degC; beyond, it stays as it is there"
-    )
+    yield WARMTH.format(at=format_quantity(at, "K"), low=low - 273.15, high=high - 273.15)
 
 
 def pack_warnings(

@@ -5,7 +5,6 @@ from collections.abc import Mapping, Sequence
 from importlib import metadata
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 from ..errors import ParameterError, SolveError, within
 from ..model.oil import Oil, refuse_two_ways, sheet_oil
@@ -42,7 +41,7 @@ def build(
     local: bool = False,
     maps: bool = True,
     terminals: bool = False,
-    oil: str | Mapping[str, Any] | None = None,
+    oil: str | Mapping[str, object] | None = None,
     c_sources: bool = False,
     plain_outputs: bool = False,
     fidelity: str | None = None,
@@ -155,7 +154,7 @@ def build_fmu(
 
 
 def asked(
-    models: Sequence[str | PartFile] | None, oil: str | Mapping[str, Any] | None = None
+    models: Sequence[str | PartFile] | None, oil: str | Mapping[str, object] | None = None
 ) -> list[ModelSpec]:
     """Return the models to build; a part stands for its model with its own values."""
     own = None if oil is None else sheet_oil("oil", oil)

@@ -13,9 +13,9 @@ from importlib import metadata
 from ..errors import ParameterError
 from ..model.prepare import tables_of
 from ..model.registry import all_specs, kernel_of
+from ..native.compiling.portable import MISSING, maker
 from ..native.files import VARIABLE, code_folder, private_folder, why_not_kept
 from ..native.link import find_linker
-from ..native.portable import MISSING, maker
 from .model_kernels import is_compiled, package_version
 from .package.model_sources import source_folder
 from .shell import c_sources

@@ -30,7 +30,7 @@ def is_compiled(spec: ModelSpec) -> bool:
 
 
 def package_version() -> str:
-    """Return the version of the code that runs, whatever is installed beside it."""
+    """Return the version of the code that runs, whatever is installed next to it."""
     return str(sys.modules[__name__.partition(".")[0]].__version__)
 
 

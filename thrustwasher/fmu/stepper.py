@@ -50,7 +50,7 @@ class Instance(Stepped):
         self,
         path: str | os.PathLike[str],
         *,
-        parameters: Mapping[str, Any] | None = None,
+        parameters: Mapping[str, object] | None = None,
         name: str | None = None,
     ) -> None:
         from fmpy.fmi1 import FMICallException
@@ -76,7 +76,7 @@ class Instance(Stepped):
         self._protocol = Protocol(self._fmu, int(self.description.fmiVersion[0]))
         self._inputs, self._outputs = (Table(self._protocol, vs) for vs in (inputs, outputs))
         self._directions: dict[tuple[tuple[str, ...], tuple[str, ...]], Direction] = {}
-        self._read: dict[tuple[str, ...], Table] = {}  # what ``get`` was asked for
+        self._read: dict[tuple[str, ...], Table] = {}  # what ``get`` was requested
         try:
             self.log(False)
             self._parameters = self._filled(parameters or {}, "parameter")
@@ -181,15 +181,15 @@ class Instance(Stepped):
         """Return a handle of the complete state; give it back with ``free_state``."""
         return self._call(self._fmu.getFMUState)
 
-    def set_state(self, state: Any) -> None:
+    def set_state(self, state: object) -> None:
         """Go back to a state."""
         self._call(self._fmu.setFMUState, state)
 
-    def free_state(self, state: Any) -> None:
+    def free_state(self, state: object) -> None:
         """Give a state back."""
         self._call(self._fmu.freeFMUState, state)
 
-    def serialize(self, state: Any) -> bytes:
+    def serialize(self, state: object) -> bytes:
         """Return a state as bytes."""
         data: bytes = self._call(self._fmu.serializeFMUState, state)
         return data
@@ -198,7 +198,7 @@ class Instance(Stepped):
         """Return a handle of the state in bytes of ``serialize``."""
         return self._call(self._fmu.deserializeFMUState, data)
 
-    def reset(self, parameters: Mapping[str, Any] | None = None) -> None:
+    def reset(self, parameters: Mapping[str, object] | None = None) -> None:
         """Go back to the start values and the parameters given last; to others from now on."""
         self._call(self._fmu.reset)
         if parameters is not None:
@@ -212,7 +212,7 @@ class Instance(Stepped):
             fmu.freeInstance()
 
     def log(self, on: bool = True, categories: Sequence[str] = ()) -> None:
-        """Choose what goes to ``notes`` beside failures and warnings; none named: everything."""
+        """Choose what goes to ``notes`` next to failures and warnings; none named: everything."""
         known = [c.name for c in self.description.logCategories]
         strange = [c for c in categories if c not in known]
         if strange:
@@ -228,7 +228,7 @@ class Instance(Stepped):
             unknown(name, [v.name for v in listed if v.causality in causalities])
         return v
 
-    def _filled(self, values: Mapping[str, Any], causality: str) -> Table:
+    def _filled(self, values: Mapping[str, object], causality: str) -> Table:
         """Return a table that holds values by name."""
         found = [self._named(name, causality) for name in values]
         numbers = []
@@ -259,7 +259,7 @@ class Instance(Stepped):
             word = WORDS.get(status, f"status {status}")
             self._raise_messages(f"{self.path.stem}: {what}: {word}" if failed else "", kind)
 
-    def _call(self, function: Callable[..., Any], *args: Any) -> Any:
+    def _call(self, function: Callable[..., Any], *args: object) -> Any:
         """Call FMPy, which raises at a bad status, and judge as above."""
         failed, result = "", None
         try:

@@ -23,7 +23,7 @@ LOAD = LawRange(
     150.0,
     math.inf,
     "real friction is higher than theirs; loss and flash are a lower bound",
-    f"least load of DIN 3990-4 and ISO/TR 13989-1, {MEMORY}. FZG loss tests (FVA 345) begin with "
+    f"minimum load of DIN 3990-4 and ISO/TR 13989-1, {MEMORY}. FZG loss tests (FVA 345) begin with "
     "load stage 5, 94 N m: 199 N/mm on gears C of 14 mm",
 )
 SLOW = LawRange(

@@ -28,7 +28,12 @@ class GearMesh(Model):
         "once then.",
     )
     command = Command(
-        help="temperatures, stresses and loss of a gear mesh at one power and speed",
+        help="temperatures, stresses, safety and loss of a gear mesh at one point",
+        examples=(
+            'thrustwasher gearmesh --power "60 kW" --speed "3000 rpm" --plot mesh.png',
+            'thrustwasher gearmesh --power "60 kW" --speed "3000 rpm" --set '
+            '"face_width=30 mm" --oil "ISO VG 220"',
+        ),
         title="gear mesh, {pinion_teeth} teeth, ratio {gear_ratio:g},",
         closing="{limits}; {iterations} iterations, {fidelity}",
         ranks=True,

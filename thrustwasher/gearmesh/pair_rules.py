@@ -106,7 +106,7 @@ def _reliefs(p: Any) -> str:
     path = 1e3 * float(pitch_of(par) * sum(g.path_of(par)[1:]))
     pairs = (("pinion", p.tip_relief_pinion), ("gear", p.tip_relief_gear))
     given = ", ".join(
-        f"tip_relief_length_{gear} = {getattr(p, f'tip_relief_length_{gear}')!r} m beside "
+        f"tip_relief_length_{gear} = {getattr(p, f'tip_relief_length_{gear}')!r} m together with "
         f"tip_relief_{gear} = {relief!r} m"
         for gear, relief in pairs
     )
@@ -204,7 +204,7 @@ RULES = (
     ),
     Rule(
         "tip_relief_length_pinion = {tip_relief_length_pinion} m, tip_relief_length_gear = "
-        "{tip_relief_length_gear} m, allowed: above 0 beside tip_relief_pinion = "
+        "{tip_relief_length_gear} m, allowed: above 0 with tip_relief_pinion = "
         "{tip_relief_pinion} m and tip_relief_gear = {tip_relief_gear} m, together at most the "
         "path of contact",
         _reliefs,

@@ -94,7 +94,7 @@ ASPERITY_BASES = {
 def _constant(place: str) -> Callable[[Any], float]:
     """Return what makes of parameters a constant of the kernel; ``place``: its name in layout."""
 
-    def value(p: Any) -> float:
+    def value(p: "GearMeshParams") -> float:
         from ..model.prepare import filled
         from .kernels import constants, layout
 
@@ -104,13 +104,13 @@ def _constant(place: str) -> Callable[[Any], float]:
     return value
 
 
-def _module(p: Any) -> float:
+def _module(p: "GearMeshParams") -> float:
     """Return the normal module [m] by centre distance and teeth."""
     teeth = p.pinion_teeth * (p.gear_ratio - 1.0 if p.internal else p.gear_ratio + 1.0)
     return float(2.0 * centre_distance(p) * math.cos(p.helix_angle) / teeth)
 
 
-def _working_distance(p: Any) -> float:
+def _working_distance(p: "GearMeshParams") -> float:
     """Return the distance of the axes [m] that the profile shifts make."""
     from .kernels.working_pair import working_section
 
@@ -120,7 +120,7 @@ def _working_distance(p: Any) -> float:
 def _tip(gear: int) -> Callable[[Any], float]:
     """Return what makes of parameters the tip diameter [m] of the pinion (0) or the gear (1)."""
 
-    def value(p: Any) -> float:
+    def value(p: "GearMeshParams") -> float:
         from .kernels.working_pair import tips
 
         return 2.0 * float(tips(as_array(p))[gear])
@@ -433,7 +433,7 @@ class GearMeshParams:
         "share of root_limit for the pinion; 0.7 where its teeth bend both ways, as a planet's",
     )
     face_load_factor: float = quantity(
-        1.0, "1", 1.0, 5.0, "face load factor of flanks and root, beside load_factor"
+        1.0, "1", 1.0, 5.0, "face load factor of flanks and root, in addition to load_factor"
     )
     mesh_load_factor: float = quantity(
         1.0, "1", 1.0, 2.0, "mesh load factor of flanks and root: uneven load of the planets"
@@ -540,7 +540,7 @@ class GearMeshParams:
         check_rules(self, RULES, broken_rule)
 
     @classmethod
-    def preset(cls, name: str, **changes: Any) -> "GearMeshParams":
+    def preset(cls, name: str, **changes: object) -> "GearMeshParams":
         """Return a named set of parameters ("paper", "literal", "iso") with further changes.
 
         >>> GearMeshParams.preset("literal", pinion_teeth=30).face_width

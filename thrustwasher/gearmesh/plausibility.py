@@ -24,7 +24,7 @@ from .parameters import GearMeshParams, centre_distance, default_of
 APART = 2.0  # factor between roughness parameters from which they describe two surfaces
 WHOLE = 1e-6  # of a tooth, that a number of teeth may be off
 AGREE = 1e-3  # between a centre distance and that of module and teeth
-THIN = 0.2  # modules; the least thickness of a tip that is usual
+THIN = 0.2  # modules; the minimum thickness of a tip that is usual
 RACK = 1.0  # modules: straight part of a rack of addendum 1.25, tip radius 0.38
 SOFTEST = 2e10  # Pa; below it a gear is no metal
 SHARED = 2.05  # contact ratio from which ISO 6336-3 shares the load of a root between pairs
@@ -40,7 +40,7 @@ def doubts_of_parameters(p: GearMeshParams) -> list[str]:
 def doubts_of_point(
     p: GearMeshParams, par: Any, field: Any, torque: float, speed: float, oil: float
 ) -> list[str]:
-    """Return what to doubt in a solved point: numbers that a least value made."""
+    """Return what to doubt in a solved point: numbers that a minimum value made."""
     if torque * par[k.D_LOAD] < 2.0 * LEAST_LINE_LOAD:
         return [
             f"power = {torque * abs(speed):g} W: hardly any load; pressures, films and safeties "
@@ -91,7 +91,7 @@ def _stretched(p: GearMeshParams, par: Any, field: Any, speed: float) -> list[st
     film, width = field[k.F_FILM], field[k.F_WIDTH]
     if film > width:
         found.append(
-            f"film_thickness = {film:.3g} m beside a contact {width:.3g} m wide: no law of the "
+            f"film_thickness = {film:.3g} m against a contact {width:.3g} m wide: no law of the "
             "film holds there (real teeth starve); loss, film and safeties are no forecast; take "
             "warmer or thinner oil, or more power"
         )
@@ -157,7 +157,7 @@ def _roughness(p: GearMeshParams) -> list[str]:
     words = "sigma_rms" if p.sigma_rms else f"surface {p.surface!r}"
     if p.mean_roughness and _differ(constants.MEAN_OVER_RMS * sigma, p.mean_roughness):
         found.append(
-            f"mean_roughness = {p.mean_roughness:g} m beside a composite RMS roughness of "
+            f"mean_roughness = {p.mean_roughness:g} m against a composite RMS roughness of "
             f"{sigma:g} m ({words}), some {math.sqrt(2.0) * p.mean_roughness:.2g} m would go with "
             "it: film_ratio follows the second, mean_friction and film_ratio_gf the first; give "
             "sigma_rms to match"
@@ -194,7 +194,8 @@ def _fouling(p: GearMeshParams) -> list[str]:
         return []
     return [
         f"gear_ratio = {p.gear_ratio:.6g}: a ring of {p.pinion_teeth * p.gear_ratio:g} teeth "
-        f"around {p.pinion_teeth}: their tips foul each other beside the path of contact; give the "
+        f"around {p.pinion_teeth}: their tips foul each other next to the path of contact; "
+        f"give the "
         "ring more teeth, a smaller addendum_gear or more profile shift"
     ]
 

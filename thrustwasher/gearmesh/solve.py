@@ -56,7 +56,7 @@ class GearMeshResult(Differentiable):
     friction_coefficient: float
     """[-] there, of the loss; ``mean_friction`` is what the loss feels along the path."""
     contact_stress: float
-    """[Pa] greatest along the path; "atan": sigma_m of Eq 9 with its rounded factor 0.591."""
+    """[Pa] maximum along the path; "atan": sigma_m of Eq 9 with its rounded factor 0.591."""
     hertz_pressure: float  # [Pa] peak of the contact there, 4/pi of its mean
     hertz_width: float  # [m] full width of the contact
     film_thickness: float
@@ -82,22 +82,22 @@ class GearMeshResult(Differentiable):
     """[-] combined stress over endurance limit (root of the right side of Atan Eq 10)."""
     stress_utilization_aisi4340: float | None
     mean_friction: float  # [-] that the loss feels
-    flash_max: float  # [K] greatest flash temperature along the path
+    flash_max: float  # [K] maximum flash temperature along the path
     bulk_temperature: float  # [K] of the gears' bodies, steady
     oil_heat: float  # [W] that reaches the oil
     stored_heat: float  # [J] 0: the bodies are steady
     contact_pressure_max: float
-    """[Pa] greatest Hertz pressure along the path, load factor included; "atan": without it, where
+    """[Pa] maximum Hertz pressure along the path, load factor included; "atan": without it, where
     contact starts."""
     pitting_stress: float  # [Pa] sigma_H of the pitting calculation
     pitting_safety: float
     scuffing_safety: float
     """[-] scuffing temperature over that of the contact, both above the oil's; the latter counts at
-    least 1 K, which bounds it."""
+    minimum 1 K, which bounds it."""
     scuffing_margin: float  # [K] scuffing temperature less that of the contact
     film_ratio_gf: float
-    """[-] least film along the path over the mean Ra, of the micropitting standard; "atan": at its
-    start, of Dowson and Higginson."""
+    """[-] minimum film along the path over the mean Ra, of the micropitting standard; "atan": at
+    its start, of Dowson and Higginson."""
     micropitting_at: str
     """Where along the path that film is: "A" start of contact, "E" end, else base pitches from the
     pitch point."""
@@ -128,7 +128,7 @@ class GearMeshResult(Differentiable):
     status: Status
     iterations: int
     fidelity: str
-    _asked: Asked = field(repr=False, compare=False)
+    _request: Asked = field(repr=False, compare=False)
     warnings: tuple[str, ...] = ()
     """What a reader must not miss, a line each."""
 
@@ -235,7 +235,7 @@ def solve_gearmesh(
         "status": status,
         "fidelity": rung_named(SPEC, fidelity),
         "limits": limits_assumed(params),
-        "_asked": Asked(SPEC.key, params, point),
+        "_request": Asked(SPEC.key, params, point),
         **_size(params, par),
     }
     result = _result(par, work.tolist(), torque, speed, absent | known)

@@ -1,20 +1,20 @@
-"""Choose a rung: the first, in the order of cost, that holds a tolerance over a box of inputs.
+"""Choose a level: the first, in the order of cost, that holds a tolerance over a box of inputs.
 
 What it errs by is known from a table of measured errors. Where none speaks of the parameters or of
-the box, the rung is compared with the one above it at some points.
+the box, the level is compared with the one above it at some points.
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from ..errors import ParameterError, SolveError
 from ..model.parameters import check_number, params_of
 from ..model.prepare import tables_of
-from ..model.registry import ladder_of, spec_of
+from ..model.registry import find_model, ladder_of, spec_of
 from ..model.spec import ModelSpec
 from ..units import format_quantity as say
 from .compare_rungs import Comparison, Point, points_of
@@ -23,15 +23,16 @@ from .formats import shown_error
 
 AUTO = "auto"
 TOLERANCE = 0.01  # of "auto" alone
+TORQUE = "friction_torque"
 TOLERANCES = (1e-6, 0.5)
-# The rung above halves all widths and errs by a quarter: the difference is 3/4 of the error.
+# The level above halves all widths and errs by a quarter: the difference is 3/4 of the error.
 OF_DIFFERENCE = 4.0 / 3.0
 
 
 def rung_and_tolerance(where: str, spec: ModelSpec, text: object) -> tuple[str, float | None]:
-    """Return rung and tolerance of "field", "auto" or "auto:0.01"; tolerance None: the rung as is.
+    """Return level and tolerance of "field", "auto" or "auto:0.01"; None: as named.
 
-    With a tolerance the rung is the model's own default, until one is chosen.
+    With a tolerance the level is the model's own default, until one is chosen.
     """
     rung, _, given = text.partition(":") if isinstance(text, str) else ("", "", "")
     if rung != AUTO and text not in spec.fidelities:
@@ -56,10 +57,10 @@ def rung_and_tolerance(where: str, spec: ModelSpec, text: object) -> tuple[str, 
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """The rung to take and its largest error in the box; ``str()`` gives the reasons.
+    """The level to take and its largest error in the box; ``str()`` gives the reasons.
 
     ``is_verified``: a table of measured errors promises the error. Otherwise it is estimated
-    from the rung above at some points, infinite if there is none above. ``seconds`` are those of
+    from the level above at some points, infinite if there is none above. ``seconds`` are those of
     all calls, NaN where no table speaks.
     """
 
@@ -73,8 +74,8 @@ class Choice:
         return "\n  ".join(self.reasons)
 
 
-def rungs_of(spec: ModelSpec, params: Any) -> list[str]:
-    """Return the rungs that can be chosen with these parameters, cheapest first.
+def rungs_of(spec: ModelSpec, params: object) -> list[str]:
+    """Return the levels that can be chosen with these parameters, cheapest first.
 
     ParameterError: none can be chosen of this model.
     """
@@ -96,11 +97,11 @@ def choose(
     tol: float,
     n_calls: float = 1,
     safety: float = SAFETY,
-    params: Any = None,
+    params: object = None,
     among: Sequence[str] | None = None,
     points: Sequence[Point] | None = None,
 ) -> Choice:
-    """Return the cheapest rung whose error stays within ``tol`` over a box of inputs.
+    """Return the cheapest level whose error stays within ``tol`` over a box of inputs.
 
     Parameters
     ----------
@@ -109,11 +110,11 @@ def choose(
     quantity : "friction_torque" (tol is relative), "temperature" (K), "film_thickness" (m) or
         "film_ratio" (1)
     tol : largest error allowed, above 0
-    n_calls : how often the rung will be called, for ``Choice.seconds``
+    n_calls : how often the level will be called, for ``Choice.seconds``
     safety : factor on the largest error found, at least 1
     params : the parameter object; default: the model's defaults
-    among : rungs to choose from; default: all that can be chosen
-    points : inputs at which rungs are compared where no table speaks; default: 30 over the box
+    among : levels to choose from; default: all that can be chosen
+    points : inputs at which levels are compared where no table speaks; default: 30 over the box
 
     Returns
     -------
@@ -122,14 +123,15 @@ def choose(
     Raises
     ------
     ParameterError : an argument is wrong; it is named with what is allowed
-    SolveError : by its table no rung holds the tolerance; the best that can be had is named
+    SolveError : by its table no level holds the tolerance; the best that can be had is named
 
     Notes
     -----
-    The error of a rung in a table is ``safety`` times the largest found in the regions that the box
-    touches. With n random points in the table's box and none above tol, less than 3/n of the box is
-    above tol, with 95 % confidence. The same tables and points give the same answer, and a larger
-    tolerance never a dearer rung.
+    At a point the error of the torque is the ``error_estimate`` of the solution there, where
+    results have one. Else the error of a level in a table is ``safety`` times the largest found in
+    the regions that the box touches. With n random points in the table's box and none above tol,
+    less than 3/n of the box is above tol, with 95 % confidence. The same tables and points give
+    the same answer, and a larger tolerance never a costlier level.
     """
     spec = spec_of(model)
     params, whole = params_of(spec, params), checked_box(spec, box)
@@ -149,7 +151,7 @@ def choose(
                 raise ParameterError(f"among: {name!r}, allowed: {' or '.join(map(repr, rungs))}")
         rungs = [name for name in rungs if name in among]
     if not rungs:
-        raise ParameterError("among: no rung, allowed: at least one")
+        raise ParameterError("among: no fidelity level, allowed: at least one")
     # What need not be given is zero in all tables.
     plain_inputs = all(whole[s.name] == (0.0, 0.0) for s in spec.inputs if s.optional)
     fresh = fresh_rungs(spec.key, params) if plain_inputs else {}
@@ -158,18 +160,23 @@ def choose(
         for rung in rungs
         if rung in fresh and (worst := fresh[rung].worst(quantity, whole)) is not None
     }
-    if known:
+    if known and asked.is_of_solutions and all(low == high for low, high in whole.values()):
+        at = {name: low for name, (low, _) in whole.items()}
+        found = _by_table(asked, known | _of_solutions(spec, params, at, known), fresh, at=True)
+    elif known:
         found = _by_table(asked, known, fresh)
     else:
         compared = Comparison(spec, params, points or points_of(whole), quantity)
         found = _by_comparison(asked, rungs, compared)
     tables = ((r, t.stale(r)) for t in load_tables(spec.key, params) for r in t.rungs)
-    stale = [f"not asked: {r.fidelity}: {why}" for r, why in tables if why and r.fidelity in rungs]
+    stale = [
+        f"not counted: {r.fidelity}: {why}" for r, why in tables if why and r.fidelity in rungs
+    ]
     return replace(found, reasons=(*found.reasons, *stale))
 
 
 class _Request(NamedTuple):
-    """What is asked for: of which model, which error of what, between calls so many."""
+    """What is requested: of which model, which error of what, between calls so many."""
 
     model: str
     quantity: str
@@ -177,27 +184,51 @@ class _Request(NamedTuple):
     safety: float
     n_calls: float
 
+    @property
+    def is_of_solutions(self) -> bool:
+        """Tell if it is the error that solutions estimate themselves."""
+        return self.quantity == TORQUE and self.safety == SAFETY
+
     def shown(self, error: float) -> str:
         """Return an error of the quantity as a person reads it."""
         return shown_error(error, QUANTITIES[self.quantity])
 
 
-def _by_table(asked: _Request, known: dict[str, float], fresh: dict[str, RungErrors]) -> Choice:
-    """Return the first rung whose measured error holds; SolveError if none does."""
+def _of_solutions(
+    spec: ModelSpec, params: object, at: dict[str, float], rungs: Iterable[str]
+) -> dict[str, float]:
+    """Return the errors that the solutions at a point estimate, of levels of which they do."""
+    model, found = find_model(spec.key), {}
+    for rung in rungs:
+        with suppress(ParameterError, SolveError):
+            result = model.solve(params, **model.back(dict(at)), fidelity=rung)
+            estimate = getattr(result, "error_estimate", None)
+            if estimate is not None:
+                found[rung] = float(estimate)
+    return found
+
+
+def _by_table(
+    asked: _Request, known: dict[str, float], fresh: dict[str, RungErrors], *, at: bool = False
+) -> Choice:
+    """Return the first level whose error holds, ``at`` a point or in a box; SolveError if none."""
     chosen = next((rung for rung, error in known.items() if error <= asked.tol), None)
     if chosen is None:
         best = min(known, key=lambda rung: known[rung])
         raise SolveError(
-            f"{asked.model}: no rung reaches {asked.shown(asked.tol)} in {asked.quantity}; the "
-            f"best is {best} with {asked.shown(known[best])}. Ask for less, or name a rung"
+            f"{asked.model}: no fidelity level reaches {asked.shown(asked.tol)} in "
+            f"{asked.quantity}; the "
+            f"best is {best} with {asked.shown(known[best])}. Ask for less, or name a "
+            f"fidelity level"
         )
     rung = fresh[chosen]
+    where = " at this point" if at else ""
     lines = [
-        f"{asked.model}: {chosen}, {asked.quantity} within {asked.shown(known[chosen])} "
-        f"(asked {asked.shown(asked.tol)}), {say(rung.call, 's', digits=2)} per call"
+        f"{asked.model}: {chosen}, {asked.quantity} within {asked.shown(known[chosen])}{where} "
+        f"(requested {asked.shown(asked.tol)}), {say(rung.call, 's', digits=2)} per call"
     ]
     beside = max(chart.beside_fold for chart in rung.charts)
-    if beside and asked.quantity == "friction_torque":
+    if beside and not at and asked.quantity == TORQUE:
         promise = asked.shown(asked.safety * beside)
         lines.append(f"within 5 % of a fold's load: {promise}, if the branch is the same")
     for other, error in known.items():
@@ -209,7 +240,7 @@ def _by_table(asked: _Request, known: dict[str, float], fresh: dict[str, RungErr
 
 
 def _by_comparison(asked: _Request, rungs: list[str], compared: Comparison) -> Choice:
-    """Return the first rung that the one above confirms at the points, or the last."""
+    """Return the first level that the one above confirms at the points, or the last."""
     coarse: list[str] = []
     n = len(compared.points)
     where = "there" if n == 1 else f"at {n} points"
@@ -219,11 +250,11 @@ def _by_comparison(asked: _Request, rungs: list[str], compared: Comparison) -> C
         if error <= asked.tol:
             words = (
                 f"{asked.model}: {rung}, no table of errors speaks here; {where} it is "
-                f"{asked.shown(difference)} from {above} (asked {asked.shown(asked.tol)})"
+                f"{asked.shown(difference)} from {above} (requested {asked.shown(asked.tol)})"
             )
             return Choice(rung, error, math.nan, (words, *coarse), False)
         coarse.append(f"too coarse: {rung}, {asked.shown(difference)} from {above}")
-    words = f"{asked.model}: {rungs[-1]}, the last rung; no table of errors speaks here"
+    words = f"{asked.model}: {rungs[-1]}, the last fidelity level; no table of errors speaks here"
     return Choice(rungs[-1], math.inf, math.nan, (words, *coarse), False)
 
 

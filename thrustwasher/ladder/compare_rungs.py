@@ -1,4 +1,4 @@
-"""How far a rung is from the one above, at points: what is known where no table speaks."""
+"""How far a level is from the one above, at points: what is known where no table speaks."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -30,7 +30,7 @@ def points_of(box: Box, n: int = POINTS) -> list[Point]:
     for _ in range(60):  # the root of x^(d + 1) = x + 1
         ratio = (1.0 + ratio) ** (1.0 / (len(names) + 1))
     shares = np.outer(range(n), ratio ** -np.arange(1.0, len(names) + 1.0)) % 1.0
-    shares /= shares.max(0)  # the least is 0
+    shares /= shares.max(0)  # the minimum is 0
     return [
         fixed | {name: _between(box[name], float(x)) for name, x in zip(names, row, strict=True)}
         for row in shares
@@ -45,24 +45,24 @@ def _between(interval: tuple[float, float], share: float) -> float:
 
 
 def rows_to_compare(rows: Any, n: int = POINTS) -> Any:
-    """Return rows of an array: those with the least and largest values, the rest spread evenly."""
+    """Return rows of an array: those of lowest and highest values, the rest spread evenly."""
     ends = np.concatenate([rows.argmin(0), rows.argmax(0)])
     more = np.linspace(0, len(rows) - 1, min(len(rows), max(n - len(set(ends)), n // 2)))
     return rows[sorted({*ends.tolist(), *more.round().astype(int).tolist()})]
 
 
 class Comparison:
-    """A model's rungs with some parameters, solved at points; each rung once, when asked for."""
+    """A model's levels with some parameters, solved at points; each level once, when requested."""
 
     def __init__(
-        self, spec: ModelSpec, params: Any, points: Sequence[Point], quantity: str
+        self, spec: ModelSpec, params: object, points: Sequence[Point], quantity: str
     ) -> None:
         self.points, self._params, self._quantity = points, params, quantity
         self._model = find_model(spec.key)
         self._known: dict[str, list[float]] = {}
 
     def difference(self, rung: str, above: str) -> float:
-        """Return the largest difference of two rungs, as errors are measured.
+        """Return the largest difference of two levels, as errors are measured.
 
         Points at which one of them has no solution do not count; infinite if all are such.
         """

@@ -1,8 +1,8 @@
-"""Tables of measured errors: how far each rung is off in which region, and what a call of it costs.
+"""Verification tables: the measured error of each fidelity level by region, and its cost.
 
 A JSON file holds the tables of a model, one per parameter set. ``python -m
-thrustwasher.study.verify`` writes those of the package, ``thrustwasher cards PART`` that of one's
-own part. A rung's errors count for the kernels they were measured with; after a change of these
+lab.verify`` writes those of the package, ``thrustwasher fidelity PART`` that of your
+own part. A level's errors count for the kernels they were measured with; after a change of these
 they are stale and are not used. A file that cannot be read is left out: a solve never stops for it.
 """
 
@@ -19,6 +19,7 @@ from typing import Any
 from ..errors import ParameterError
 from ..model.registry import find_model
 from ..model.toml_tables import from_plain
+from ..moved import warn_renamed
 from ..native.files import user_cache
 from ..storage.digests import CHECK, DATA, closure, is_broken, kernel_digest, params_digest, sealed
 from ..storage.whole_files import whole_file
@@ -26,8 +27,9 @@ from ..storage.whole_files import whole_file
 SCHEMA = 3
 SAFETY = 1.5  # between the largest error found at points and what is promised between them
 OWN = "own-"  # begins the name of a table that lies in the user's cache
-FOLDER = "THRUSTWASHER_CARDS"  # environment: one more folder with tables
-VERIFY = "python -m thrustwasher.study.verify"  # measures the package's own
+FOLDER = "THRUSTWASHER_TABLES"  # environment: one more folder with tables
+FORMER = "THRUSTWASHER_CARDS"  # its name before, for one version
+VERIFY = "python -m lab.verify"  # measures the package's own
 # Unit of each quantity's error; None: relative to the value, or to ``floor`` if that is more.
 QUANTITIES = {"friction_torque": None, "temperature": "K", "film_thickness": "m", "film_ratio": "1"}
 
@@ -73,7 +75,7 @@ class Chart:
     """What was measured in one kind of solution: a branch of the washer, an engagement.
 
     ``floor`` [N m] bounds the torque that relative errors are taken of; ``beside_fold`` is the
-    largest relative error of the torque at points beside a fold, which are in no division.
+    largest relative error of the torque at points next to a fold, which are in no division.
     """
 
     name: str | None
@@ -89,7 +91,7 @@ class Chart:
 
 @dataclass(frozen=True, slots=True)
 class RungErrors:
-    """The measured errors of one rung in ``box``, and the seconds of a call.
+    """The measured errors of one level in ``box``, and the seconds of a call.
 
     ``sources`` is the digest of its kernels and of the files in ``data`` that it reads.
     """
@@ -139,7 +141,7 @@ def _inside(interval: Interval, axis: Axis) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class ErrorTable:
-    """The measured errors of a model's rungs with one parameter set, in the order of their cost."""
+    """The measured errors of a model's levels with one parameter set, the cheapest first."""
 
     model: str
     name: str  # "default", a scene, a scene's part, or own-...
@@ -152,9 +154,9 @@ class ErrorTable:
     rungs: tuple[RungErrors, ...]
 
     def stale(self, rung: RungErrors) -> str | None:
-        """Return why a rung's errors do not count any more, and what renews them, or None."""
+        """Return why a level's errors do not count any more, and what renews them, or None."""
         own = self.name.startswith(OWN)
-        renew = "thrustwasher cards PART.toml" if own else f"{VERIFY} {self.model}"
+        renew = "thrustwasher fidelity PART.toml" if own else f"{VERIFY} {self.model}"
         try:
             if sources_of(self.model, rung.fidelity, rung.files) == rung.sources:
                 return None
@@ -164,10 +166,10 @@ class ErrorTable:
 
 
 def sources_of(model: str, fidelity: str, files: Iterable[str] = ()) -> str:
-    """Return the digest of all that a rung computes with: its kernels, ``files`` of data.
+    """Return the digest of all that a level computes with: its kernels, ``files`` of data.
 
-    The step's module sends each rung to its kernels; what else it imports does not count, or every
-    rung would hang on every other one. KeyError: no such rung; OSError: a file is not there.
+    The step's module sends each level to its kernels; what else it imports does not count, or every
+    level would hang on every other one. KeyError: no such level; OSError: a file is not there.
     """
     found = find_model(model)
     if found.ladder is None:
@@ -214,9 +216,16 @@ def own_folder() -> Path:
     return user_cache() / "cards"
 
 
+def named_folder() -> str | None:
+    """Return the folder that the environment names, also by the variable's name before."""
+    if FORMER in os.environ and FOLDER not in os.environ:
+        warn_renamed(FORMER, FOLDER)
+    return os.environ.get(FOLDER) or os.environ.get(FORMER)
+
+
 def table_folders() -> list[Path]:
     """Return the folders that are searched: the package's, the user's, the environment's."""
-    named = os.environ.get(FOLDER)
+    named = named_folder()
     return [DATA / "cards", own_folder(), *([Path(named)] if named else [])]
 
 
@@ -239,7 +248,7 @@ def forget() -> None:
     _fresh.cache_clear()
 
 
-def load_tables(model: str, params: Any = None) -> list[ErrorTable]:
+def load_tables(model: str, params: object = None) -> list[ErrorTable]:
     """Return the tables of a model, of one parameter set if it is given; stale ones too.
 
     Of two with one name the later folder's counts.
@@ -256,13 +265,13 @@ def refused_files() -> dict[str, str]:
     return {name: why for folder in table_folders() for name, why in _folder(folder)[1].items()}
 
 
-def fresh_rungs(model: str, params: Any) -> dict[str, RungErrors]:
-    """Return the rungs whose errors are known for these parameters and kernels, cheapest first."""
-    return _fresh(model, params, os.environ.get(FOLDER))
+def fresh_rungs(model: str, params: object) -> dict[str, RungErrors]:
+    """Return the levels whose errors are known for these parameters and kernels, cheapest first."""
+    return _fresh(model, params, named_folder())
 
 
 @lru_cache(maxsize=64)
-def _fresh(model: str, params: Any, folder: str | None) -> dict[str, RungErrors]:
+def _fresh(model: str, params: object, folder: str | None) -> dict[str, RungErrors]:
     tables = load_tables(model, params)
     return {r.fidelity: r for t in tables for r in t.rungs if t.stale(r) is None}
 
@@ -270,7 +279,7 @@ def _fresh(model: str, params: Any, folder: str | None) -> dict[str, RungErrors]
 def error_estimate(
     model: str,
     fidelity: str,
-    params: Any,
+    params: object,
     point: Mapping[str, float],
     quantity: str = "friction_torque",
     branch: str | None = None,

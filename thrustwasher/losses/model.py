@@ -1,7 +1,7 @@
 """The record of the driveline losses."""
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..model.record import Command, Model, Sweep
 from ..model.spec import ModelSpec
@@ -20,7 +20,12 @@ class DrivelineLosses(Model):
         "Feed oil_heat or oil_energy to an OilSump, and its temperature back as oil_temperature.",
     )
     command = Command(
-        help="losses of bearings, dipping gears, oil pump and seals at one operating point",
+        help="losses of bearings, churning, oil pump and seals at one point",
+        examples=(
+            'thrustwasher losses --input-speed "3000 rpm" --plot losses.png',
+            'thrustwasher losses --input-speed "3000 rpm" --oil "SAE 75W-90" '
+            '--oil-temperature "0 degC"',
+        ),
         title="driveline losses",
         ranks=True,
         plot="draw heat by source over speed and oil temperature",
@@ -41,7 +46,7 @@ class DrivelineLosses(Model):
 
         return solve_losses
 
-    def doubts(self, params: Any, inputs: Mapping[str, float]) -> Iterable[str]:
+    def doubts(self, params: object, inputs: Mapping[str, float]) -> Iterable[str]:
         """Return which laws a point is outside of."""
         from .solve import doubts_of_point
 

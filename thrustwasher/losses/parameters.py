@@ -17,7 +17,7 @@ SHAFTS = {
 
 @dataclass(frozen=True, kw_only=True)
 class _LossesParams:
-    """Bearings, dipping gears, seals and oil pump of a planetary gearbox, and its oil.
+    """Bearings, churning gears, seals and oil pump of a planetary gearbox, and its oil.
 
     The defaults are estimates of a car's automatic transmission of about 300 N m: pump of 15 cm3
     at 10 bar, ATF of about 37 mm2/s at 40 degC, the output gear dips by a fifth of its diameter.

@@ -1,4 +1,4 @@
-"""Losses of bearings, dipping gears, oil pump and shaft seals at one operating point.
+"""Losses of bearings, churning gears, oil pump and shaft seals at one operating point.
 
 And which laws it is outside the range of.
 """
@@ -49,13 +49,13 @@ class LossesResult(Differentiable):
     drum_churning_regime: str
     status: Status
     fidelity: str
-    _asked: Asked = field(repr=False, compare=False)
+    _request: Asked = field(repr=False, compare=False)
     warnings: tuple[str, ...] = ()
     """What a reader must not miss, a line each."""
 
 
 def solve_losses(
-    params: Any,
+    params: object,
     *,
     input_speed: float,
     output_speed: float = 0.0,
@@ -66,7 +66,7 @@ def solve_losses(
     fidelity: str = "handbook",
     throw: bool = True,
 ) -> LossesResult:
-    """Return the losses of a planetary gearbox that are there beside those of its teeth.
+    """Return the losses of a planetary gearbox in addition to those of its teeth.
 
     Parameters
     ----------
@@ -121,7 +121,7 @@ def solve_losses(
         **shown,
         status=status,
         fidelity=rung_named(SPEC, fidelity),
-        _asked=Asked(SPEC.key, params, {**point, "fidelity": fidelity}),
+        _request=Asked(SPEC.key, params, {**point, "fidelity": fidelity}),
         warnings=(
             *idle_warnings(SPEC.key, params, fidelity),
             *warnings_of(SPEC, status, point, shown, doubts_of_point(params, point)),
@@ -139,7 +139,7 @@ def doubts_of_point(params: Any, point: Mapping[str, float]) -> Iterator[str]:
     yield from _of_seals(params, point)
 
 
-def _of_gear(params: Any, shaft: str, speed: float, oil: float) -> Iterator[str]:
+def _of_gear(params: object, shaft: str, speed: float, oil: float) -> Iterator[str]:
     radius = 0.5 * getattr(params, f"{shaft}_gear_diameter")
     reynolds = speed * radius * getattr(params, f"{shaft}_gear_width") / _thickness(params, oil)
     froude = speed * speed * radius / laws.GRAVITY
@@ -178,7 +178,7 @@ def _of_bearings(params: Any, point: Mapping[str, float]) -> Iterator[str]:
             )
 
 
-def _of_seals(params: Any, point: Mapping[str, float]) -> Iterator[str]:
+def _of_seals(params: object, point: Mapping[str, float]) -> Iterator[str]:
     oil = point["oil_temperature"]
     for shaft in SHAFTS:
         rubbing = 0.5 * getattr(params, f"{shaft}_seal_diameter") * abs(point[f"{shaft}_speed"])
@@ -189,7 +189,7 @@ def _of_seals(params: Any, point: Mapping[str, float]) -> Iterator[str]:
     if bracket < laws.LEAST_SEAL and any(getattr(params, f"{s}_seal_diameter") for s in SHAFTS):
         yield (
             f"seals: at {format_quantity(oil, 'K')} their formula falls below {laws.LEAST_SEAL:g}, "
-            "its least value here; their loss is an estimate"
+            "its minimum value here; their loss is an estimate"
         )
 
 

@@ -4,17 +4,21 @@
 ``spec``         what a model shows to the outside: inputs, outputs, parameters, kernel; as data
 ``record``       all that the rest of the package knows of a model
 ``registry``     the models and their kernels by name
-``parameters``   fields with unit, range and meaning; checks of numbers and courses over time
-``part_file``    parts of one's own and presets: TOML
+``parameters``   fields with unit, range and meaning; checks of numbers and profiles over time
+``part_file``    your own parts and presets: TOML
 ``advice``       warnings of a solution, one line each
 ``idle``         parameters without effect, or kept though what they belong to was changed
 ``point``        an operating point: what is given, fixed by the box, left to the defaults
 ``scatter``      laws of what is known within bounds only: tables ``[scatter]``, draws, correlation
 ``part_places``  what of a part can scatter
 ``unread``       which parameters are not read, because of the value of another one
-``oil``          an oil by name, data sheet or points, as parameters of a model; ``oil_laws``: how
-``rungs``        names of rungs, and which one runs in the place of one that is gone
+``oil``          an oil by name, data sheet or points, as parameters of a model
+``oil_laws``     viscosity of an oil over temperature: ASTM D341, and the laws that the models have
+``rungs``        names of levels, and which one runs in the place of one that is gone
 ``prepare``      from parameters to what a kernel takes: rules, constants, tables
+``sensitivity``  derivatives of results over parameters, and differences where a solve is quick
+``solutions``    solutions of a model, at a point and over time, as a person reads them
+``toml_tables``  TOML files and their tables: read, with quantities in SI units
 ===============  ===============================================================================
 
 Every model has one module ``kernels.step`` with the same face, the step ABI, so that Python, the
@@ -30,7 +34,7 @@ Python FMU and the native FMU call the same code:
 ``broken_rule(par)``   number of the first broken rule between parameters, 0 if there is none
 ``step(...)``          ``step(par, inp, state, work, out, iout, t, dt)`` returns a status
 ``sens(...)``          ``sens(par, inp, state, work, seed, dout)`` returns a status; not all have it
-``TABLE``              where in ``work`` the table of a rung lies, if one looks its answers up
+``TABLE``              where in ``work`` the table of a level lies, if one looks its answers up
 =====================  ============================================================================
 
 ``par`` and ``inp`` are read only. ``state`` is all the memory there is (all zeros: no history); it

@@ -1,13 +1,17 @@
 """What a reader of a result must not miss: warnings, one line each, the same everywhere."""
 
 import math
-from collections.abc import Iterable, Mapping
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from ..errors import Status
 from ..units import format_quantity
 from .spec import ModelSpec, Signal
+
+VERIFIED = "{value} is outside {range}, for which the accuracy was verified; use with care"
+NUMBER = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,8 +61,7 @@ def range_text(signal: Signal, ends: tuple[float, ...]) -> str:
 def outside_verified(spec: ModelSpec, inputs: Mapping[str, Any]) -> list[str]:
     """Return a line for each input outside the range that the accuracy was verified for."""
     return [
-        f"{quantity_text(s, inputs[s.name])} is outside {range_text(s, s.verified)}, for which the "
-        "accuracy was verified; use with care"
+        VERIFIED.format(value=quantity_text(s, inputs[s.name]), range=range_text(s, s.verified))
         for s in spec.inputs
         if s.verified and s.name in inputs and not s.verified[0] <= inputs[s.name] <= s.verified[1]
     ]
@@ -67,14 +70,14 @@ def outside_verified(spec: ModelSpec, inputs: Mapping[str, Any]) -> list[str]:
 def warnings_of(
     spec: ModelSpec,
     status: Status,
-    inputs: Mapping[str, Any],
+    inputs: Mapping[str, object],
     outputs: Mapping[str, Any],
     more: Iterable[str] = (),
 ) -> tuple[str, ...]:
     """Return the warnings of a solution: limits passed, ranges left, the advice of its status.
 
     ``inputs`` and ``outputs`` hold values by the model's names; one that is not there is not
-    looked at. ``more`` is what the model says beside that.
+    looked at. ``more`` is what the model adds to that.
     """
     found = [f"{status.name}: {status.advice}"] if status.is_failure else []
     outside, more = outside_verified(spec, inputs), [*more]
@@ -87,3 +90,23 @@ def warnings_of(
     if not status.is_failure and status is not Status.OK and not explained.get(status):
         found.append(f"{status.name}: {status.advice}")
     return (*found, *hot, *more, *outside)
+
+
+def of_whole_map(points: Sequence[Any], doubts: Sequence[Sequence[str]]) -> tuple[str, ...]:
+    """Return one line for what is said at several points, which differs in numbers alone.
+
+    ``points``: torque [N m] and speed [rad/s] of each.
+    """
+    found: dict[str, dict[int, str]] = {}  # what is said -> the first such text at each point
+    for k, texts in enumerate(doubts):
+        for text in texts:
+            found.setdefault(NUMBER.sub("", text), {}).setdefault(k, text)
+    firsts = [(len(said), *next(iter(said.items()))) for said in found.values()]
+    return tuple(
+        f"at {n} of {len(points)} points, first at {_place(points[k])}: {text}"
+        for n, k, text in firsts
+    )
+
+
+def _place(point: Any) -> str:
+    return f"{format_quantity(point[0], 'N.m')} and {format_quantity(point[1], 'rad/s')}"

@@ -18,10 +18,10 @@ from .unread import unread, why_unread
 
 @lru_cache(maxsize=256)
 def idle_warnings(model: str, params: Any, fidelity: str = "") -> tuple[str, ...]:
-    """Return a line for all parameters of one's own that one choice leaves unread.
+    """Return a line for all your own parameters that one choice leaves unread.
 
-    A line on a rung that is gone comes first. A value that is the default or that of a preset is
-    none of one's own; neither is 0 where that stands for no value. ``fidelity``: the rung, "" if
+    A line on a level that is gone comes first. A value that is the default or that of a preset is
+    your own none; neither is 0 where that stands for no value. ``fidelity``: the level, "" if
     it is not known.
     """
     found: dict[str, list[str]] = {}
@@ -37,7 +37,7 @@ def idle_warnings(model: str, params: Any, fidelity: str = "") -> tuple[str, ...
 
 
 def kept_warnings(part: PartFile) -> tuple[str, ...]:
-    """Return a line for each value that overrides a changed one, or was kept beside it."""
+    """Return a line for each value that overrides a changed one, or was kept with it."""
     params, starts = part.params, _starts(part.spec.key)
     name = min(starts, key=lambda n: len(_changed(params, starts[n])))
     return tuple(_kept(params, _changed(params, starts[name]), name))
@@ -60,9 +60,8 @@ def _kept(params: Any, changed: set[str], start: str) -> Iterator[str]:
         owners = [n for n in m.get("belongs_to", ()) if n in changed]
         if owners and value and f.name not in changed:
             yield (
-                f"{_shown(params, f.name)} is that of {start}, though "
-                f"{', '.join(_shown(params, n) for n in owners)} was changed, to which it "
-                "belongs; give that of this part"
+                f"{_shown(params, f.name)} is still that of {start}, but it depends on "
+                f"{', '.join(_shown(params, n) for n in owners)}, changed here: give its value too"
             )
 
 

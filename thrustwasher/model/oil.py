@@ -32,7 +32,7 @@ from .registry import find_model
 from .spec import ModelSpec
 from .toml_tables import nothing_else, number, quantity, table_beside
 
-# Key -> (unit, least, largest, parameter of the parts).
+# Key -> (unit, minimum, maximum, parameter of the parts).
 NUMBERS = {
     "density": ("kg/m3", 500.0, 1500.0, "oil_density"),
     "heat_capacity": ("J/(kg.K)", 500.0, 5e3, "oil_heat_capacity"),
@@ -134,7 +134,7 @@ class Oil:
                 known |= dict(zip(law, through(points), strict=True))
         return known
 
-    def is_in(self, spec: ModelSpec, params: Any) -> bool:
+    def is_in(self, spec: ModelSpec, params: object) -> bool:
         """Tell if a model's parameters are those that it sets."""
         return all(getattr(params, n) == x for n, x in self.parameters_for(spec).items())
 
@@ -167,7 +167,7 @@ class Oil:
                     f"largest error of the viscosity law to ASTM D341 over 20 .. 150 degC: {shown}"
                     if shown
                     else "",
-                    f"given beside it: {', '.join(self.rest)}" if self.rest else "",
+                    f"given in addition to it: {', '.join(self.rest)}" if self.rest else "",
                     f"the part's own stay: {', '.join(sorted(stay))}" if stay else "",
                 ),
             )
@@ -233,14 +233,14 @@ class Oil:
         return f"{{{', '.join(f'{key} = {value}' for key, value in table.items())}}}"
 
 
-def oil(given: str | Mapping[str, Any]) -> Oil:
+def oil(given: str | Mapping[str, object]) -> Oil:
     """Return an oil.
 
     Parameters
     ----------
     given : a name such as "ISO VG 46" (``named_oils``, in capitals or not, with blanks or not), or
         a data sheet, a mapping or the same as text: kinematic_viscosity_40 and
-        kinematic_viscosity_100 [m2/s, or with unit: "46 cSt"], density_15 [kg/m3]; beside either
+        kinematic_viscosity_100 [m2/s, or with unit: "46 cSt"], density_15 [kg/m3]; next to either
         heat_capacity [J/(kg K)], conductivity [W/(m K)], pressure_viscosity [1/Pa], base
         (mineral, pao, ester, polyglycol), which may end a name: "ISO VG 320 PAO"
 
@@ -259,7 +259,7 @@ def oil(given: str | Mapping[str, Any]) -> Oil:
     return sheet_oil("oil", given)
 
 
-def sheet_oil(where: str, given: Any) -> Oil:
+def sheet_oil(where: str, given: object) -> Oil:
     """Return the oil of a name or a data sheet; ``where`` begins the message of an error."""
     found = read_oil(where, given)
     if found is None or not found.density_15:
@@ -267,19 +267,23 @@ def sheet_oil(where: str, given: Any) -> Oil:
     return found
 
 
-def read_oil(where: str, given: Any) -> Oil | None:
+def read_oil(where: str, given: object) -> Oil | None:
     """Return the oil of a table or text; None of one that says nothing of any."""
     table = oil_table(where, given)
     nothing_else(where, table, KEYS)
     ways = [way for way in WAYS if any(key in table for key in way)]
     if len(ways) > 1:
         first, other = (next(key for key in way if key in table) for way in ways[:2])
-        raise ParameterError(f"{where}: {first} beside {other}, allowed: one way to give an oil")
+        raise ParameterError(
+            f"{where}: {first} together with {other}, allowed: one way to give an oil"
+        )
     rest = {k: number(where, k, table[k], NUMBERS[k][:3]) for k in NUMBERS if k in table}
     way = ways[0] if ways else ()
     base = _base(where, table["base"]) if "base" in table else ""
     if "density" in rest and way in WAYS[:2]:
-        raise ParameterError(f"{where}: density beside {way[0]}, which gives it, allowed: one")
+        raise ParameterError(
+            f"{where}: density together with {way[0]}, which gives it, allowed: one"
+        )
     if way == WAYS[0]:
         name, said = _name_and_base(table["name"])
         name, base = _found_name(where, name), base or said
@@ -310,7 +314,7 @@ def read_oil(where: str, given: Any) -> Oil | None:
     return Oil(rest=rest, base=base) if rest or base else None
 
 
-def _base(where: str, given: Any) -> str:
+def _base(where: str, given: object) -> str:
     """Return the base of an oil that a word means."""
     word = given.strip().lower() if isinstance(given, str) else ""
     if word not in BASES:
@@ -318,7 +322,7 @@ def _base(where: str, given: Any) -> str:
     return BASES[word]
 
 
-def _name_and_base(given: Any) -> tuple[Any, str]:
+def _name_and_base(given: object) -> tuple[Any, str]:
     """Return a name without the word of its base that begins or ends it, and that base."""
     words = given.split() if isinstance(given, str) else []
     for place in (0, -1):
@@ -328,7 +332,7 @@ def _name_and_base(given: Any) -> tuple[Any, str]:
     return given, ""
 
 
-def _of_sheet(where: str, table: Mapping[str, Any], rest: dict[str, float]) -> Oil:
+def _of_sheet(where: str, table: Mapping[str, object], rest: dict[str, float]) -> Oil:
     for key in SHEET:
         if key not in table:
             raise ParameterError(f"{where}: {key} is missing, required: {', '.join(SHEET)}")
@@ -341,7 +345,7 @@ def _of_sheet(where: str, table: Mapping[str, Any], rest: dict[str, float]) -> O
     return Oil(viscosity_40=cold, viscosity_100=warm, density_15=at_15, rest=rest)
 
 
-def _pairs(where: str, key: str, table: Mapping[str, Any]) -> list[tuple[float, float]]:
+def _pairs(where: str, key: str, table: Mapping[str, object]) -> list[tuple[float, float]]:
     points = table[key]
     if not isinstance(points, list) or not all(isinstance(p, list) and len(p) == 2 for p in points):
         raise ParameterError(f"{where}: {key} = {points!r}, allowed: pairs [temperature, {key}]")
@@ -351,7 +355,7 @@ def _pairs(where: str, key: str, table: Mapping[str, Any]) -> list[tuple[float, 
     ]
 
 
-def oil_table(where: str, given: Any) -> dict[str, Any]:
+def oil_table(where: str, given: object) -> dict[str, Any]:
     """Return an oil as a table; also a text such as "kinematic_viscosity_40=46 cSt, ..."."""
     if isinstance(given, Mapping):
         return dict(given)
@@ -368,7 +372,7 @@ def oil_table(where: str, given: Any) -> dict[str, Any]:
     return found
 
 
-def _found_name(where: str, name: Any) -> str:
+def _found_name(where: str, name: object) -> str:
     if not isinstance(name, str):
         raise ParameterError(f"{where}: name = {name!r}, allowed: a text")
     known = {_plain(n): n for n in named_oils()}
@@ -401,7 +405,7 @@ def law_of(spec: ModelSpec) -> Law | None:
     return next((law for law in (ROELANDS, VOGEL) if set(law) <= _names(spec)), None)
 
 
-def viscosity_of(spec: ModelSpec, params: Any, temperature: float) -> float | None:
+def viscosity_of(spec: ModelSpec, params: object, temperature: float) -> float | None:
     """Return the viscosity [Pa s] by the law in a model's parameters; None if it has none."""
     law = law_of(spec)
     if law is None:
@@ -410,7 +414,7 @@ def viscosity_of(spec: ModelSpec, params: Any, temperature: float) -> float | No
     return law_viscosity(law, (scale, size, last), temperature)
 
 
-def too_stiff(spec: ModelSpec, params: Any, temperature: float) -> list[str]:
+def too_stiff(spec: ModelSpec, params: object, temperature: float) -> list[str]:
     """Say that the oil is all but solid at a temperature [K], by the law in the parameters."""
     found = viscosity_of(spec, params, temperature)
     if found is None or found <= STIFF:
@@ -423,7 +427,7 @@ def too_stiff(spec: ModelSpec, params: Any, temperature: float) -> list[str]:
 
 
 def oil_doubts(
-    given: Oil | None, spec: ModelSpec, params: Any, temperatures: Iterable[float]
+    given: Oil | None, spec: ModelSpec, params: object, temperatures: Iterable[float]
 ) -> list[str]:
     """Return what is doubtful of a part's oil at temperatures [K], each line once.
 
@@ -438,10 +442,12 @@ def oil_doubts(
 
 
 def refuse_two_ways(what: str, given: Oil, spec: ModelSpec, others: Iterable[str]) -> None:
-    """Raise ParameterError if parameters that an oil sets are given beside it."""
+    """Raise ParameterError if parameters that an oil sets are given in addition to it."""
     sets = given.parameters_for(spec)
     if not sets:
         raise ParameterError(f"{what}: {spec.name} knows no oil; leave it out")
     for name in others:
         if name in sets:
-            raise ParameterError(f"{what} beside {name}, which it sets, allowed: one of the two")
+            raise ParameterError(
+                f"{what} together with {name}, which it sets, allowed: one of the two"
+            )

@@ -3,7 +3,7 @@
 A viscosity is measured at two or three temperatures; the models have laws of three constants. Three
 points give these exactly. To two a third is added on the line of ASTM D341 through both,
 log log(nu + 0.7 mm2/s) over log T, half their distance below the colder one. A law of which the
-whole line is known is fitted to it so that its largest relative error is the least.
+whole line is known is fitted to it so that its largest relative error is smallest.
 """
 
 import math
@@ -117,7 +117,7 @@ def law_viscosity(law: Law, constants: Constants, temperature: float) -> float:
 
 @cache
 def fitted(law: Law, at_40: float, at_100: float, at_15: float) -> Constants:
-    """Return the constants of a law whose largest relative error to ASTM D341 is the least.
+    """Return the constants of a law whose largest relative error to ASTM D341 is smallest.
 
     ``at_40``, ``at_100``: kinematic viscosities [m2/s]; ``at_15``:
     density [kg/m3]. Over ``FITTED``. With the last constant held log viscosity is a straight line
@@ -146,7 +146,7 @@ def _abscissa(law: Law, last: float, temperature: float) -> float:
 
 
 def level_line(x: Sequence[float], y: Sequence[float]) -> Constants:
-    """Return height and slope of the line with the least largest error, and that error.
+    """Return height and slope of the line with the smallest maximum error, and that error.
 
     The points are in the order of ``x``. At three of them the errors are equally large with
     alternating signs (Chebyshev); the one that errs most takes the place of one of these.

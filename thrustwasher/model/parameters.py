@@ -11,6 +11,7 @@ from operator import attrgetter
 from typing import Any, TypeVar
 
 from ..errors import ParameterError
+from ..moved import now_named
 from ..units import into_range, meant
 from .spec import ModelSpec, Rule
 
@@ -19,7 +20,7 @@ Renew = Callable[[dict[str, Any]], dict[str, Any]]
 EARLIER: dict[type[Any], tuple[dict[str, Any], Renew, Callable[[Any], dict[str, float]]]] = {}
 
 
-def quantity(default: float, unit: str, low: float, high: float, text: str, **extra: Any) -> Any:
+def quantity(default: float, unit: str, low: float, high: float, text: str, **extra: object) -> Any:
     """Return a real-valued field; ``low`` and ``high`` belong to the allowed range.
 
     ``tunable=True``: an FMU's host may change it between two steps. ``overrides``, ``belongs_to``,
@@ -30,19 +31,21 @@ def quantity(default: float, unit: str, low: float, high: float, text: str, **ex
     return field(default=default, metadata=meta)
 
 
-def count(default: int, low: int, high: int, text: str, **extra: Any) -> Any:
+def count(default: int, low: int, high: int, text: str, **extra: object) -> Any:
     """Return an integer field; both bounds are allowed."""
     meta = {"kind": "integer", "unit": "1", "min": low, "max": high, "help": text, **extra}
     return field(default=default, metadata=meta)
 
 
-def flag(default: bool, text: str, **extra: Any) -> Any:
+def flag(default: bool, text: str, **extra: object) -> Any:
     """Return a Boolean field."""
     meta = {"kind": "boolean", "unit": "1", "min": 0, "max": 1, "help": text, **extra}
     return field(default=default, metadata=meta)
 
 
-def choice(default: str, options: dict[str, str], type_name: str, text: str, **extra: Any) -> Any:
+def choice(
+    default: str, options: dict[str, str], type_name: str, text: str, **extra: object
+) -> Any:
     """Return an enumeration field; ``options`` maps each name to one sentence."""
     meta = {
         "kind": "enumeration",
@@ -68,7 +71,7 @@ def allowed(meta: Any) -> str:
     return f"{meta['min']:g} .. {meta['max']:g}{unit}{whole}"
 
 
-def extended(params: type[T], name: str, more: Mapping[str, Any]) -> type[T]:
+def extended(params: type[T], name: str, more: Mapping[str, object]) -> type[T]:
     """Return a parameter dataclass of this name with more fields, behind its own."""
     space = {"__module__": params.__module__, "__doc__": params.__doc__}
     fields_ = [(n, float, f) for n, f in more.items()]
@@ -78,15 +81,21 @@ def extended(params: type[T], name: str, more: Mapping[str, Any]) -> type[T]:
 
 
 def other_names(params: type[T]) -> type[T]:
-    """Let fields be given and read by the name in their metadata's ``also`` as well."""
-    others, plain = other_names_of(params), params.__init__
+    """Let fields be given and read by another name in their metadata as well.
+
+    ``also``: a name that means the same; ``formerly``: the name in earlier versions, with a
+    warning.
+    """
+    others, before, plain = other_names_of(params), former_names_of(params), params.__init__
 
     @wraps(plain)
-    def init(self: Any, **given: Any) -> None:
-        plain(self, **plainly_named(others, given))
+    def init(self: object, **given: object) -> None:
+        plain(self, **plainly_named(others, now_named(params.__name__, before, given)))
 
     params.__init__ = init  # type: ignore[method-assign]
     for other, name in others.items():
+        setattr(params, other, property(attrgetter(name)))
+    for other, name in before.items():
         setattr(params, other, property(attrgetter(name)))
     return params
 
@@ -98,15 +107,15 @@ def renewed(
 ) -> Callable[[type[T]], type[T]]:
     """Let parameters of an earlier form be given and read: unit and range of each by its name.
 
-    ``renew`` makes fields of them and of all that is given beside them, ``former`` them of all
-    fields.
+    ``renew`` makes fields of them and of all that is given in addition to them, ``former`` them of
+    all fields.
     """
 
     def decorate(params: type[T]) -> type[T]:
         plain = params.__init__
 
         @wraps(plain)
-        def init(self: Any, **given: Any) -> None:
+        def init(self: object, **given: object) -> None:
             plain(self, **renew(given))
 
         params.__init__ = init  # type: ignore[method-assign]
@@ -130,12 +139,12 @@ def renewed_values(params: type[Any], given: dict[str, Any]) -> dict[str, Any]:
     return next((EARLIER[c][1](given) for c in params.__mro__ if c in EARLIER), given)
 
 
-def former_values(params: Any) -> dict[str, float]:
+def former_values(params: object) -> dict[str, float]:
     """Return parameters of an earlier form that are those of now."""
     return next((EARLIER[c][2](params) for c in type(params).__mro__ if c in EARLIER), {})
 
 
-def with_changes(params: Any, given: Mapping[str, Any], changes: Mapping[str, Any]) -> Any:
+def with_changes(params: object, given: Mapping[str, object], changes: Mapping[str, object]) -> Any:
     """Return parameters with changes, those of an earlier form too.
 
     ``given`` are the values that ``params`` were made of, none of an earlier form.
@@ -152,7 +161,12 @@ def other_names_of(params: type[Any]) -> dict[str, str]:
     return {f.metadata["also"]: f.name for f in fields(params) if "also" in f.metadata}
 
 
-def plainly_named(others: Mapping[str, str], given: Mapping[str, Any]) -> dict[str, Any]:
+def former_names_of(params: type[Any]) -> dict[str, str]:
+    """Return the names that fields had in earlier versions: former name -> name."""
+    return {f.metadata["formerly"]: f.name for f in fields(params) if "formerly" in f.metadata}
+
+
+def plainly_named(others: Mapping[str, str], given: Mapping[str, object]) -> dict[str, Any]:
     """Return values by the fields' own names; ParameterError if one comes by both of its names."""
     for other, name in others.items():
         if other in given and name in given:
@@ -160,7 +174,7 @@ def plainly_named(others: Mapping[str, str], given: Mapping[str, Any]) -> dict[s
     return {others.get(key, key): value for key, value in given.items()}
 
 
-def params_of(spec: ModelSpec, given: Any) -> Any:
+def params_of(spec: ModelSpec, given: object) -> Any:
     """Return the parameters given, for None the model's defaults; refuse another model's."""
     params = spec.params() if given is None else given
     if not isinstance(params, spec.params):
@@ -245,7 +259,7 @@ def _codes(kind: Any) -> list[tuple[str, dict[str, int]]]:
 
 
 def check_rules(
-    params: Any, rules: tuple[Rule, ...], broken_rule: Callable[[Any], int], *more: float
+    params: object, rules: tuple[Rule, ...], broken_rule: Callable[[Any], int], *more: float
 ) -> None:
     """Raise ParameterError for the first broken rule; every value must be in its range already."""
     import numpy as np  # late: --help needs none

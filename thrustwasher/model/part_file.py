@@ -1,4 +1,4 @@
-"""Part files: a part of one's own as TOML, and the presets that come with the package.
+"""Part files: your own part as TOML, and the presets that come with the package.
 
 A part file names its model and holds parameters with units, the box of inputs it is meant for and
 notes::
@@ -31,12 +31,15 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError, within
+from ..face_load import LIMITED, over_limits
+from ..moved import now_named
 from ..units import exact_quantity, format_quantity
 from .oil import Oil, oil_doubts, refuse_two_ways, sheet_oil
 from .parameters import (
     allowed,
     check_number,
     earlier_of,
+    former_names_of,
     other_names_of,
     plainly_named,
     renewed_values,
@@ -44,7 +47,7 @@ from .parameters import (
 )
 from .part_places import part_places
 from .point import point_of
-from .registry import find_model
+from .registry import MODELS, find_model
 from .rungs import rung_named
 from .scatter import Place, Scatter, read_scatter
 from .spec import ModelSpec, tailored
@@ -61,7 +64,7 @@ from .toml_tables import (
 from .unread import unread, why_unread
 
 TEXTS = ("model", "name", "description", "fidelity", "notes")
-TABLES = ("parameters", "box", "scatter")
+TABLES = ("parameters", "box", "limits", "scatter")
 LONGEST_NAME = 60  # characters, of a name that becomes that of files
 SUFFIX = ".toml"
 Box = dict[str, tuple[float, float]]
@@ -69,7 +72,7 @@ Box = dict[str, tuple[float, float]]
 
 @dataclass(frozen=True, kw_only=True)
 class PartFile:
-    """A part of one's own: its model, its parameters and the inputs it is meant for."""
+    """Your own part: its model, its parameters and the inputs it is meant for."""
 
     spec: ModelSpec
     """The model."""
@@ -78,9 +81,11 @@ class PartFile:
     parameters: dict[str, Any] = field(default_factory=dict)
     """Values [SI] of the parameters that are given; all others are at their defaults."""
     fidelity: str
-    """The rung that it is solved with where no other is asked for."""
+    """The level that it is solved with where no other is requested."""
     box: Box = field(default_factory=dict)
     """Range [SI] of each input that it is meant for; an input that is not there has no bounds."""
+    limits: Mapping[str, float] = field(default_factory=dict)
+    """What its faces bear [SI]: pressure, sliding, their product, power and energy per area."""
     oil: Oil | None = None
     """The oil that gave some of the parameters."""
     scatter: Mapping[str, Any] = field(default_factory=dict)
@@ -110,7 +115,7 @@ class PartFile:
 
     @property
     def about(self) -> dict[str, Any]:
-        """What the FMU says of this part, beside its values: fields of the model's record."""
+        """What the FMU says of this part, next to its values: fields of the model's record."""
         text = self.description.rstrip(".") or self.spec.help
         return {
             "name": self.name,
@@ -141,7 +146,7 @@ class PartFile:
         return find_model(self.spec.key).place(point_of(self, {}).values)
 
     def solve(self, **inputs: Any) -> Any:
-        """Return the result at an operating point, with the part's rung unless another is given.
+        """Return the result at an operating point, with the part's level unless another is given.
 
         Parameters
         ----------
@@ -170,7 +175,14 @@ class PartFile:
         point = point_of(self, given)
         more = {name: value for name, value in inputs.items() if name not in known}
         result = model.solve(self.params, **point.values, **{"fidelity": self.fidelity, **more})
-        return replace(result, warnings=(*point.warnings, *result.warnings))
+        over = self.over_limits(result)
+        return replace(result, warnings=(*point.warnings, *over, *result.warnings))
+
+    def over_limits(self, result: Any) -> list[str]:
+        """Return a line for each limit of its faces that a result passes, at its worst moment."""
+        values = {n: getattr(result, n) for n in self.limits if hasattr(result, n)}
+        most = {n: float(max(x) if hasattr(x, "__len__") else x) for n, x in values.items()}
+        return over_limits(self.limits, most)
 
     def places(self, inputs: Mapping[str, float] | None = None) -> dict[str, Place]:
         """Return what of the part can scatter, by name; ``inputs`` [SI], others at their starts."""
@@ -178,7 +190,7 @@ class PartFile:
 
     def scattered(
         self,
-        table: Mapping[str, Any] | None = None,
+        table: Mapping[str, object] | None = None,
         inputs: Mapping[str, float] | None = None,
     ) -> Scatter:
         """Return how the part scatters, by its own table or by another one.
@@ -227,7 +239,7 @@ def load_part(path: str | Path) -> PartFile:
     >>> solve_washer(part.params, load=300.0, speed=953.0, tilt=0.002)  # doctest: +SKIP
     """
     where = f"part {str(path)!r}"
-    part = _part(where, read_file("part", path))
+    part = _part(where, read_file("part", path), Path(path).parent)
     with within(f"{where} [parameters]"):
         part.params  # noqa: B018  (raises what the model says about them)
     with within(where):
@@ -240,17 +252,32 @@ def is_part(name: str) -> bool:
     return name.endswith(SUFFIX)
 
 
+def holds_part(path: str | Path, what: str = "target") -> bool:
+    """Return whether a file is that of a part, not of a shift; ParameterError if there is none.
+
+    ``what`` the file is, in that error.
+    """
+    table = read_file(what, path)
+    return "model" in table or bool(scene_of_part(table))
+
+
 def find_part(name: str) -> PartFile:
-    """Return the part of a part file, or the part of that model with all defaults."""
+    """Return the part of a part file, of a built-in scene, or of that model with all defaults."""
     if is_part(name):
         return load_part(name)
+    if found := scene_parts().get(name):
+        return found
     spec = find_model(name).spec
     return PartFile(spec=spec, name=spec.name, fidelity=spec.default_fidelity, scatter=spec.scatter)
 
 
+def _preset_folder(key: str) -> Any:
+    return resources.files(__package__.rpartition(".")[0]) / "data" / "parts" / key
+
+
 @cache
 def _preset_files(key: str) -> dict[str, PartFile]:
-    folder = resources.files(__package__.rpartition(".")[0]) / "data" / "parts" / key
+    folder = _preset_folder(key)
     if not folder.is_dir():
         return {}
     files = [f for f in folder.iterdir() if f.name.endswith(SUFFIX)]
@@ -267,6 +294,19 @@ def preset_parts(spec: ModelSpec) -> dict[str, PartFile]:
     return _preset_files(spec.key)
 
 
+@cache
+def scene_parts() -> dict[str, PartFile]:
+    """Return the built-in scenes that are parts, such as "ev-reducer", a gear train, by name."""
+    having = [find_model(key) for key in MODELS if find_model(key).scene_of]
+    return {name: part for model in having for name, part in preset_parts(model.spec).items()}
+
+
+def preset_file(spec: ModelSpec, name: str) -> Path:
+    """Return where a preset's file lies; ParameterError if there is none of that name."""
+    preset_part(spec, name)
+    return Path(str(_preset_folder(spec.key) / f"{name}{SUFFIX}"))
+
+
 def preset_part(spec: ModelSpec, name: str) -> PartFile:
     """Return a preset; ParameterError if there is none of that name."""
     known = preset_parts(spec)
@@ -276,13 +316,21 @@ def preset_part(spec: ModelSpec, name: str) -> PartFile:
     return known[name]
 
 
-def preset_params(spec: ModelSpec, preset: str | None, changes: Mapping[str, Any]) -> Any:
+def preset_params(spec: ModelSpec, preset: str | None, changes: Mapping[str, object]) -> Any:
     """Return a model's parameters: its defaults, or those of a preset, some of them changed."""
     start = {} if preset is None else preset_part(spec, preset).parameters
     return spec.params(**{**start, **changes})
 
 
-def _part(where: str, table: dict[str, Any]) -> PartFile:
+def scene_of_part(table: Mapping[str, Any]) -> str:
+    """Return the key of the model that a file is a scene of, such as [train]; "" if of none."""
+    found = (key for key in MODELS if key in table and find_model(key).scene_of)
+    return "" if "model" in table else next(found, "")
+
+
+def _part(where: str, table: dict[str, Any], folder: Path | None = None) -> PartFile:
+    if key := scene_of_part(table):
+        table = find_model(key).flat(where, table, folder)
     known = (*TEXTS, *TABLES, "oil")
     nothing_else(where, [k for k in table if k not in known], known)
     if isinstance(table.get("notes"), dict):
@@ -314,6 +362,7 @@ def _part(where: str, table: dict[str, Any]) -> PartFile:
         fidelity=fidelity,
         oil=own,
         box=_box(f"{where} [box]", spec, table.get("box", {})),
+        limits=_limits(f"{where} [limits]", spec, table.get("limits", {})),
         scatter=table.get("scatter", {}),
         description=table.get("description", ""),
         notes=table.get("notes", ""),
@@ -336,10 +385,11 @@ def checked_name(name: str) -> str:
     )
 
 
-def read_parameters(where: str, spec: ModelSpec, table: Mapping[str, Any]) -> dict[str, Any]:
+def read_parameters(where: str, spec: ModelSpec, table: Mapping[str, object]) -> dict[str, Any]:
     """Return the values [SI] of a table of parameters by their names."""
     known = {f.name: f.metadata for f in fields(spec.params)}
     earlier = earlier_of(spec.params)
+    table = now_named(where, former_names_of(spec.params), table)
     given = plainly_named(other_names_of(spec.params), table)
     nothing_else(where, [key for key in given if key not in known and key not in earlier], known)
     known |= earlier
@@ -348,7 +398,7 @@ def read_parameters(where: str, spec: ModelSpec, table: Mapping[str, Any]) -> di
         return renewed_values(spec.params, values)
 
 
-def _box(where: str, spec: ModelSpec, table: Mapping[str, Any]) -> Box:
+def _box(where: str, spec: ModelSpec, table: Mapping[str, object]) -> Box:
     """Return the ranges of inputs: two quantities, or one that is fixed."""
     inputs = {s.name: s for s in spec.inputs}
     found = {}
@@ -367,6 +417,14 @@ def _box(where: str, spec: ModelSpec, table: Mapping[str, Any]) -> Box:
             raise ParameterError(f"{where}: {key} = {given!r}, allowed: low <= high")
         found[key] = low, high
     return found
+
+
+def _limits(where: str, spec: ModelSpec, table: Mapping[str, Any]) -> dict[str, float]:
+    """Return the limits of the faces [SI]."""
+    if table and find_model(spec.key).face(spec.params()) is None:
+        raise ParameterError(f"{where}: {spec.name} has no faces that it is for, allowed: none")
+    nothing_else(where, table, LIMITED)
+    return {k: number(where, k, x, (LIMITED[k][0], 1e-6, 1e12)) for k, x in table.items()}
 
 
 def part_text(part: PartFile) -> str:
@@ -412,6 +470,12 @@ def _lines(part: PartFile) -> Iterator[str]:
         if s.name in part.box:
             ends = [exact_quantity(x, s.unit, difference=s.relative) for x in part.box[s.name]]
             yield f"{s.name} = {json.dumps(ends if ends[0] != ends[1] else ends[0])}  # {s.help}"
+    if part.limits:
+        yield ""
+        yield "[limits]  # of the faces; what passes them is a warning"
+        for name, x in part.limits.items():
+            unit, words = LIMITED[name]
+            yield f"{name} = {json.dumps(exact_quantity(x, unit))}  # {words}"
     if part.scatter:
         yield ""
         yield "[scatter]  # what is not named here is taken as known"

@@ -68,7 +68,7 @@ def other_of(meta: Any) -> Any:
     return meta.get("at_zero") or (over[0] if len(over) == 1 else None)
 
 
-def _resolved(found: Mapping[str, Place], place: Place, other: Any, params: Any) -> Place:
+def _resolved(found: Mapping[str, Place], place: Place, other: Any, params: object) -> Place:
     """Return a place with the value that counts, and the range that this may have."""
     if callable(other):
         return replace(place, nominal=float(other(params)))

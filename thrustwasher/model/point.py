@@ -62,6 +62,12 @@ class Point:
         """In one line what was not given; "" if all was."""
         return taken_text(self.box, self.default, self.inputs)
 
+    def origin(self, name: str) -> str:
+        """Return where the value of an input comes from."""
+        if name in self.box:
+            return "from the part's [box]"
+        return "default" if name in self.default else "given"
+
 
 def taken_text(box: Values, default: Values, inputs: Sequence[Signal]) -> str:
     """Return a line that names what was taken from a box and by default; "" if nothing was."""

@@ -1,7 +1,7 @@
 """From a parameter dataclass to what a kernel takes: checked by its rules, filled in, with tables.
 
 The kernel tests the rules between parameters, the texts in the interface say which one is broken.
-Courses of inputs over time are checked here too.
+Profiles of inputs over time are checked here too.
 """
 
 from collections.abc import Callable, Mapping
@@ -25,11 +25,11 @@ Array = NDArray[np.float64]
 def filled(
     spec: ModelSpec, params: Any, fidelity: str, size: int, derive: Callable[[Any], int]
 ) -> Any:
-    """Return the ``size`` numbers of a kernel's ``par``: parameters, rung, derived constants.
+    """Return the ``size`` numbers of a kernel's ``par``: parameters, level, derived constants.
 
     It is for solutions without a past: a washer's bodies are taken as steady, nothing is held.
     ParameterError if the
-    rung is not one of the model's, or the parameters cannot be used together.
+    level is not one of the model's, or the parameters cannot be used together.
     """
     rung = rung_named(spec, fidelity)
     if getattr(params, "thermal_mode", "quasi_steady") != "quasi_steady":
@@ -45,7 +45,7 @@ def filled(
     return par
 
 
-def check_together(spec: ModelSpec, params: Any, fidelity: str) -> None:
+def check_together(spec: ModelSpec, params: object, fidelity: str) -> None:
     """Raise ParameterError for the first rule that parameters and fidelity break together."""
     if spec.rules:  # a model from elsewhere may have its kernel elsewhere too
         rule = getattr(import_module(spec.kernel), "broken_rule", None)
@@ -54,7 +54,7 @@ def check_together(spec: ModelSpec, params: Any, fidelity: str) -> None:
 
 
 def wants_table(spec: ModelSpec, par: Any) -> bool:
-    """Tell if the rung in ``par`` reads a table."""
+    """Tell if the level in ``par`` reads a table."""
     known = _known(spec)
     return bool(known) and par[int(known["SWITCH"])] == known["ON"]
 
@@ -79,13 +79,13 @@ def _told(signal: Signal, box: Mapping[str, tuple[float, float]], rung: str) -> 
     return replace(signal, help=f"{signal.help}; fidelity {rung}: {low:g} .. {high:g}{unit}")
 
 
-def is_of_table(spec: ModelSpec, par: Any, place: int) -> bool:
+def is_of_table(spec: ModelSpec, par: object, place: int) -> bool:
     """Tell if the parameter at a place of ``par`` is one that the table in use was made for."""
     return wants_table(spec, par) and place < int(_known(spec)["N_PARAMS"])
 
 
-def fill_table(spec: ModelSpec, params: Any, par: Any, work: Any) -> None:
-    """Put the table for ``params`` into ``work`` if the rung in ``par`` reads one.
+def fill_table(spec: ModelSpec, params: object, par: object, work: Any) -> None:
+    """Put the table for ``params`` into ``work`` if the level in ``par`` reads one.
 
     ParameterError if there is none for these parameters, or it is too large.
     """
@@ -103,7 +103,7 @@ def fill_table(spec: ModelSpec, params: Any, par: Any, work: Any) -> None:
 
 
 def tables_of(spec: ModelSpec, rung: str | None = None) -> Tables | None:
-    """Return where a model, or one rung of it, looks its answers up; None if it solves."""
+    """Return where a model, or one level of it, looks its answers up; None if it solves."""
     tables = find_model(spec.key).tables() if spec.key in MODELS else None
     return tables if tables and rung in (None, tables.rung) else None
 

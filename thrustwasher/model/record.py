@@ -1,9 +1,10 @@
 """The record of a model: all that the layers below and above it know of it.
 
 Each model has a class of its own, in the module ``model`` of its folder. What it returns is
-imported when it is asked for. What draws a model, shows it in a browser or finds its reference
-values lies above it, in one list each: ``report.model_plots``, ``explore.page``,
-``study.reference_cache``, ``study.charts.work_precision``.
+imported when it is requested. What draws a model, shows it in a browser or finds its reference
+values lies above it, in one list each: ``studio.report.model_plots``, ``studio.explore.page``,
+``study.reference_cache``, ``study.charts.work_precision``; the fit of a law of its own in
+``studio.calibration.run_calibration``.
 """
 
 from __future__ import annotations
@@ -11,9 +12,11 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError
+from ..face_load import Face
 from .spec import ModelSpec, Signal, Tables
 
 if TYPE_CHECKING:  # not every command needs numpy
@@ -42,7 +45,7 @@ class Variants:
     head: str  # what a row is; the parameter of this name holds the chosen one
     rows: Mapping[str, str]  # words -> ending of the fields' names
     columns: Mapping[str, str]  # field without its ending -> head
-    chosen: str  # words beside the row that the parameters choose
+    chosen: str  # words next to the row that the parameters choose
 
     def name(self, column: str, row: str) -> str:
         """Return the name of a field."""
@@ -56,9 +59,10 @@ class Variants:
 
 @dataclass(frozen=True, kw_only=True)
 class Command:
-    """The command that solves a model at one operating point, beside what its interface says."""
+    """The command that solves a model at one operating point, next to what its interface says."""
 
     help: str
+    examples: tuple[str, str]  # command lines that run
     title: str  # may name parameters: "gear mesh, {pinion_teeth} teeth"
     closing: str = "{fidelity}"  # how it was solved; may name results
     plot: str = ""  # what --plot draws
@@ -74,31 +78,30 @@ class Command:
 
 @dataclass(frozen=True, kw_only=True)
 class Ladder:
-    """What the choice of a rung and the making of its cards need to know."""
+    """What the choice of a level and the making of its verification tables need to know."""
 
     kernels: Mapping[str, tuple[str, ...]]
-    """Rungs that can be chosen, in the order of their cost -> modules that compute them."""
+    """Levels that can be chosen, in the order of their cost -> modules that compute them."""
     boxes: Mapping[str, Mapping[str, Scaled]]
     """Parameter set -> range of every input: "default", a scene, or "scene.part"."""
     part: str  # of a scene, where a parameter set names none
     only: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
-    """Rung -> parameters and the values with which alone it differs from the one before."""
+    """Level -> parameters and the values with which alone it differs from the one before."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Fits:
-    """Outputs that can be measured and fitted beside those of a model's solutions at points."""
+    """Outputs that can be fitted in addition to those of a model's solutions at points."""
 
     units: Mapping[str, str] = field(default_factory=dict)
-    law: type[Any] | None = None
-    """The ``ModelProblem`` that fits these by a law of the model's own."""
     computed: Callable[[Any, Mapping[str, float], str], Mapping[str, float]] | None = None
-    """Of parameters, point and rung, those that there are; None: a law of its own has them."""
+    """Of parameters, point and level, those that there are; None: a law of the model's own has them
+    (``studio.calibration.run_calibration``)."""
     without: str = ""  # the input that these do not depend on
     none: str = ""  # what a point means that has none of them
     slopes: Callable[..., Any] | None = None
     """Exact derivatives of outputs, of these too: called with (parameters, inputs of a line's
-    rows, rung, wanted: (row, output), names of parameters), returns (wanted, parameters) or None
+    rows, level, wanted: (row, output), names of parameters), returns (wanted, parameters) or None
     where there are none."""
     sliding_radius: Callable[[Any], float] | None = None
     """From parameters to the radius [m] at which the speed slides."""
@@ -123,10 +126,10 @@ class Sweep:
 class Model(ABC):
     """A model of the package."""
 
-    key: str  # "washer": on the command line, in sweeps and cards
+    key: str  # "washer": on the command line, in sweeps and verification tables
     wiring: tuple[str, ...] = ()  # sentences for the FMU's page: how to connect it
     command: Command | None = None  # None: it is not solved at operating points
-    ladder: Ladder | None = None  # None: it has no cards
+    ladder: Ladder | None = None  # None: it has no verification tables
 
     @property
     @abstractmethod
@@ -160,22 +163,36 @@ class Model(ABC):
         """Return the point of its command with these inputs of the model."""
         return dict(inputs)
 
-    def doubts(self, _params: Any, _inputs: Mapping[str, float]) -> Iterable[str]:
+    def doubts(self, _params: object, _inputs: Mapping[str, float]) -> Iterable[str]:
         """Return what lies outside the range of a law at inputs of the model, a line each."""
         return ()
 
-    def doubt(self, _result: Any) -> str:
+    def doubt(self, _result: object) -> str:
         """Return a warning that takes a solve of its own, "" if nothing."""
         return ""
 
     def tables(self) -> Tables | None:
-        """Return where one of its rungs looks its answers up; None if all of them solve."""
+        """Return where one of its levels looks its answers up; None if all of them solve."""
         return None
 
-    alone: tuple[str, ...] = ()  # rungs that there are FMUs of their own of
+    scene_of = ""  # "a gear train": what a part file is a scene of that has a table [key]
+
+    def flat(self, where: str, _table: dict[str, Any], _folder: Path | None) -> dict[str, Any]:
+        """Return the table of a part file for that of a scene; ``folder`` of files it names."""
+        raise NotImplementedError(where)
+
+    def own_names(self, _source: str | None) -> Callable[[str], str]:
+        """Return what gives names and texts the words of a part's file or preset."""
+        return str
+
+    def face(self, _params: Any) -> Face | None:
+        """Return the friction faces of a part; None where it has none."""
+        return None
+
+    alone: tuple[str, ...] = ()  # levels that there are FMUs of their own of
 
     def of_one_rung(self, spec: ModelSpec, rung: str) -> ModelSpec:
-        """Return a model of this kind, or a part's, that has nothing but one of its rungs.
+        """Return a model of this kind, or a part's, that has nothing but one of its levels.
 
         ParameterError if there is no such FMU.
         """
@@ -191,5 +208,5 @@ class Model(ABC):
 
     @property
     def fits(self) -> Fits:
-        """What can be fitted beside its outputs."""
+        """What can be fitted in addition to its outputs."""
         return Fits()

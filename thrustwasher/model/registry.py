@@ -2,7 +2,7 @@
 
 A model is a package with its record, ``MODEL`` in the module ``model``, and with compiled code in
 the package ``kernels``, whose head says what of it Python calls (``CALLED``). Nothing is imported
-before it is asked for.
+before it is requested.
 """
 
 from collections.abc import Iterable, Mapping
@@ -20,11 +20,12 @@ MODELS = {
     "transmission": "thrustwasher.transmission",
     "sump": "thrustwasher.sump",
     "losses": "thrustwasher.losses",
+    "train": "thrustwasher.train",
 }
 # Built when named, not with all: parts that only a system of FMUs needs.
 HELPERS = {"command": "thrustwasher.command"}
-# Packages with compiled code that belongs to no model.
-OTHERS = ("thrustwasher.shift.cosim", "thrustwasher.study.realtime")
+# Packages with compiled code that belongs to no model; one from elsewhere adds its name.
+OTHERS = ["thrustwasher.shift.cosim"]
 
 
 def compiled_packages() -> tuple[str, ...]:
@@ -48,7 +49,7 @@ def models_with_points() -> dict[str, Model]:
 
 
 def models_with_cards() -> dict[str, Model]:
-    """Return the models that have a ladder of rungs with cards, by their keys."""
+    """Return the models with verification tables of their fidelity levels, by their keys."""
     return {model.key: model for model in all_models() if model.ladder}
 
 
@@ -63,7 +64,7 @@ def find_model(name: str) -> Model:
     raise _unknown(name)
 
 
-def outside_laws(key: str, params: Any, inputs: Mapping[str, float]) -> Iterable[str]:
+def outside_laws(key: str, params: object, inputs: Mapping[str, float]) -> Iterable[str]:
     """Return which laws of a model inputs are outside of; of one from elsewhere nothing."""
     return find_model(key).doubts(params, inputs) if key in MODELS else ()
 
@@ -92,7 +93,7 @@ def find_spec(name: str) -> ModelSpec:
 def all_specs(*, helpers: bool = False, alone: bool = False) -> list[ModelSpec]:
     """Return the interfaces of all models, in the order they are built.
 
-    ``helpers``: those too; ``alone``: those of one rung too, behind all others.
+    ``helpers``: those too; ``alone``: those of one level too, behind all others.
     """
     models = [*all_models(), *map(find_model, HELPERS if helpers else ())]
     found = [model.spec for model in models]
@@ -108,7 +109,7 @@ def spec_of(name: str) -> ModelSpec:
 
 def _among(models: dict[str, Model], name: str) -> Model:
     if name not in models:
-        why = " (it has no cards)" if name in models_with_points() else ""
+        why = " (it has no verification tables)" if name in models_with_points() else ""
         hint = suggestion(name, models, "; did you mean {!r}?")
         words = " or ".join(map(repr, models))
         raise ParameterError(f"model = {name!r}{why}, allowed: {words}{hint}")
@@ -116,7 +117,7 @@ def _among(models: dict[str, Model], name: str) -> Model:
 
 
 def ladder_of(name: str) -> Ladder:
-    """Return what the choice of a rung knows of a model; errors as in ``spec_of``."""
+    """Return what the choice of a level knows of a model; errors as in ``spec_of``."""
     found = _among(models_with_cards(), name).ladder
     assert found is not None
     return found

@@ -1,16 +1,17 @@
-"""Names of rungs: which a model has, and which one runs in the place of one that is gone."""
+"""Names of levels: which a model has, and which one runs in the place of one that is gone."""
 
 from ..errors import ParameterError
 from .spec import ModelSpec
 
 OFFLINE = (
-    "fidelity = 'reference' is no rung to solve with: it takes long and comes with an uncertainty; "
-    "call thrustwasher.study.reference_{0}.reference_{0}"
+    "fidelity = 'reference' is no fidelity level to solve with: it takes long and comes "
+    "with an uncertainty; "
+    "call thrustwasher.studio.verification.reference_{0}.reference_{0}"
 )
 
 
 def rung_named(spec: ModelSpec, name: str) -> str:
-    """Return the rung that runs under this name; ParameterError if there is none."""
+    """Return the level that runs under this name; ParameterError if there is none."""
     if name == "reference":
         raise ParameterError(OFFLINE.format(spec.key))
     if name not in spec.fidelities:
@@ -20,8 +21,11 @@ def rung_named(spec: ModelSpec, name: str) -> str:
 
 
 def gone_rung(spec: ModelSpec, name: str) -> tuple[str, ...]:
-    """Return the line on a rung that is gone and the one in its place; nothing of others."""
+    """Return the line on a level that is gone and the one in its place; nothing of others."""
     if name not in spec.successors:
         return ()
     better = spec.successors[name]
-    return (f"fidelity = {name!r} is gone: {better!r}, the next better rung, runs in its place",)
+    return (
+        f"fidelity = {name!r} is gone: {better!r}, the next better fidelity level, runs in "
+        f"its place",
+    )

@@ -41,7 +41,7 @@ class Place:
     high: float = math.inf
     """Allowed range [SI]; no matter for a choice."""
     choices: tuple[Any, ...] = ()
-    """Allowed values of a choice (enumeration, Boolean, whole number, rung); else none."""
+    """Allowed values of a choice (enumeration, Boolean, whole number, level); else none."""
     relative: bool = False
     """A difference of temperatures, no absolute temperature."""
 
@@ -195,13 +195,13 @@ class Scatter:
         return [{n: c[row] for n, c in zip(names, columns, strict=True)} for row in range(len(u))]
 
 
-def read_scatter(where: str, table: Mapping[str, Any], places: Mapping[str, Place]) -> Scatter:
+def read_scatter(where: str, table: Mapping[str, object], places: Mapping[str, Place]) -> Scatter:
     """Return what a table ``[scatter]`` says.
 
     Parameters
     ----------
     where : file and table, for messages
-    table : as TOML has it: name -> law, beside them ``correlation``. The name of a place with dots
+    table : as TOML has it: name -> law, next to them ``correlation``. The name of a place with dots
         in it may be written as tables within tables too
     places : what can scatter, by name
 
@@ -232,7 +232,7 @@ def read_scatter(where: str, table: Mapping[str, Any], places: Mapping[str, Plac
 
 
 def _lines(
-    where: str, table: Mapping[str, Any], places: Mapping[str, Place], above: str = ""
+    where: str, table: Mapping[str, object], places: Mapping[str, Place], above: str = ""
 ) -> Iterator[tuple[str, Any]]:
     for key, given in table.items():
         name = above + key
@@ -245,7 +245,7 @@ def _lines(
             raise ParameterError(f"{where}: there is no {name!r} that could scatter{hint}")
 
 
-def _source(place: Place, given: Any) -> Source:
+def _source(place: Place, given: object) -> Source:
     table = given if isinstance(given, Mapping) else {"normal": given}
     kinds = [k for k in table if k in LAWS]
     if len(kinds) != 1 or table.keys() - {*LAWS, "weights", "source"}:
@@ -257,7 +257,7 @@ def _source(place: Place, given: Any) -> Source:
     if not isinstance(reason, str):
         raise ParameterError(f"source = {reason!r}, allowed: a text")
     if "weights" in table and kind != "either":
-        raise ParameterError(f"weights beside {kind}, allowed: beside either")
+        raise ParameterError(f"weights together with {kind}, allowed: with either")
     if bool(place.choices) != (kind == "either"):
         fits = f"{{ either = [..] }} of {place.range_text}"
         fits = fits if place.choices else "normal, lognormal or uniform; it is no choice"
@@ -271,7 +271,7 @@ def _source(place: Place, given: Any) -> Source:
     return Source(place=place, law=law, reason=reason)
 
 
-def _number(value: Any, unit: str, name: str, *, difference: bool) -> float:
+def _number(value: object, unit: str, name: str, *, difference: bool) -> float:
     if isinstance(value, bool) or not isinstance(value, str | int | float):
         raise ParameterError(f"{name} = {value!r}, a number or a text with its unit is required")
     return parse_quantity(value, unit, name, difference=difference)
@@ -291,7 +291,7 @@ def _refuse_share(place: Place, words: str) -> None:
         )
 
 
-def _normal(place: Place, given: Any) -> Law:
+def _normal(place: Place, given: object) -> Law:
     """Return the normal law about the nominal value: a share of it, or a standard deviation."""
     mean, words = float(place.nominal), f"normal = {given!r}"
     is_share = isinstance(given, str) and given.rstrip().endswith("%")
@@ -308,7 +308,7 @@ def _normal(place: Place, given: Any) -> Law:
     return replace(_truncated(place, "normal", mean, spread, text), is_share=is_share)
 
 
-def _lognormal(place: Place, given: Any) -> Law:
+def _lognormal(place: Place, given: object) -> Law:
     """Return the lognormal law whose median is the nominal value."""
     words = f"lognormal = {given!r}"
     factor = _number(given, "1", "lognormal", difference=True)
@@ -332,13 +332,13 @@ def _truncated(place: Place, kind: str, middle: float, spread: float, text: str)
     if end - start < LEAST_LEFT or middle + spread == middle:
         raise ParameterError(
             f"{text}: {'so wide that it is uniform' if end - start < LEAST_LEFT else 'nothing'} "
-            f"beside {place.text(place.nominal)} in {place.range_text}, allowed: a standard "
+            f"compared with {place.text(place.nominal)} in {place.range_text}, allowed: a standard "
             "deviation of that size, or uniform"
         )
     return replace(law, cut=1.0 - (end - start))
 
 
-def _uniform(place: Place, given: Any) -> Law:
+def _uniform(place: Place, given: object) -> Law:
     words = f"uniform = {given!r}"
     if not isinstance(given, Sequence) or isinstance(given, str) or len(given) != 2:
         raise ParameterError(f"{words}, allowed: [low, high]")
@@ -376,7 +376,7 @@ def _either(place: Place, given: Any, weights: Any) -> Law:
     return Law(kind="either", options=tuple(given), weights=shares, text=text)
 
 
-def _choice(place: Place, value: Any) -> Any:
+def _choice(place: Place, value: object) -> Any:
     """Return the allowed value that equals this one and is of its kind; None if there is none."""
     return next((c for c in place.choices if c == value and type(c) is type(value)), None)
 
@@ -386,7 +386,9 @@ def _is_weight(value: Any) -> bool:
     return number and 0.0 < value < LARGEST_WEIGHT
 
 
-def _pairs(where: str, given: Any, sources: Sequence[Source]) -> tuple[tuple[int, int, float], ...]:
+def _pairs(
+    where: str, given: object, sources: Sequence[Source]
+) -> tuple[tuple[int, int, float], ...]:
     """Return the correlations by the places of their sources."""
     scores = {s.place.name: i for i, s in enumerate(sources) if s.law.kind != "either"}
     choices = {s.place.name for s in sources} - scores.keys()

@@ -26,11 +26,11 @@ class Differentiable(AtPoint):
     """Base of results that follow from their parameters quickly and to rounding."""
 
     __slots__ = ()
-    _asked: Asked
+    _request: Asked
 
-    def asked_with(self) -> Asked:
+    def request(self) -> Asked:
         """Return model, parameters and point that it is the solution of."""
-        return self._asked
+        return self._request
 
     def sensitivities(
         self,
@@ -51,24 +51,26 @@ class Differentiable(AtPoint):
         Raises
         ------
         ParameterError : a name is none of them
-        SolveError : beside this point there is no solution
+        SolveError : next to this point there is no solution
 
         Notes
         -----
         At a corner (a law that changes, another place of the path that is hottest) it is the mean
         of both sides. Error: docs/theory/sensitivity.md.
         """
-        return chosen_unit(self._asked.params, per_percent, _differences(self, outputs, parameters))
+        return chosen_unit(
+            self._request.params, per_percent, _differences(self, outputs, parameters)
+        )
 
 
 def varied_parameters(params: Any, wanted: Collection[str] | None) -> list[Varied]:
-    """Return the real parameters, or those of them that are wanted.
+    """Return the real parameters, or those of them that are requested.
 
     Left out are counts, choices, and those whose 0 stands for a value from elsewhere.
 
     Raises
     ------
-    ParameterError : a name that is wanted is none of them
+    ParameterError : a name that is requested is none of them
     """
     found = [
         Varied(f.name, place, value, next(_difference(value, f.metadata)))
@@ -82,11 +84,11 @@ def varied_parameters(params: Any, wanted: Collection[str] | None) -> list[Varie
 
 
 def wanted_outputs(wanted: Collection[str] | None, outputs: Sequence[str]) -> list[str]:
-    """Return the outputs that are wanted, by default all; ParameterError for an unknown one."""
+    """Return the outputs that are requested, by default all; ParameterError for an unknown one."""
     return _chosen("outputs", wanted, outputs)
 
 
-def chosen_unit(params: Any, per_percent: bool, found: Table) -> Table:
+def chosen_unit(params: object, per_percent: bool, found: Table) -> Table:
     """Return derivatives as they are, or as changes for one percent of each parameter."""
     if not per_percent:
         return found
@@ -100,7 +102,7 @@ def _differences(
     result: Any, outputs: Collection[str] | None, parameters: Collection[str] | None
 ) -> Table:
     """Return the derivatives of a result that takes no solve to the end."""
-    solve, (_, params, point) = find_model(result._asked.model).solve, result._asked
+    solve, (_, params, point) = find_model(result._request.model).solve, result._request
     real = [f.name for f in fields(result) if isinstance(getattr(result, f.name), float)]
     names = wanted_outputs(outputs, real)
     found: Table = {name: {} for name in names}

@@ -7,18 +7,20 @@ from enum import Enum
 from typing import Any, ClassVar, NamedTuple
 
 from ..errors import Status
+from ..face_load import LIMITED
 from ..shown import Card, Line, Shown, Tabled, Words, column_lines, plain, public_names, text_of
+from .point import Point
 from .record import Model
 from .registry import find_model
 from .spec import ModelSpec
 
 
 class Asked(NamedTuple):
-    """What a result was asked for with."""
+    """What a result was requested with."""
 
     model: str
     params: Any
-    point: Mapping[str, Any]  # rung included
+    point: Mapping[str, Any]  # level included
 
 
 class AtPoint(Shown):
@@ -27,12 +29,12 @@ class AtPoint(Shown):
     __slots__ = ()
     warnings: tuple[str, ...]
 
-    def asked_with(self) -> Asked:
+    def request(self) -> Asked:
         """Return model, parameters and point that it is the solution of."""
         raise NotImplementedError(type(self).__name__)
 
     def _card(self) -> Card:
-        key, params, point = self.asked_with()
+        key, params, point = self.request()
         model = find_model(key)
         lines = [*point_lines(model, self, point), *_variant_lines(model, self)]
         return Card(
@@ -57,7 +59,12 @@ class OverTime(Tabled):
         }
 
     def _words(self) -> dict[str, Words]:
-        return {**words_of(find_model(self._model).spec), "time": Words("s", "points in time")}
+        loads = {name: Words(*words) for name, words in LIMITED.items()}
+        return {
+            **words_of(find_model(self._model).spec),
+            **loads,
+            "time": Words("s", "points in time"),
+        }
 
     def _card(self) -> Card:
         columns, model = self._columns(), find_model(self._model)
@@ -92,13 +99,13 @@ def without_idle(spec: ModelSpec, columns: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def scalars(result: Any) -> dict[str, Any]:
+def scalars(result: object) -> dict[str, Any]:
     """Return what of ``to_dict()`` is no array, no parameters, and nothing else that is large."""
     shown = ((name, getattr(result, name)) for name in public_names(result))
     return {name: plain(value) for name, value in shown if _is_small(value)}
 
 
-def _is_small(value: Any) -> bool:
+def _is_small(value: object) -> bool:
     if isinstance(value, tuple | list):
         return all(map(_is_small, value))
     if isinstance(value, Mapping):
@@ -119,12 +126,28 @@ def heading(model: Model, params: Any, point: Mapping[str, Any]) -> str:
     return f"{model.command.title.format(**values)} at {where}"
 
 
+def title_of(model: Model, params: Any) -> str:
+    """Return what was solved."""
+    assert model.command is not None
+    values = {f.name: getattr(params, f.name) for f in fields(params)}
+    return model.command.title.format(**values).rstrip(",")
+
+
+def input_lines(model: Model, there: Point) -> Iterator[Line]:
+    """Yield the inputs and where they come from; those that may be left out only where given."""
+    for s in model.inputs():
+        value = there.values.get(s.name)
+        if value is not None and not (s.optional and value == s.start):
+            shown = f"{text_of(value, s.unit)}{_turns(value, s.unit)}"
+            yield Line(s.name, shown, f"input, {there.origin(s.name)}: {s.help}")
+
+
 def _turns(value: float, unit: str) -> str:
     """Return a speed in rpm as well; "" for other quantities."""
     return f" ({value * 30.0 / math.pi:.5g} rpm)" if unit == "rad/s" and value else ""
 
 
-def point_lines(model: Model, result: Any, point: Mapping[str, Any]) -> Iterator[Line]:
+def point_lines(model: Model, result: object, point: Mapping[str, object]) -> Iterator[Line]:
     """Yield all results there are, but inputs and those of variants."""
     command = model.command
     assert command is not None
@@ -141,7 +164,7 @@ def point_lines(model: Model, result: Any, point: Mapping[str, Any]) -> Iterator
             yield Line(name, "not known", words)
 
 
-def _variant_lines(model: Model, result: Any) -> Iterator[Line]:
+def _variant_lines(model: Model, result: object) -> Iterator[Line]:
     """Yield the results of variants, as far as there are any."""
     variants = model.command.variants if model.command else None
     for row in variants.rows if variants else ():

@@ -78,7 +78,7 @@ class Signal:
         return -math.inf if low is None else low, math.inf if high is None else high
 
 
-def no_outputs(_params: Any) -> frozenset[str]:
+def no_outputs(_params: object) -> frozenset[str]:
     """Return the outputs without a value of a model that has a value of all."""
     return frozenset()
 
@@ -120,7 +120,7 @@ class Terminal:
 
 
 class Tables(NamedTuple):
-    """Files of solutions made beforehand, in which one of a model's rungs looks its answers up.
+    """Files of solutions made beforehand, in which one of a model's levels looks its answers up.
 
     A file has a ``path``, its ``data`` as the kernel takes them, and a ``card``.
     """
@@ -146,7 +146,7 @@ class ModelSpec:
     name: str  # "ThrustWasher": FMU model name
     help: str  # one sentence
     params: type[Any]  # the parameter dataclass
-    fidelities: dict[str, str]  # rung -> one sentence, in the order of the enumeration, from 1
+    fidelities: dict[str, str]  # level -> one sentence, in the order of the enumeration, from 1
     default_fidelity: str
     inputs: tuple[Signal, ...]
     outputs: tuple[Signal, ...]  # real outputs fill `out` in order, all others `iout`
@@ -164,7 +164,7 @@ class ModelSpec:
     the output's help names."""
     scatter: Mapping[str, Any] = field(default_factory=dict)
     """How parameters and inputs scatter with the default parameters: a table ``[scatter]``."""
-    # Of a part of one's own: the name of the model, the inputs it is meant for, what else is known.
+    # Of your own part: the name of the model, the inputs it is meant for, what else is known.
     kind: str = ""
     box: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     notes: str = ""

@@ -50,7 +50,7 @@ def parse(where: str, text: str) -> dict[str, Any]:
         raise ParameterError(f"{where}: not valid TOML ({problem})") from None
 
 
-def _strange(value: Any) -> str:
+def _strange(value: object) -> str:
     """Return all characters in keys and texts that XML 1.0 does not know."""
     if isinstance(value, dict):
         return "".join(_strange(k) + _strange(x) for k, x in value.items())
@@ -71,12 +71,12 @@ def _line_of_strange(text: str, n: int) -> int:
 
 
 def table_beside(module: str, name: str) -> dict[str, Any]:
-    """Return the TOML table that lies beside a module, which is given by its ``__file__``."""
+    """Return the TOML table that lies next to a module, which is given by its ``__file__``."""
     return read_file("table", Path(module).with_name(name))
 
 
 @cache
-def _anatomy(kind: Any) -> tuple[Any, tuple[Any, ...], dict[str, Any]]:
+def _anatomy(kind: object) -> tuple[Any, tuple[Any, ...], dict[str, Any]]:
     """Return the parts of an annotation: its origin, arguments, and fields if a dataclass."""
     fields = get_type_hints(kind) if is_dataclass(kind) else {}
     return get_origin(kind), get_args(kind), fields
@@ -102,9 +102,9 @@ def from_plain(kind: Any, raw: Any) -> Any:
 def spec_beside(
     module: str, params: type[Any], rules: tuple[Rule, ...] = (), **more: Any
 ) -> ModelSpec:
-    """Return what a model shows to the outside, of the ``interface.toml`` beside a module.
+    """Return what a model shows to the outside, of the ``interface.toml`` next to a module.
 
-    A row of an input is its unit, least, largest, nominal and start value, meaning; one of an
+    A row of an input is its unit, minimum, maximum, nominal and start value, meaning; one of an
     output its unit, nominal value if it is a real number, meaning. Other fields of its ``Signal``
     may follow; an output depends on all inputs unless these say otherwise. ``more`` are fields of
     the ``ModelSpec`` that are no data.
@@ -135,7 +135,7 @@ def key_text(key: str) -> str:
     return key if bare.isascii() and bare.isalnum() else json.dumps(key)
 
 
-def value_text(value: Any) -> str:
+def value_text(value: object) -> str:
     """Return a value as TOML has it on one line: a text, number, Boolean, list or table of them."""
     if isinstance(value, Mapping):
         parts = (f"{key_text(k)} = {value_text(v)}" for k, v in value.items())
@@ -159,7 +159,7 @@ def nothing_else(where: str, keys: Iterable[str], known: Collection[str]) -> Non
             raise unknown(where, key, known)
 
 
-def quantity(where: str, key: str, value: Any, unit: str) -> float:
+def quantity(where: str, key: str, value: object, unit: str) -> float:
     """Return a number in SI units."""
     if isinstance(value, bool) or not isinstance(value, str | int | float):
         raise ParameterError(f"{where}: {key} = {value!r}, a number in {unit} is required")
@@ -167,8 +167,8 @@ def quantity(where: str, key: str, value: Any, unit: str) -> float:
         return parse_quantity(value, unit, key)
 
 
-def number(where: str, key: str, value: Any, rule: tuple[str, float, float]) -> float:
-    """Return a number in SI units within its range; ``rule``: unit, least, largest."""
+def number(where: str, key: str, value: object, rule: tuple[str, float, float]) -> float:
+    """Return a number in SI units within its range; ``rule``: unit, minimum, maximum."""
     unit, low, high = rule
     found = quantity(where, key, value, unit)
     with within(where):

@@ -14,7 +14,7 @@ Pairs = list[tuple[str, Any]]
 def unread(params: Any, name: str, fidelity: str = "") -> Pairs:
     """Return the pairs that would let a parameter be read; none if it is read.
 
-    ``fidelity``: the rung, "" if it is not known.
+    ``fidelity``: the level, "" if it is not known.
     """
     known = type(params).__dataclass_fields__
     metadata = {n: f.metadata for n, f in known.items() if "read_by" in f.metadata}
@@ -23,7 +23,7 @@ def unread(params: Any, name: str, fidelity: str = "") -> Pairs:
     return _roots(metadata, params, name)
 
 
-def _is_read(metadata: Mapping[str, Any], params: Any, name: str, fidelity: str) -> bool:
+def _is_read(metadata: Mapping[str, Any], params: object, name: str, fidelity: str) -> bool:
     """Tell if a parameter is read; one without such metadata always is."""
     if name not in metadata:
         return True
@@ -34,7 +34,7 @@ def _is_read(metadata: Mapping[str, Any], params: Any, name: str, fidelity: str)
     )
 
 
-def _roots(metadata: Mapping[str, Any], params: Any, name: str) -> Pairs:
+def _roots(metadata: Mapping[str, Any], params: object, name: str) -> Pairs:
     """Return the pairs that would read a parameter; for one that holds in vain those of its own."""
     found: Pairs = []
     for by, value in metadata[name]["read_by"]:
@@ -43,11 +43,11 @@ def _roots(metadata: Mapping[str, Any], params: Any, name: str) -> Pairs:
     return [(by, value) for by, value in found if by != name]
 
 
-def _value(params: Any, by: str, fidelity: str) -> Any:
+def _value(params: object, by: str, fidelity: str) -> Any:
     return fidelity if by == "fidelity" else getattr(params, by)
 
 
-def why_unread(params: Any, pairs: Iterable[tuple[str, Any]], fidelity: str = "") -> str:
+def why_unread(params: object, pairs: Iterable[tuple[str, object]], fidelity: str = "") -> str:
     """Say what would read a parameter, and what there is instead."""
     required: dict[str, list[str]] = {}
     for by, value in pairs:

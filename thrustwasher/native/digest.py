@@ -17,7 +17,7 @@ from .entries import called, called_modules
 PACKAGE = __name__.partition(".")[0]
 HERE = Path(__file__).parent
 # How code is made: another number where an edit of emit, lean, lower or of the decorator's options
-# changes what comes out. `python ship.py --check` finds a forgotten one.
+# changes what comes out. `python -m lab.ship --check` finds a forgotten one.
 RECIPE = 2
 MAKERS = ("entries.py", "targets.py")  # what is compiled, and how hard the compiler works
 # Modules that kernels import and that are no part of what is compiled.

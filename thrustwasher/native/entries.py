@@ -142,7 +142,7 @@ def describe(function: Any, two: Sequence[str]) -> Entry:
     return Entry(symbol_of(module, name), function, takes, returns, is_tuple)
 
 
-def _kind(hint: Any, ndim: int) -> Kind:
+def _kind(hint: object, ndim: int) -> Kind:
     """Return the kind of an annotation."""
     if hint in (float, int, bool):
         return Kind(hint.__name__)

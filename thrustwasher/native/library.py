@@ -10,23 +10,25 @@ from typing import Any
 
 from ..errors import EnvironmentProblem
 from . import binaries, files, link, mathematics, shipped
-from .digest import HERE
+from .digest import HERE, read
 from .entries import Kind, entries, symbols
 from .files import Note, to_stderr
+from .kept import forget_old, kept_folder
 from .link import this_level, this_platform
-from .objects import Objects, kept_folder, objects
 from .targets import WEB, Platform
 
 TABLE = "tw_table"  # the one function a library shows: the addresses of the others, in their order
 Addresses = dict[str, int]  # symbol -> address
+Objects = Mapping[tuple[str, str], bytes]  # (platform, level) -> object file
 _failed: dict[str, EnvironmentProblem] = {}  # what cannot be had is not tried at every call
 
 
 def addresses(kernel: str) -> Addresses:
     """Return where the functions of a kernel module are, after loading its library.
 
-    It is the one shipped with the package, else one kept from an earlier run, else it is linked;
-    where nothing can link, the object is loaded by llvmlite. EnvironmentProblem: none of it works.
+    It is one kept from an earlier run, else the one shipped, which is that of the model's FMUs,
+    else it is linked; where nothing can link, or nothing that is kept may run, the object is loaded
+    by llvmlite. EnvironmentProblem: none of it works.
     """
     if kernel in _failed:
         raise _failed[kernel]
@@ -40,56 +42,82 @@ def addresses(kernel: str) -> Addresses:
 @cache
 def _found(kernel: str) -> Addresses:
     platform = this_platform()
-    shown = shipped.library_file(kernel, platform.name)
-    if shown and (found := _loaded(kernel, shown)):
-        return found
-    kept = _kept_file(kernel, platform)
+    try:
+        kept = _kept_file(kernel, platform)
+    except OSError:  # nothing can be written, not even for a while
+        return _by_llvm(kernel, platform)
     if files.kept(kept) is not None and (found := _loaded(kernel, kept)):
         return found
-    return _made(kernel, platform, kept)
+    own = shipped.library(kernel, platform.name)
+    if own is None:
+        return _made(kernel, kept)
+    return _placed(kernel, kept, own) or _by_llvm(kernel, platform)
 
 
 def _kept_file(kernel: str, platform: Platform) -> Path:
-    name = f"{shipped.short(kernel)}-{mathematics.digest()}.{platform.extension}"
-    return kept_folder(kernel) / name
+    name = f"{shipped.short(kernel)}-{platform.name}-{mathematics.digest()}"
+    return kept_folder(kernel) / f"{name}.{platform.extension}"
 
 
-def _made(kernel: str, platform: Platform, path: Path) -> Addresses:
+def local_platform(kernel: str) -> Platform:
+    """Return this machine's platform, with its processor's level alone where nothing is shipped."""
+    platform = this_platform()
+    is_whole = shipped.has_objects(kernel) or len(platform.levels) == 1
+    return platform if is_whole else replace(platform, levels=(this_level(platform),))
+
+
+def _made(kernel: str, path: Path) -> Addresses:
     """Link a library and load it."""
-    one = platform
-    if len(platform.levels) > 1 and not shipped.has_objects(kernel):  # for this processor alone
-        one = replace(platform, levels=(this_level(platform),))
-    code = objects(kernel, [one])
+    one = local_platform(kernel)
+    code = _objects(kernel, one)
     try:
         data = linked_library(kernel, one, code, linker=link.local_linker())
     except EnvironmentProblem:
-        return _by_llvm(kernel, platform, code)
+        return _by_llvm(kernel, one)
+    return _placed(kernel, path, data) or _by_llvm(kernel, one)
+
+
+def _objects(kernel: str, platform: Platform) -> Objects:
+    """Return the objects of a kernel module: shipped, kept or compiled now."""
+    from .compiling.objects import objects  # no run that finds a library needs it
+
+    return objects(kernel, [platform])
+
+
+def _placed(kernel: str, path: Path, data: bytes) -> Addresses:
+    """Return the addresses in a library after keeping it; none if no folder lets it be loaded."""
+    forget_old(kernel, files.code_folder())
     for place in (path, files.private_folder() / path.name):
         try:
             files.keep(place, data)
         except OSError as error:
-            to_stderr(f"{place} is not kept: {error.strerror or error}")
-            continue
+            if files.kept(place) is None:  # nor has another process just written it
+                to_stderr(f"{place} is not kept: {error.strerror or error}")
+                continue
         if found := _loaded(kernel, place):
             return found
-    return _by_llvm(kernel, platform, code)
+    return {}
 
 
 def linked_library(
     kernel: str, platform: Platform, code: Objects, linker: link.Linker | None = None
 ) -> bytes:
-    """Return the objects of a kernel module linked to a library for Python, checked."""
+    """Return the objects of a kernel module linked to a library for Python alone, checked."""
+    parts, name = table_sources(kernel), shipped.short(kernel)
+    return linked_objects(parts, code, platform, name, [TABLE], linker=linker)
+
+
+def table_sources(kernel: str) -> dict[str, bytes]:
+    """Return the C files that make a library show what Python calls; for FMUs' libraries too."""
     names = " ".join(f"X({name})" for name in symbols(kernel))
-    parts: dict[str, str | bytes] = {"symbols.h": f"#define SYMBOLS(X) {names}\n"}
-    for name in ("cpu.h", "library.c"):
-        parts[name] = (HERE / "c" / name).read_bytes()
-    return linked_objects(parts, code, platform, shipped.short(kernel), [TABLE], linker=linker)
+    own = {name: read(HERE / "c" / name) for name in ("cpu.h", "library.c")}
+    return own | {"symbols.h": f"#define SYMBOLS(X) {names}\n".encode()}
 
 
 def web_module(kernel: str) -> bytes:
     """Return the module of a kernel module for browsers: the one shipped, else linked now."""
-    shown = shipped.library_file(kernel, WEB.name)
-    return shown.read_bytes() if shown else linked_library(kernel, WEB, objects(kernel, [WEB]))
+    shown = shipped.web_file(kernel)
+    return shown.read_bytes() if shown else linked_library(kernel, WEB, _objects(kernel, WEB))
 
 
 def web_functions(kernel: str, names: Iterable[str]) -> dict[str, dict[str, Any]]:
@@ -155,11 +183,11 @@ def _loaded(kernel: str, path: Path) -> Addresses:
 _engines: list[Any] = []  # what has been loaded by llvmlite lives as long as the process
 
 
-def _by_llvm(kernel: str, platform: Platform, code: Objects) -> Addresses:
+def _by_llvm(kernel: str, platform: Platform) -> Addresses:
     """Return the addresses in an object file loaded by llvmlite."""
     import llvmlite.binding as llvm
 
-    level = this_level(platform).name
+    code, level = _objects(kernel, platform), this_level(platform).name
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
     machine = llvm.Target.from_default_triple().create_target_machine(jit=True)
@@ -181,6 +209,4 @@ def is_ready(kernel: str) -> bool:
         platform = this_platform()
     except EnvironmentProblem:
         return False
-    if shipped.library_file(kernel, platform.name) or shipped.has_objects(kernel):
-        return True
-    return files.kept(_kept_file(kernel, platform)) is not None
+    return shipped.has_objects(kernel) or files.kept(_kept_file(kernel, platform)) is not None

@@ -23,7 +23,7 @@ _result = ctypes.c_int32()  # always 0: what comes back stands in the block
 class Unfit(TypeError):
     """An argument is no array of the kind that the compiled function takes."""
 
-    def __init__(self, item: Any, ndim: int) -> None:
+    def __init__(self, item: object, ndim: int) -> None:
         super().__init__(f"a contiguous array of {item} with {ndim} dimensions is required")
 
 
@@ -59,7 +59,7 @@ def _has_platform() -> bool:
     return True
 
 
-def address(array: Any, item: Any, ndim: int) -> int:
+def address(array: object, item: object, ndim: int) -> int:
     """Return where an array's numbers lie; Unfit if it is not contiguous, or of another kind."""
     if type(array) is not np.ndarray or array.ndim != ndim or array.dtype != item:
         raise Unfit(item, ndim)
@@ -109,7 +109,7 @@ def _place_of(function: Callable[..., Any]) -> int | None:
 
 
 def python_function(
-    entry: Entry, place: int, fixed: Mapping[str, Any] | None = None
+    entry: Entry, place: int, fixed: Mapping[str, object] | None = None
 ) -> Callable[..., Any]:
     """Return the function at an address as one with the arguments of the kernel.
 

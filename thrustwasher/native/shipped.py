@@ -3,7 +3,8 @@
 ``index.json`` lists for each kernel module the sources it was made from, their digest, and the
 files with their checksums. A source that differs, or a file that is not as listed, and it is as if
 nothing had been shipped: what is needed is compiled again. An archive holds a module's objects and
-the libraries for FMUs that were linked with them: they have most in common, which is stored once.
+the libraries that were linked with them, those of the FMUs, which Python loads too: they have most
+in common, which is stored once. Beside the archives lie modules for browsers.
 """
 
 import io
@@ -16,11 +17,11 @@ from typing import Any
 
 from . import mathematics
 from .digest import HERE, PACKAGE, digest, digest_of, read
-from .files import checksum
+from .files import checksum, to_stderr
 
 FOLDER = HERE.parent / "data" / "native"
 INDEX = "index.json"
-FMU = "fmu/"  # in an archive, before the platforms of libraries for FMUs
+LIBRARY = "library/"  # in an archive, before the platforms of libraries
 
 
 @cache
@@ -59,22 +60,29 @@ def _file(module: str) -> Path:
     return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
 
 
-def _listed(kernel: str, *place: str) -> Path | None:
+def _listed(kernel: str, part: str) -> Path | None:
     """Return a listed file if it is fresh and as it was when it was listed."""
-    about: Any = record(kernel)
     try:
-        for key in place:
-            about = about[key]
+        about = (record(kernel) or {})[part]
         path = FOLDER / about["file"]
         return path if checksum(path.read_bytes()) == about["sha256"] else None
     except (OSError, KeyError, TypeError):
         return None
 
 
-def library_file(kernel: str, platform: str) -> Path | None:
-    """Return the shipped library of a kernel module for Python, None if there is none to use."""
-    made_of = (record(kernel) or {}).get("mathematics")
-    return _listed(kernel, "libraries", platform) if made_of == mathematics.digest() else None
+def web_file(kernel: str) -> Path | None:
+    """Return the shipped module of a kernel module for browsers, None if there is none to use."""
+    return _listed(kernel, "web") if _has_mathematics(kernel) else None
+
+
+def library(kernel: str, platform: str) -> bytes | None:
+    """Return the shipped library that Python loads, a model's is that of its FMUs; else None."""
+    return _archive(kernel).get(LIBRARY + platform) if _has_mathematics(kernel) else None
+
+
+def _has_mathematics(kernel: str) -> bool:
+    """Tell if what is linked has the mathematical functions of now."""
+    return (record(kernel) or {}).get("mathematics") == mathematics.digest()
 
 
 def has_objects(kernel: str) -> bool:
@@ -87,13 +95,17 @@ def _archive(kernel: str) -> Mapping[str, bytes]:
     path = _listed(kernel, "objects")
     try:
         return unpack(path.read_bytes()) if path else {}
-    except (OSError, tarfile.TarError):  # also where this Python was built without lzma
-        return {}
+    except tarfile.CompressionError:
+        to_stderr(f"this Python was built without lzma: {short(kernel)} is compiled once instead")
+    except (OSError, tarfile.TarError):
+        pass
+    return {}
 
 
 def objects_of(kernel: str) -> dict[tuple[str, str], bytes]:
     """Return (platform, level) -> object file of a kernel module; empty if none can be used."""
-    return objects_in(_archive(kernel))
+    found = {n.removesuffix(".o"): data for n, data in _archive(kernel).items() if n.endswith(".o")}
+    return {(n.rpartition("-")[0], n.rpartition("-")[2]): data for n, data in found.items()}
 
 
 def is_linked(kernel: str, digest: str) -> bool:
@@ -104,7 +116,7 @@ def is_linked(kernel: str, digest: str) -> bool:
 def fmu_libraries(kernel: str, digest: str) -> dict[str, bytes]:
     """Return platform -> library for FMUs of a kernel module; empty if none can be used."""
     found = _archive(kernel) if is_linked(kernel, digest) else {}
-    return {n.removeprefix(FMU): data for n, data in found.items() if n.startswith(FMU)}
+    return {n.removeprefix(LIBRARY): data for n, data in found.items() if n.startswith(LIBRARY)}
 
 
 def portable(kernel: str, made_of: str) -> dict[str, bytes]:
@@ -120,22 +132,9 @@ def portable(kernel: str, made_of: str) -> dict[str, bytes]:
 
 def unpack(data: bytes) -> dict[str, bytes]:
     """Return the files in an archive."""
-    with tarfile.open(fileobj=io.BytesIO(data)) as archive:
+    with tarfile.open(fileobj=io.BytesIO(data), mode="r:xz") as archive:
         members = [(about.name, archive.extractfile(about)) for about in archive]
         return {name: file.read() for name, file in members if file}
-
-
-def objects_in(archive: Mapping[str, bytes]) -> dict[tuple[str, str], bytes]:
-    """Return the objects in an unpacked archive."""
-    names = [name for name in archive if name.endswith(".o")]
-    parts = {name: name.removesuffix(".o").rpartition("-") for name in names}
-    return {(p[0], p[2]): archive[name] for name, p in parts.items()}
-
-
-def read_again() -> None:
-    """Forget what was read: the files have changed."""
-    for read_once in (index, record, _archive):
-        read_once.cache_clear()
 
 
 def short(kernel: str) -> str:

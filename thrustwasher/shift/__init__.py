@@ -1,19 +1,23 @@
 """A gear shift: parts that run together through FMI.
 
 ==================  =========================================================================
+``account``         what is said of a finished shift: its record, sentences, warnings
 ``checks``          what a finished run is worth: its step, its steady washers
 ``cosim``           connected instances and the loop over communication points
 ``from_fmus``       a scene run from FMUs of its own: built, freed
 ``key_figures``     what is read from the signals of a finished shift
 ``masters``         co-simulation masters
 ``oscillation``     oscillations, and whether they are the driveline's or the master's
-``run``             run a shift: connect the instances, step them to the end, read the result
+``run``             living instances of a scene: connect, step to the end, read the result
 ``scene``           what is simulated
 ``several_shifts``  several shifts in one run, with long steps between them
 ``shift_result``    what a run leaves: time series, events, key figures, cost
 ``steady_points``   efficiency and losses in a gear, nothing accelerating
 ``ssp``             a shift as an SSP 1.0 package, for any SSP master
-``tolerance``       a shift with the cheapest rungs that hold a tolerance
+``warning_texts``   texts of a shift's warnings by key, for Python and for pages
+``whole_shift``     a shift from its scene alone
+``tolerance``       a shift with the cheapest levels that hold a tolerance
+``sequence_rows``   what a run of several shifts keeps of its points
 ==================  =========================================================================
 """
 
@@ -23,22 +27,24 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .key_figures.events_and_phases import Event, Phase
     from .key_figures.figure_list import FIGURES, KeyFigure
-    from .run import run_shift
+    from .run import cosimulate
     from .scene.scene import Part, Published, Scene, with_fidelities
     from .scene.scene_file import builtin_scenes, load_scene
     from .several_shifts import SequenceResult, run_sequence
     from .shift_result import Cost, ShiftResult
     from .tolerance.run_to_tolerance import run_auto
+    from .whole_shift import run_shift
 
 _HOMES = {
     "key_figures.events_and_phases": ("Event", "Phase"),
     "key_figures.figure_list": ("FIGURES", "KeyFigure"),
-    "run": ("run_shift",),
+    "run": ("cosimulate",),
     "scene.scene": ("Part", "Published", "Scene", "with_fidelities"),
     "scene.scene_file": ("builtin_scenes", "load_scene"),
     "several_shifts": ("SequenceResult", "run_sequence"),
     "shift_result": ("Cost", "ShiftResult"),
     "tolerance.run_to_tolerance": ("run_auto",),
+    "whole_shift": ("run_shift",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
@@ -53,6 +59,7 @@ __all__ = [
     "SequenceResult",
     "ShiftResult",
     "builtin_scenes",
+    "cosimulate",
     "load_scene",
     "run_auto",
     "run_sequence",

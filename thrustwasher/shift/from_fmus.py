@@ -30,7 +30,8 @@ def check_rungs(scene: Scene, where: str = "with [sequence]") -> None:
     """Refuse a fidelity that is still to be chosen."""
     if open_ := [name for name, part in scene.parts.items() if part.tolerance]:
         raise ParameterError(
-            f"fidelity of {', '.join(open_)} = auto, allowed {where}: a rung by name, as in "
+            f"fidelity of {', '.join(open_)} = auto, allowed {where}: a fidelity level by "
+            f"name, as in "
             f"{open_[0]}={scene.parts[open_[0]].spec.default_fidelity}"
         )
 

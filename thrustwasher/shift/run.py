@@ -28,7 +28,7 @@ Progress = Callable[[int, int], None]
 INTERVAL = 0.02  # s between two looks at the progress, at least
 
 
-def run_shift(
+def cosimulate(
     scene: Scene,
     instances: Mapping[str, Stepping],
     *,
@@ -91,13 +91,13 @@ def run_shift(
         return result
     from .checks.guard import guarded, reset
 
-    return guarded(result, reset(instances), partial(run_shift, compiled=compiled))
+    return guarded(result, reset(instances), partial(cosimulate, compiled=compiled))
 
 
 def laid_out(scene: Scene, system: System, messages: list[str]) -> Run:
     """Return times, commands, schedule and rows of a run; say it if the step had to be adapted."""
     span = scene.stop_time - scene.start_time
-    n = max(1, ceil(span / scene.step - 1e-9))  # none is longer than asked for
+    n = max(1, ceil(span / scene.step - 1e-9))  # none is longer than requested
     h = span / n
     if abs(h / scene.step - 1.0) > 1e-9:
         messages.append(f"the step is {h:.9g} s so that {n} steps end at the stop time")

@@ -15,6 +15,7 @@ from ..errors import ParameterError, SolveError
 from ..shown import Card, Line, Tabled, Words, plain_dict
 from ..transmission.parameters import course_points
 from ..units import format_quantity
+from .account.summary import warnings_of
 from .checks.guard import REMEDY, followed_washers
 from .checks.step_error import by_step, parts_of_a_step, recorded_parts
 from .checks.step_estimate import StepError, excess
@@ -65,8 +66,6 @@ class SequenceResult(Tabled):
     @property
     def warnings(self) -> tuple[str, ...]:
         """What must not be missed, a line each; of shifts alike, that of the first."""
-        from ..report.shift.summary import warnings_of
-
         return tuple(warnings_of(self))
 
     @property
@@ -147,7 +146,7 @@ def run_sequence(
 ) -> SequenceResult:
     """Simulate all shifts of a scene's ``[sequence]`` with living instances.
 
-    Instances, ``progress`` and errors are those of ``run_shift``; ParameterError also with another
+    Instances, ``progress`` and errors are those of ``cosimulate``; ParameterError also with another
     master than gauss-seidel, whose torques are not bound to a constant step. ``guard``: check the
     run afterwards; the first and the longest shift run once more from where they began, with
     shorter steps, and washers that were taken as steady are followed in time. ``keep``: "all"

@@ -11,9 +11,11 @@ from numpy.typing import NDArray
 from ..errors import ParameterError
 from ..shown import Card, Line, Tabled, Words, plain_dict
 from ..storage.whole_files import whole_file
+from .account.shift_record import record_of
+from .account.summary import sentences, warnings_of
 from .checks.step_estimate import StepError
 from .key_figures.events_and_phases import Event, Phase
-from .key_figures.figure_list import KeyFigure
+from .key_figures.figure_list import Figures, KeyFigure
 from .oscillation.chatter import Chatter
 from .oscillation.judder import Judder
 from .scene.connections import PARTS
@@ -68,12 +70,13 @@ class ShiftResult(Tabled):
     in_time: Mapping[str, Any] = field(default_factory=dict)
     """Washers taken as steady in the run, followed in time: ``InTime`` by the part's name."""
     guard: CheckRecord | None = None
-    """How the chosen rungs were checked afterwards, and what was run again; None: they were not."""
+    """How the chosen levels were checked afterwards, and what was run again; None: they were
+    not."""
     judder: Judder | None = None
     """How the output shaft swings while a pack slips; None: it is rigid or does not swing."""
     chatter: Sequence[Chatter] = ()  # Packs whose slip flips from step to step
     selection: Selection | None = None
-    """Why the rungs are what they are, if they were chosen for a tolerance."""
+    """Why the levels are what they are, if they were chosen for a tolerance."""
     said: tuple[str, ...] | None = None
     """The warnings of a shift whose signals were not kept; None: they are read from these."""
     scatter: Any = field(default=None, repr=False)
@@ -87,7 +90,7 @@ class ShiftResult(Tabled):
     @property
     def figures(self) -> dict[str, float | None]:
         """The key figures by name, SI units; None where there is no such thing."""
-        return {figure.name: figure.value for figure in self.key_figures}
+        return Figures({figure.name: figure.value for figure in self.key_figures})
 
     @property
     def known_bands(self) -> dict[str, KnownBand]:
@@ -97,12 +100,10 @@ class ShiftResult(Tabled):
     @property
     def warnings(self) -> tuple[str, ...]:
         """What must not be missed, a line each: doubts about the figures, then faults they show."""
-        from ..report.shift.summary import warnings_of
-
         return tuple(warnings_of(self)) if self.said is None else self.said
 
     def comparison(self) -> list[dict[str, Any]]:
-        """Return what the scene's source says beside this run: one entry per key figure."""
+        """Return the source's values for comparison with this run: one entry per key figure."""
         published = self.scene.published
         if published is None:
             return []
@@ -169,9 +170,6 @@ class ShiftResult(Tabled):
         return {"time": Words("s"), **{name: Words(unit) for name, unit in self.units().items()}}
 
     def _card(self) -> Card:
-        from ..report.shift.shift_record import record_of
-        from ..report.shift.summary import sentences
-
         record = record_of(self, self.scatter)
         lines = []
         for figure in record.key_figures:

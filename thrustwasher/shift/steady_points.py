@@ -9,9 +9,12 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError, SolveError
 from ..fmu.running.direct_instance import DirectInstance
+from ..model.advice import of_whole_map
 from ..model.parameters import check_number
+from ..numerics.power_flow import power_flow
 from ..shown import Card, Tabled, Words, column_lines, plain_dict
-from .checks.steady_doubts import capacity, doubts_of_point, of_whole_map
+from ..units import format_quantity
+from .checks.steady_doubts import capacity, doubts_of_point
 from .cosim.system import System
 from .run import connected, remarks
 from .scene.connections import PACKS
@@ -24,21 +27,24 @@ COLUMNS = {
     "speed": ("rad/s", "of the input"),
     "output_torque": ("N.m", "what is left at the output"),
     "output_speed": ("rad/s", "of the output"),
-    "efficiency": ("1", "power out over power in; none where no power comes out"),
+    "efficiency": (
+        "1",
+        "power out over power in, whichever shaft drives; or none",
+    ),
     "loss": ("W", "power in less power out"),
     "mesh_loss": ("W", "tooth friction of all meshes"),
     "washer_loss": ("W", "all thrust washers of the planets"),
     "thrust_bearing_loss": ("W", "thrust bearings of sun and ring"),
     "pack_loss": ("W", "drag of the open pack, its film at its clearance"),
     "pump_loss": ("W", "oil pump"),
-    "churning_loss": ("W", "gears that dip into the oil"),
+    "churning_loss": ("W", "churning gears into the oil"),
     "rolling_loss": ("W", "main bearings and the planets' needles"),
     "seal_loss": ("W", "shaft seals"),
     "warnings": ("1", "how many there are at this point; `doubts` has their words"),
 }
 SOURCES = tuple(name for name in COLUMNS if name.endswith("_loss"))
 OF_LOSSES = {"pump": "pump", "churning": "churning", "rolling": "bearing", "seal": "seal"}
-RANGES = {"torque": ("N.m", 0.0, 1e5), "speed": ("rad/s", 1.0, 5e3)}
+RANGES = {"torque": ("N.m", -1e5, 1e5), "speed": ("rad/s", -5e3, 5e3)}
 FORCE = 1e6  # N: the pack that holds does hold, its capacity is no matter here
 SWEEPS, SETTLED = 60, 1e-13  # of the torque
 
@@ -52,6 +58,8 @@ class EfficiencyMap(Tabled):
     columns: Mapping[str, NDArray[np.float64]]
     doubts: tuple[tuple[str, ...], ...]
     """What a reader must not miss at each point, a line each."""
+    flow: tuple[str, ...] = ()
+    """Which way power runs at each point, or why not: ``numerics.power_flow``."""
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -66,7 +74,7 @@ class EfficiencyMap(Tabled):
 
     def to_dict(self) -> dict[str, Any]:
         """Return scene, gear, columns, balance and warnings as JSON can hold them, SI units."""
-        names = ("gear", "columns", "doubts", "balance", "warnings")
+        names = ("gear", "columns", "flow", "doubts", "balance", "warnings")
         own = {name: getattr(self, name) for name in names}
         return plain_dict({"scene": self.scene.name, **own})
 
@@ -81,12 +89,19 @@ class EfficiencyMap(Tabled):
         return Card(title, column_lines(self.columns, self._words()), (), self.warnings)
 
     @property
+    def heading(self) -> str:
+        """A line over its picture."""
+        oil = format_quantity(self.scene.oil_temperature, "K")
+        return f"{self.scene.title}, {self.gear} gear, oil {oil}"
+
+    @property
     def balance(self) -> float:
         """Largest part of the power in that power out and losses do not account for."""
         c = self.columns
         power = c["torque"] * c["speed"]
         out = c["output_torque"] * c["output_speed"] + sum(c[name] for name in SOURCES)
-        return float(np.max(np.abs(power - out) / np.maximum(power, c["loss"])))
+        most = np.maximum(np.maximum(np.abs(power), c["loss"]), np.finfo(float).tiny)
+        return float(np.max(np.abs(power - out) / most))
 
 
 def efficiency_map(
@@ -101,9 +116,9 @@ def efficiency_map(
 
     Parameters
     ----------
-    scene : its gearbox with all parts; courses of engine and pressures do not count
-    torque : at the input [N m], 0 .. 1e5
-    speed : of the input [rad/s], 1 .. 5000
+    scene : its gearbox with all parts; profiles of engine and pressures do not count
+    torque : at the input [N m], -1e5 .. 1e5; against the speed the output drives (coasting)
+    speed : of the input [rad/s], -5000 .. 5000
     gear : "first", the brake holds, or "second", the clutch holds
     progress : called with points done and in all
 
@@ -118,7 +133,8 @@ def efficiency_map(
     washers and teeth are as warm as the point keeps them, oil has the scene's temperature, the pack
     that is open has its start's film. ``doubts`` says of each point what must not be missed:
     torque beyond the capacity of the pack that holds, safeties below 1, bodies above 150 degC,
-    laws outside their ranges.
+    laws outside their ranges. ``flow`` says which shaft drives, efficiency is NaN where none does
+    alone.
     """
     if gear not in GEARS:
         raise ParameterError(f"gear = {gear!r}, allowed: {', '.join(map(repr, GEARS))}")
@@ -126,7 +142,7 @@ def efficiency_map(
     speeds = [check_number("speed", x, *RANGES["speed"]) for x in speed]
     if not torques or not speeds:
         raise ParameterError("torque, speed: one value of each is required")
-    rows, doubts, holding = [], [], GEARS[gear]
+    rows, doubts, flow, holding = [], [], [], GEARS[gear]
     most = capacity(scene, holding)
     parts = {
         name: _steady(name, part, GEARS[gear])
@@ -152,6 +168,9 @@ def efficiency_map(
         begun = True
         for t in torques:
             rows.append(_point(system, gearbox.params, holding, t, w))
+            out = rows[-1]["output_torque"] * rows[-1]["output_speed"]
+            rows[-1]["efficiency"], way = power_flow(t * w, out)
+            flow.append(way)
             shafts = system.transmission
             reaction = shafts.outputs[shafts.output_names.index(f"{holding}_reaction")]
             found = dict.fromkeys(doubts_of_point(own, system, holding, most, reaction))
@@ -160,7 +179,7 @@ def efficiency_map(
             if progress:
                 progress(len(rows), len(torques) * len(speeds))
     columns = {name: np.array([row[name] for row in rows], float) for name in COLUMNS}
-    return EfficiencyMap(scene, gear, columns, tuple(doubts))
+    return EfficiencyMap(scene, gear, columns, tuple(doubts), tuple(flow))
 
 
 def _steady(name: str, part: Part, holding: str) -> Part:
@@ -194,12 +213,14 @@ def _gearbox(part: Part, gear: str, speed: float) -> Part:
     return replace(part, params=params)
 
 
-def _point(system: System, params: Any, pack: str, torque: float, speed: float) -> dict[str, float]:
+def _point(
+    system: System, params: object, pack: str, torque: float, speed: float
+) -> dict[str, float]:
     """Return a row of the map; ``system`` has that speed, ``pack`` holds."""
     box = system.transmission
     engine, load = (box.input_names.index(f"{n}_torque_input") for n in ("engine", "load"))
     drive = box.input_names.index("clutch_torque")
-    shown = box.output_names.index("output_acceleration")
+    shown, apart = box.output_names.index("output_acceleration"), max(1.0, 0.1 * abs(torque))
     box.inputs[engine] = torque
 
     def acceleration(x: float) -> float:
@@ -212,8 +233,8 @@ def _point(system: System, params: Any, pack: str, torque: float, speed: float) 
         box.pull()
         left = box.inputs[load]
         for _ in range(2):  # straight but for the corner of the thrust bearings
-            one, two = acceleration(left), acceleration(left + max(1.0, 0.1 * torque))
-            left -= one * max(1.0, 0.1 * torque) / (two - one)
+            one, two = acceleration(left), acceleration(left + apart)
+            left -= one * apart / (two - one)
         acceleration(left)
         now = [left, *box.inputs[drive:]]
         if last and max(abs(a - b) for a, b in zip(now, last, strict=True)) <= SETTLED * (
@@ -252,8 +273,6 @@ def _row(system: System, params: Any, torque: float, speed: float) -> dict[str, 
         "pack_loss": box["clutch_reaction"] * box["clutch_speed"]
         + box["brake_reaction"] * box["brake_speed"],
     }
-    power = torque * speed
-    row["efficiency"] = left * turned / power if power > 0.0 and left > 0.0 else np.nan
     row |= {f"{name}_loss": 0.0 for name in OF_LOSSES}
     if part := system.parts.get("losses"):
         own = dict(zip(part.output_names, part.outputs, strict=True))

@@ -1,4 +1,4 @@
-"""Fingerprints: of a parameter set, of the sources of a rung's numbers, of a JSON file."""
+"""Fingerprints: of a parameter set, of the sources of a level's numbers, of a JSON file."""
 
 import json
 import math
@@ -67,7 +67,7 @@ def _module_digest(name: str) -> str:
     return sha256(digest.read(path)).hexdigest()
 
 
-def finite(value: Any) -> Any:
+def finite(value: object) -> Any:
     """Return JSON types with None for numbers that are not finite."""
     if isinstance(value, dict):
         return {key: finite(item) for key, item in value.items()}
@@ -76,19 +76,19 @@ def finite(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def seal_of(record: Mapping[str, Any]) -> str:
+def seal_of(record: Mapping[str, object]) -> str:
     """Return 16 hex digits over keys and values, however the file is laid out."""
     bare = {key: value for key, value in record.items() if key != CHECK}
     text = json.dumps(bare, sort_keys=True, separators=(",", ":"))
     return sha256(text.encode()).hexdigest()[:16]
 
 
-def sealed(record: Mapping[str, Any]) -> dict[str, Any]:
+def sealed(record: Mapping[str, object]) -> dict[str, Any]:
     """Return the record with its checksum as the last key."""
     bare = {key: value for key, value in record.items() if key != CHECK}
     return {**bare, CHECK: seal_of(bare)}
 
 
-def is_broken(record: Mapping[str, Any]) -> bool:
+def is_broken(record: Mapping[str, object]) -> bool:
     """Tell if the record has a checksum that does not fit; one without is taken as it is."""
     return CHECK in record and record[CHECK] != seal_of(record)

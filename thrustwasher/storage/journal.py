@@ -10,9 +10,11 @@ import os
 import sqlite3
 import time
 import zlib
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import closing, contextmanager, suppress
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,18 +23,60 @@ from ..errors import ParameterError, naming
 
 LAYOUT = "3"
 INTERVAL = 1.0  # [s] from commit to commit
+PATIENCE = 900.0  # [s] that one run waits for another; a lock ends with the process that has it
+LOOK = 0.5  # [s] between two attempts
 TABLES = """
 CREATE TABLE work(name TEXT, value TEXT);
 CREATE TABLE done(entry INTEGER PRIMARY KEY, value BLOB, checksum INTEGER);
 """
 PUT = "INSERT OR REPLACE INTO done VALUES (?, ?, ?)"
 Block = tuple[int, NDArray[np.float64], NDArray[np.int32]]  # first row, (n, ...), (n, ...)
+T = TypeVar("T")
+LOCK = "PRAGMA locking_mode=EXCLUSIVE; BEGIN EXCLUSIVE"
 BUSY = (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED)
 DISK = (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR)
 
 
+class InUseError(ParameterError):
+    """Another run writes the journal ``path`` now."""
+
+    def __init__(self, path: Path, message: str) -> None:
+        super().__init__(message)
+        self.path = path
+
+
+def when_free(attempt: Callable[[], T], say: Callable[[str], None]) -> T:
+    """Return what an attempt returns, made again while another run has its journal.
+
+    The wait is said once. InUseError: that run still has it after ``PATIENCE``.
+    """
+    until = time.monotonic() + PATIENCE
+    is_said = False
+    while True:
+        try:
+            return attempt()
+        except InUseError as problem:
+            if time.monotonic() > until or not _can_lock(problem.path.parent):
+                raise
+            if not is_said:
+                say(f"waits for another run: {problem.path}")
+                is_said = True
+        time.sleep(LOOK)
+
+
+def _can_lock(folder: Path) -> bool:
+    """Return whether a file of a folder can be locked: not every file system can."""
+    with TemporaryDirectory(dir=folder) as place:
+        with closing(sqlite3.connect(Path(place) / "trial", timeout=0.0)) as trial:
+            try:
+                trial.executescript(f"{LOCK}; COMMIT")
+            except sqlite3.Error:
+                return False
+    return True
+
+
 class Journal:
-    """What some work has finished, kept beside its output while it runs.
+    """What some work has finished, kept next to its output while it runs.
 
     ``identity`` is what makes this work differ from another of its kind, in words; ``work`` is the
     kind, "sweep" or "map". ParameterError: the file is no journal, is spoiled or that of other
@@ -47,11 +91,14 @@ class Journal:
         path.parent.mkdir(parents=True, exist_ok=True)
         with naming(path):
             path.touch()
+            inode = path.stat().st_ino
         with self._named():
             self._db = sqlite3.connect(path, timeout=0.0, isolation_level=None)
         try:
             with self._named():
-                self._db.executescript("PRAGMA locking_mode=EXCLUSIVE; BEGIN EXCLUSIVE")
+                self._db.executescript(LOCK)
+                if not path.exists() or path.stat().st_ino != inode:
+                    raise self._in_use()  # the run that had it ended just now and removed it
                 self._begin({f"thrustwasher {work}": LAYOUT, **identity})
                 self._db.execute("COMMIT")  # the lock stays
         except BaseException:
@@ -82,16 +129,20 @@ class Journal:
         except (sqlite3.Error, sqlite3.Warning, UnicodeDecodeError) as error:
             code = getattr(error, "sqlite_errorcode", sqlite3.SQLITE_ERROR) & 0xFF
             if code in BUSY:
-                raise ParameterError(
-                    f"{self.path}: another run is writing this {self.work}, or nothing can be "
-                    "locked here; wait for it, or choose another output"
-                ) from None
+                raise self._in_use() from None
             if code in DISK or not os.access(self.path, os.W_OK):
                 number = errno.ENOSPC if code == sqlite3.SQLITE_FULL else errno.EIO
                 raise OSError(number, str(error), str(self.path)) from None
             raise ParameterError(
                 f"{self.path}: is no journal of a {self.work}, or is spoiled ({error}); remove it"
             ) from None
+
+    def _in_use(self) -> InUseError:
+        return InUseError(
+            self.path,
+            f"{self.path}: another run is writing this {self.work}, or nothing can be locked "
+            "here; wait for it, or choose another output",
+        )
 
     def entries(self) -> Iterator[tuple[int, bytes]]:
         """Yield what is done: number and content of each entry, by their numbers."""
@@ -158,12 +209,19 @@ class Journal:
             if self._waiting and not finished:
                 self.flush()
         finally:
+            gone = finished or self._is_blank
+            if gone and os.name == "posix":
+                self._remove()  # while it is locked: another run finds no half of it
             with self._named():
                 self._db.close()
-        if finished or self._is_blank:
-            with naming(self.path):
-                self.path.with_name(f"{self.path.name}-journal").unlink(missing_ok=True)
-                self.path.unlink(missing_ok=True)
+        if gone and os.name != "posix":  # where an open file cannot be removed
+            with suppress(PermissionError):  # another run has it by now
+                self._remove()
+
+    def _remove(self) -> None:
+        with naming(self.path):
+            self.path.with_name(f"{self.path.name}-journal").unlink(missing_ok=True)
+            self.path.unlink(missing_ok=True)
 
 
 def _checksum(entry: int, value: bytes) -> int:

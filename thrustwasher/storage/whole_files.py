@@ -11,7 +11,7 @@ from ..native.drafts import draft_in, flush
 
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
-    """Give a temporary path beside ``path`` that takes its place only if all went well."""
+    """Give a temporary path next to ``path`` that takes its place only if all went well."""
     with (
         naming(path),
         new_folder(path.parent),

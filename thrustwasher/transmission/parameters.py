@@ -28,7 +28,7 @@ ARRANGEMENT = {
 }
 ACTUATION = {
     "command": "shift_command moves the load from the brake to the clutch",
-    "pressure": "pistons press the packs: courses of pressure and pressure inputs",
+    "pressure": "pistons press the packs: profiles of pressure and pressure inputs",
 }
 COUPLING = {
     "capacity": "the packs send the torque they can hold; stick and slip are decided in here",
@@ -51,16 +51,16 @@ def _room(p: Any) -> str:
     )
 
 
-COURSES = {  # of points in time; what is out of use beside the engine's: its constant torque
+COURSES = {  # of points in time; what is out of use next to the engine's: its constant torque
     "clutch_pressure": ("Pa", 0.0, 1e8, "pressure of the clutch"),
     "brake_pressure": ("Pa", 0.0, 1e8, "pressure of the brake"),
     "engine_torque": ("N.m", -1e5, 1e5, "engine torque"),
 }
-POINTS = 10  # of a course at most
+POINTS = 10  # of a profile at most
 
 
 def course_fields(name: str, points: Sequence[tuple[float, float]]) -> dict[str, float]:
-    """Return the parameters of a course of points (time [s], value in SI units).
+    """Return the parameters of a profile of points (time [s], value in SI units).
 
     ParameterError if there are none or too many.
     """
@@ -71,8 +71,8 @@ def course_fields(name: str, points: Sequence[tuple[float, float]]) -> dict[str,
     return {f"{name}_points": len(points), **times, **values}
 
 
-def course_points(params: Any, name: str) -> list[tuple[float, float]]:
-    """Return the points of a course: time [s] and value."""
+def course_points(params: object, name: str) -> list[tuple[float, float]]:
+    """Return the points of a profile: time [s] and value."""
     return [
         (getattr(params, f"{name}_time_{i}"), getattr(params, f"{name}_{i}"))
         for i in range(1, getattr(params, f"{name}_points") + 1)
@@ -84,7 +84,7 @@ def _order(name: str) -> Rule:
     return Rule(text, partial(_not_rising, name))
 
 
-def _not_rising(name: str, p: Any) -> str:
+def _not_rising(name: str, p: object) -> str:
     times = [t for t, _ in course_points(p, name)]
     i, a, b = next((i, a, b) for i, (a, b) in enumerate(pairwise(times), 2) if not b > a)
     return f"{name}_time_{i} = {b!r} s, allowed: above the time of the point before ({a!r} s)"
@@ -269,7 +269,8 @@ TransmissionParams = other_names(extended(_TransmissionParams, "TransmissionPara
 SPEC = ModelSpec(
     key="transmission",
     name="ShiftTransmission",
-    help="Planetary set with engine, load, clutch and brake: speeds, lock-up and the energy book",
+    help="Planetary set with engine, load, clutch and brake: speeds, lock-up and the energy "
+    "balance",
     params=TransmissionParams,
     fidelities={"rigid": "rigid gears, lock-up located inside the step"},
     default_fidelity="rigid",

@@ -1,4 +1,4 @@
-"""Inputs, outputs and plugs of the shift transmission, and a course to try it with."""
+"""Inputs, outputs and plugs of the shift transmission, and a profile to try it with."""
 
 from dataclasses import replace
 from itertools import chain
@@ -15,7 +15,7 @@ def _torque(name: str, text: str) -> Signal:
 
 
 def _pressure(pack: str) -> Signal:
-    text = f"pressure of the {pack} beside its course, at the step's end"
+    text = f"pressure of the {pack} in addition to its profile, at the step's end"
     return _input(f"{pack}_pressure", "Pa", text, 0.0, 1e8, 1e5)
 
 
@@ -39,8 +39,11 @@ INPUTS = (
     _torque("mesh_torque", "friction torque of one sun mesh, referred to the planet"),
     _input("shift_command", "1", "0 first gear, 1 second gear, at the step's end", 0.0, 1.0, 1.0),
     *map(_pressure, ("clutch", "brake")),
-    _torque("engine_torque_input", "torque of an engine model, beside the engine's own"),
-    _torque("load_torque_input", "torque of a vehicle model against the output, beside the load's"),
+    _torque("engine_torque_input", "torque of an engine model, in addition to the engine's own"),
+    _torque(
+        "load_torque_input",
+        "torque of a vehicle model against the output, in addition to the load's",
+    ),
     _torque("ring_mesh_torque", "friction torque of one ring mesh, referred to the planet"),
     *(_loss(shaft, words) for shaft, words in LOSSES.items()),
 )
@@ -106,10 +109,10 @@ OUTPUTS = (
     output("engine_speed", "rad/s", 100.0, "speed of engine and driven gear"),
     output("output_speed", "rad/s", 100.0, "speed of carrier and output"),
     output("drum_speed", "rad/s", 100.0, "speed of drum and braked gear"),
-    output("drive_torque", "N.m", 100.0, "torque of the engine now", _ENGINE),
-    output("resistance_torque", "N.m", 100.0, "torque of the load now", _LOAD),
-    output("clutch_reaction", "N.m", 100.0, "torque the clutch really transmits", _PACKS),
-    output("brake_reaction", "N.m", 100.0, "torque the brake really holds", _HELD),
+    output("drive_torque", "N.m", 100.0, "engine torque at this instant", _ENGINE),
+    output("resistance_torque", "N.m", 100.0, "load torque at this instant", _LOAD),
+    output("clutch_reaction", "N.m", 100.0, "transmitted torque of the clutch", _PACKS),
+    output("brake_reaction", "N.m", 100.0, "transmitted torque of the brake", _HELD),
     output("input_tooth_torque", "N.m", 100.0, "torque in the driven gear's teeth", _TORQUES),
     output(
         "drag_torque", "N.m", 1.0, "drag of washers and meshes at the driven gear", _TORQUES[:-1]
@@ -125,7 +128,7 @@ OUTPUTS = (
     output("brake_heat", "J", 1e4, "heat of the brake since the start, mechanical side"),
     output("washer_heat", "J", 100.0, "heat of all washers since the start"),
     output("mesh_heat", "J", 100.0, "heat of all meshes since the start"),
-    output("energy_residual", "J", 1.0, "energy that the book cannot account for"),
+    output("energy_residual", "J", 1.0, "energy that the balance cannot account for"),
     output("lock_time", "s", 1.0, "time the clutch last locked (-1: it never did)"),
     output("lock_speed", "rad/s", 100.0, "engine speed when the clutch last locked"),
     output("release_time", "s", 1.0, "time the brake last broke away (-1: it never did)"),

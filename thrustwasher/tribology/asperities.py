@@ -134,7 +134,7 @@ def contact_table(
     -----
     Source: Jackson & Green Eq 13, P = density int_d^inf P_F(z - d) G(z) dz. The derivatives act
     on the Gaussian alone, so that value and slopes come from one quadrature. Knots 1/12 sigma
-    apart: interpolation error below 1e-10 (tests/tribology/test_asperities.py).
+    apart: interpolation error below 1e-10 (tests/core/tribology/test_asperities.py).
     """
     n = _nodes(a, sigma, work)
     good = True

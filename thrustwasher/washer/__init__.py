@@ -1,8 +1,8 @@
 """The thrust washer in mixed lubrication.
 
-====================  =========================================================================
+====================  ===========================================================================
 ``parameters``        parameters; with ``interface.toml`` the one list all interfaces come from
-``model``             its record: command, rungs, sweeps
+``model``             its record: command, levels, sweeps
 ``kernel_arguments``  what its kernels take: constants, and memory that each thread keeps
 ``solve``             one operating point
 ``washer_result``     what a solve returns, and the error to expect of it
@@ -13,5 +13,8 @@
 ``follow``            inputs are given over time, friction and heat follow
 ``map``               solutions on both branches, charted for look-up
 ``kernels``           compiled code
-====================  =========================================================================
+``fits``              what of a washer can be fitted in addition to its outputs
+``mesh_error``        what a washer's torque owes to its mesh, from the solution itself
+``sensitivities``     derivatives of a washer's results and of its fold loads over its parameters
+====================  ===========================================================================
 """

@@ -100,9 +100,9 @@ class Place:
         return float(w.info[L.LOAD_SLOPE] * w.par[L.D_SIGMA1] / w.info[L.REACHED_LOAD])
 
     def take(self, pt: Point) -> Array:
-        """Return the solution here as that which changes least from washer to washer.
+        """Return the solution here as that with the smallest change from washer to washer.
 
-        Least gaps of both films and tilts across them, over roughness; temperatures, pressures.
+        Minimum gaps of both films and tilts across them, over roughness; temperatures, pressures.
         """
         ro, sigma1, sigma2 = self._lengths()
         z_w, z_g, gx, gy = self.w.q.tolist()
@@ -214,10 +214,10 @@ class Bench:
         """Tell if the branch that the draws come along carries the load, and the fold's film.
 
         Places on the draw's own curve are solved around the supposed fold, until one between two
-        others carries most (least, at the lower fold): the curve is bent one way there, so that the
-        fold's load is no farther from the middle place than that is from the others. If the load
-        only grows from a thick film until asperities carry it, there is no fold: None, as a load
-        has one solution.
+        others carries most (minimum, at the lower fold): the curve is bent one way there, so that
+        the fold's load is no farther from the middle place than that is from the others. If the
+        load only grows from a thick film until asperities carry it, there is no fold: None, as a
+        load has one solution.
         Nothing is returned if that fails, or the load is too near to the fold's.
         """
         place, sign = self.places["fold"], self.fold_kind
@@ -280,7 +280,7 @@ class Bench:
         self.alone += 1
         self.state[:] = 0.0
         status = self.step(0.0, 1.0)
-        if status == NO_BRANCH:  # what was asked for ends before this load: the other one it is
+        if status == NO_BRANCH:  # what was requested ends before this load: the other one it is
             status = OK
         lost = bool(self.plain.w.found[L.BRANCH] == L.CONTACT_BRANCH)
         if status < FIRST_FAILURE and pt.tilt != 0.0 and pt.speed != 0.0:
@@ -290,7 +290,7 @@ class Bench:
         return _shown(self.plain), int(status), lost
 
     def _walk(self, x: Array, pt: Point) -> None:
-        """Walk along the curve to the draw's fold; without one keep where the film gets thin."""
+        """Go along the curve to the draw's fold; without one keep where the film gets thin."""
         place = self.places["fold"]
         w, sigma, sign = place.w, float(self.par[L.D_SIGMA1]), UPPER
         w.curve[L.ACCURACY] = ROUGHLY
@@ -318,7 +318,7 @@ class Bench:
 
 
 def _extremum(loads: dict[int, float], sign: float) -> tuple[int, int, int] | None:
-    """Return three places next to each other, of which the middle one carries most (-1: least)."""
+    """Return three neighbouring columns, of which the middle one has the maximum (-1: minimum)."""
     order = sorted(loads, reverse=True)
     for three in zip(order, order[1:], order[2:], strict=False):
         one, middle, two = (sign * loads[k] for k in three)

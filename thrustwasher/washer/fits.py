@@ -1,4 +1,4 @@
-"""What of a washer can be fitted beside its outputs, and how all of that follows its parameters."""
+"""What of a washer can be fitted in addition to its outputs, and how it depends on parameters."""
 
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
@@ -50,7 +50,7 @@ def slopes(
 ) -> Array | None:
     """Return exact derivatives (wanted, names) of outputs of a line's rows and of fold loads.
 
-    The rows are walked as a sweep does. None: the rung is a table, an output or parameter has no
+    The rows are walked as a sweep does. None: the level is a table, an output or parameter has no
     such derivative, a row no solution, or a fold is too flat.
     """
     measured, folded = {o for _, o in wanted} - set(NAMES.values()), set(NAMES.values())

@@ -62,7 +62,7 @@ class Recent(Generic[T]):
     def __init__(self, make: Callable[..., T]) -> None:
         self.make, self.local = make, threading.local()
 
-    def __call__(self, params: Any, *key: Any) -> T:
+    def __call__(self, params: WasherParams, *key: object) -> T:
         """Return what was made for this object, or make it."""
         try:
             known: dict[Any, tuple[Any, T]] = self.local.known

@@ -15,7 +15,6 @@ from ..model.registry import find_model
 from ..model.rungs import gone_rung, rung_named
 from ..model.solutions import scalars, words_at_points
 from ..numerics.jit import Array
-from ..numerics.status import OK, OVER_BUDGET
 from ..shown import Card, Line, Tabled, Words, column_lines, plain
 from ..units import format_quantity
 from .kernel_arguments import constants, work_array
@@ -23,10 +22,9 @@ from .kernels import continuation
 from .kernels import layout as L
 from .kernels.constants import washer_model
 from .kernels.heat import set_steady
-from .kernels.newton import LOAD, NO_FLOOR, is_spent, newton
 from .kernels.outputs import outputs_at
 from .kernels.regime_and_status import point_of
-from .kernels.solve import BUDGET, remember_state
+from .kernels.solve import remember_state
 from .kernels.workspace import fields_of, size_of_state, size_of_work, workspace_of
 from .parameters import SPEC, WasherParams
 from .sensitivities import Solved, fold_derivatives
@@ -35,14 +33,9 @@ from .washer_result import BRANCH_NAMES, BY_CARD, Fold, Inputs, WasherResult, ad
 
 __all__ = ["Fold", "LoadCurve", "load_curve"]
 
-GOLDEN = 0.618
-MOST_LOADS = 100  # by 2 % each: seven times the load
-FINEST = 0.1  # [sigma] between points near contact
-# where asperities carry this share and the load grows by this factor from point to point, points
-# go by load: hot oil may let it grow without bound at one film thickness
-ALONE, STEEP = 0.9, 1.1
+MOST = next(s.high for s in SPEC.inputs if s.name == "load") or 0.0  # N
+WHERE = ("entry", "walking", "at a load")  # the path got stuck
 _NUMBERS = {name: number for number, name in BRANCH_NAMES.items()}
-SHALLOW = 3e-4  # relative drop of the load that makes a fold; solve_washer uses the same
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,13 +44,13 @@ class LoadCurve(Tabled):
 
     points: list[WasherResult]  # ordered by falling film_thickness
     folds: list[Fold]  # empty if the curve is single-valued
-    told: tuple[str, ...] = ()  # warnings of the curve as a whole
+    about_curve: tuple[str, ...] = ()  # warnings of the curve as a whole
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What a reader must not miss: of each kind the point of least load; folds tell the rest.
+        """What a reader must not miss: of each kind the point of minimum load; folds tell the rest.
 
-        The last point, beyond the range that was asked for, does not count.
+        The last point, beyond the range that was requested, does not count.
         """
         idle = idle_warnings(SPEC.key, self.points[0].params)
         found: dict[str, list[str]] = {}
@@ -68,7 +61,7 @@ class LoadCurve(Tabled):
                 found.setdefault(re.split(r"[=\d]", text)[0], []).append(line)
         n = len(points)
         lines = (f"{len(texts)} of {n} points, {texts[0]}" for texts in found.values())
-        return (*self.told, *idle, *lines)
+        return (*self.about_curve, *idle, *lines)
 
     def to_dict(self) -> dict[str, Any]:
         """Return points, folds, parameters and warnings as JSON can hold them, SI units."""
@@ -112,7 +105,7 @@ class LoadCurve(Tabled):
     def fold_sensitivities(
         self, parameters: Collection[str] | None = None
     ) -> list[dict[str, float] | None]:
-        """Return beside each of ``folds`` {parameter: derivative of its load}, N per SI unit.
+        """Return next to each of ``folds`` {parameter: derivative of its load}, N per SI unit.
 
         Exact, without a solve per parameter. None: the fold is too flat to be found by its slope.
 
@@ -168,7 +161,7 @@ def load_curve(
     Raises
     ------
     ParameterError : an argument is outside its range
-    SolveError : the walk along the curve got stuck
+    SolveError : the path along the curve got stuck
 
     Notes
     -----
@@ -183,43 +176,21 @@ def load_curve(
     """
     rung = rung_named(SPEC, fidelity)
     nodes = resolve_grid(rung, grid)
-    load_min = check_number("load_min", load_min, "N", 1.0, 1e4)
-    load_max = check_number("load_max", load_max, "N", load_min, 1e4)
+    load_min = check_number("load_min", load_min, "N", 1.0, MOST)
+    load_max = check_number("load_max", load_max, "N", load_min, MOST)
     if load_min == load_max:
         raise ParameterError(
             f"load_max = {load_max:g} N, allowed: above load_min; solve_washer gives one load"
         )
     point = check_point(params, load_min, speed, tilt, oil_temperature, far_face_temperature)
     here = Continuation(params, point, nodes)
-    here.enter(load_min)
+    here.begin(load_min)
     points: list[WasherResult] = [here.result(rung)]
     folds: list[Fold] = []
-    places = [here.film]  # smoothed film thicknesses
-    top = 0  # the highest point since the film was regained, the lowest since it was lost
-    rising, by_load = True, False
-    while points[-1].load < load_max or not rising:
-        steep = len(points) > 1 and points[-1].load > STEEP * points[-2].load
-        by_load = rising and (by_load or (steep and here.contact_share > ALONE))
-        if not by_load:
-            try:
-                here.to(continuation.step_down(here.m.sigma1, here.film, FINEST))
-            except SolveError:  # soft bodies turn the washer so that its film grows with the load
-                by_load = rising and (bool(folds) or here.film < 0.0)
-                if not by_load:
-                    raise
-        if by_load:
-            here.to_load(STEEP * here.load)
-        places.append(here.film)
+    while here.load < load_max or not here.whole[L.RISES]:
+        here.next_point()
         points.append(here.result(rung))
-        gain = points[-1].load - points[top].load
-        noise = SHALLOW * points[top].load + 1e-3
-        if gain < -noise if rising else gain > noise:
-            rising = not rising
-            kind = "film_regained" if rising else "film_lost"
-            folds.append(here.fold(kind, places[max(0, top - 1)], places[-1]))
-            top = len(points) - 1
-        elif gain > 0.0 if rising else gain < 0.0:
-            top = len(points) - 1
+        folds += here.passed()
     return LoadCurve(_labelled(points, folds), folds, gone_rung(SPEC, fidelity))
 
 
@@ -246,6 +217,12 @@ def _labelled(points: list[WasherResult], folds: list[Fold]) -> list[WasherResul
     return named
 
 
+def _fold(kind: str, found: Array) -> Fold:
+    """Return a fold; ``found``: its load, its outputs."""
+    load, *out = found.tolist()
+    return Fold(kind, load, out[L.O_RATIO], out[L.O_MEAN], out[L.O_TORQUE])
+
+
 class Continuation:
     """A place on the curve of solutions, which moves as its film thickness is prescribed."""
 
@@ -257,6 +234,7 @@ class Continuation:
         self.work = work_array(("washer", nodes), L.N_HEAD + size_of_work(*nodes))
         self.w = workspace_of(par, self.work)
         self.m, self.f = washer_model(par), fields_of(self.w)
+        self.whole = np.zeros(L.N_WHOLE)
         set_steady(self.m, self.pt, self.f)
         self.w.curve[L.ACCURACY] = 1e-8
 
@@ -288,15 +266,10 @@ class Continuation:
     def _moving(self) -> list[Array]:
         return [self.w.q, self.f.temp, self.f.p, self.w.curve]
 
-    def _renew_budget(self) -> None:
-        """Let the next solve take as many iterations as one from nothing."""
-        self.w.info[L.BUDGET] = self.w.info[L.ITERATIONS] + BUDGET
-
-    def _check(self, code: int, where: str) -> None:
+    def _check(self, code: int) -> None:
         if code:
-            code = OVER_BUDGET if is_spent(self.w) else code
             raise SolveError(
-                f"load_curve: {Status(code).advice} ({where}, film of "
+                f"load_curve: {Status(code).advice} ({WHERE[int(self.w.curve[L.STUCK])]}, film of "
                 f"{self.film / self.m.sigma1:.2f} sigma, speed = {self.pt.speed:g} rad/s, "
                 f"tilt = {self.pt.tilt:g} rad, oil_temperature = {self.pt.oil_temperature:g} K; "
                 "tried: steps down to 1e-4 of the first); "
@@ -305,83 +278,31 @@ class Continuation:
 
     def start(self, ratio: float) -> None:
         """Solve from nothing at a film ratio."""
-        self._renew_budget()
-        self._check(continuation.enter_curve(self.w, self.pt, ratio), "entry")
-
-    def enter(self, load: float) -> None:
-        """Go to where the washer carries less than ``load`` [N]."""
-        self.start(6.0)
-        while self.load > load and self.film < 1e3 * self.m.sigma1:
-            self.to(1.25 * self.film)
+        self._check(continuation.start_at(self.w, self.pt, ratio))
 
     def to(self, s: float) -> None:
-        """Walk to a film thickness [m]; where that gets stuck less exactly, or by load.
+        """Go to a film thickness [m]; where that gets stuck less exactly, or by load."""
+        self._check(continuation.go_to_film(self.w, self.pt, s))
 
-        Much oil on a coarse mesh makes Newton's method slow: a hundredth of the accuracy will do.
-        By load where asperities carry.
-        """
-        self._renew_budget()
-        code = continuation.walk_to(self.w, self.pt, s)
-        if code:
-            self._renew_budget()
-            self.w.curve[L.ACCURACY] *= 100.0
-            code = continuation.walk_to(self.w, self.pt, s)
-            self.w.curve[L.ACCURACY] *= 0.01
-        if code and s < self.film and self.contact_share > ALONE:
-            for _ in range(MOST_LOADS):
-                if self.film > s:
-                    self.to_load(1.02 * self.load)
-            self._renew_budget()
-            code = continuation.walk_to(self.w, self.pt, s)
-        self._check(code, "walking")
+    def begin(self, load: float) -> None:
+        """Go to where the washer carries less than ``load`` [N], the first point of a curve."""
+        self._check(continuation.begin_curve(self.w, self.pt, load, self.whole))
 
-    @property
-    def contact_share(self) -> float:
-        """Share of the load that the asperities carry."""
-        return float(self.w.curve[L.AT_SHARE])
+    def next_point(self) -> None:
+        """Go on to the next point of the curve."""
+        self._check(continuation.next_point(self.w, self.pt, self.whole))
 
-    def to_load(self, load: float) -> None:
-        """Solve at a load [N] from here, where the asperities carry: no fold is on the way."""
-        self._renew_budget()
-        while self.load < load * (1.0 - 1e-9):
-            step, status = load - self.load, OK
-            continuation.remember(self.w, 0.0)
-            for _ in range(12):
-                target, tolerance = self.load + step, self.w.curve[L.ACCURACY]
-                status = newton(self.w, self.pt, LOAD, target, NO_FLOOR, tolerance, 20.0)
-                if status == OK:
-                    break
-                continuation.recall(self.w, 0.0)
-                self.f.tag[L.TAG_VALID] = 0.0
-                step *= 0.4
-            self._check(status, "at a load")
-            continuation.note(self.w)
+    def passed(self) -> list[Fold]:
+        """Return the fold between the last two points, if there is one."""
+        self._check(continuation.pass_fold(self.w, self.pt, self.whole))
+        kind = {1.0: "film_lost", -1.0: "film_regained"}.get(self.whole[L.FOLD])
+        return [_fold(kind, self.whole[L.FOLD_LOAD :])] if kind else []
 
     def fold(self, kind: str, upper: float, lower: float) -> Fold:
         """Locate a fold between two film thicknesses and come back."""
-        kept = self.copy()
-        self._renew_budget()
-        if continuation.find_fold(self.w, self.pt, upper, lower):
-            self.come_back(kept)
-            self._search(1.0 if kind == "film_lost" else -1.0, upper, lower)
-        load, out = self.load, self.outputs()
-        self.come_back(kept)
-        return Fold(kind, load, out[L.O_RATIO], out[L.O_MEAN], out[L.O_TORQUE])
-
-    def _search(self, sign: float, upper: float, lower: float) -> None:
-        """Go to the highest (1) or lowest (-1) load between two film thicknesses [m].
-
-        By golden section, for folds too flat for the slope to say on which side they lie.
-        """
-        while upper - lower > 1e-3 * self.m.sigma1:
-            loads = []
-            for share in (GOLDEN, 1.0 - GOLDEN):
-                self.to(lower + share * (upper - lower))
-                loads.append(sign * self.load)
-            if loads[0] > loads[1]:
-                lower += (1.0 - GOLDEN) * (upper - lower)
-            else:
-                upper -= (1.0 - GOLDEN) * (upper - lower)
+        way, found = 1.0 if kind == "film_lost" else -1.0, np.empty(1 + L.N_ALL)
+        self._check(continuation.locate_fold(self.w, self.pt, way, upper, lower, found))
+        return _fold(kind, found)
 
     def outputs(self) -> list[float]:
         """Return all outputs here."""

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError
+from ..face_load import FACE_LOADS, Face
 from ..model.record import Command, Fits, Ladder, Model, Option, Sweep
 from ..model.spec import ModelSpec, Tables
 
@@ -46,7 +47,11 @@ class Washer(Model):
         "save the state first and go back to it.",
     )
     command = Command(
-        help="solve the thrust washer at one load, speed and tilt",
+        help="friction, film and temperatures of a thrust washer at one point",
+        examples=(
+            'thrustwasher washer --load 300 --speed "9100 rpm" --oil "ISO VG 46" --plot washer.png',
+            'thrustwasher washer --load 300 --speed "9100 rpm" --sensitivities friction_torque',
+        ),
         title="thrust washer",
         closing="{iterations} iterations, {fidelity}, grid {grid[0]}x{grid[1]}",
         ranks=True,
@@ -59,9 +64,11 @@ class Washer(Model):
             "washer_tilt_x": ("rad", "rotation of the washer about x"),
             "washer_tilt_y": ("rad", "rotation of the washer about y"),
             "branch": ("1", "which of the possible solutions this is"),
+            **FACE_LOADS,
             "error_estimate": (
                 "1",
-                "relative error expected in friction_torque, by the solution; in pages by its card",
+                "expected relative error of friction_torque, from the solution; on pages to try "
+                "a part in: from its verification table",
             ),
         },
     )
@@ -87,6 +94,12 @@ class Washer(Model):
             },
         },
     )
+
+    def face(self, params: Any) -> Face:
+        """Return the face between carrier and washer, which turns with the gear."""
+        from .parameters import washer_face
+
+        return washer_face(params)
 
     @property
     def spec(self) -> ModelSpec:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..errors import ParameterError
+from ..face_load import Face, even_radius
 from ..model.parameters import (
     check_number,
     check_ranges,
@@ -67,7 +68,7 @@ THERMAL_STARTS = {
 
 
 BODIES = ("carrier", "washer", "gear")
-MATERIAL = {  # property of each body: unit, default, least, largest, what it is
+MATERIAL = {  # property of each body: unit, default, minimum, maximum, what it is
     "youngs_modulus": ("Pa", 201e9, 1e9, 1e12, "Young's modulus"),
     "poisson_ratio": ("1", 0.296, 0.0, 0.49, "Poisson's ratio"),
     "yield_strength": ("Pa", 0.993e9, 1e7, 1e11, "yield strength"),
@@ -90,13 +91,13 @@ def _own(name: str, common: str, unit: str, least: float, largest: float) -> Rul
     )
 
 
-def _material(name: str, **extra: Any) -> Any:
+def _material(name: str, **extra: object) -> Any:
     """Return the field of a property that all bodies share."""
     unit, default, least, largest, text = MATERIAL[name]
     return quantity(default, unit, least, largest, f"{text} of the bodies", **extra)
 
 
-def _body(name: str, **extra: Any) -> Any:
+def _body(name: str, **extra: object) -> Any:
     """Return the field of one body's own property, 0 if it has the common one."""
     common, body = name.rsplit("_", 1)
     unit, _, _, largest, text = MATERIAL[common]
@@ -105,7 +106,7 @@ def _body(name: str, **extra: Any) -> Any:
     )
 
 
-def property_of(params: Any, name: str, body: str) -> float:
+def property_of(params: "WasherParams", name: str, body: str) -> float:
     """Return a property of one body: its own, else the one that all have in common."""
     value: float = getattr(params, f"{name}_{body}") or getattr(params, name)
     return value
@@ -163,7 +164,7 @@ INNER, OUTER = 0.0111, 0.0227  # [m] radii of Jackson & Green's washer
 # They measured dry friction over the load on its face, f = 0.48 - 0.05 ln F.
 PAPER_FACE = math.pi * (OUTER**2 - INNER**2)  # [m^2]
 MEGAPASCAL = 1e6  # [Pa]
-NEWTONS = {  # parameters of the dry friction law over the load: unit, least, largest, what it is
+NEWTONS = {  # parameters of the dry friction law over the load: unit, minimum, maximum, what it is
     "friction_constant": ("1", 0.0, 2.0, "dry friction at 1 N"),
     "friction_load_min": ("N", 1.0, 1e5, "lower end of the law's range"),
     "friction_load_max": ("N", 1.0, 1e5, "upper end of the law's range"),
@@ -178,6 +179,12 @@ OVER_PRESSURE = {
 def face_of(inner_radius: float, outer_radius: float) -> float:
     """Return the area of a washer's face [m^2]."""
     return math.pi * (outer_radius**2 - inner_radius**2)
+
+
+def washer_face(params: Any) -> Face:
+    """Return the face between carrier and washer."""
+    radii = params.inner_radius, params.outer_radius
+    return Face(face_of(*radii), 1, even_radius(*radii))
 
 
 def _over_pressure(given: dict[str, Any]) -> dict[str, Any]:
@@ -197,7 +204,8 @@ def _over_pressure(given: dict[str, Any]) -> dict[str, Any]:
         full[name] = check_number(name, value, unit, low, high)
         if OVER_PRESSURE[name] in values:
             raise ParameterError(
-                f"{name} beside {OVER_PRESSURE[name]}, allowed: a law over the load or one over "
+                f"{name} together with {OVER_PRESSURE[name]}, allowed: a law over the load "
+                f"or one over "
                 "the mean pressure"
             )
     if not full["friction_load_min"] < full["friction_load_max"]:
@@ -213,7 +221,7 @@ def _over_pressure(given: dict[str, Any]) -> dict[str, Any]:
     return values
 
 
-def _over_load(params: Any) -> dict[str, float]:
+def _over_load(params: "WasherParams") -> dict[str, float]:
     """Return the law over the load that is the one over the mean pressure."""
     face = face_of(params.inner_radius, params.outer_radius)
     slope = params.friction_slope * math.log(MEGAPASCAL * face)
@@ -233,14 +241,14 @@ class WasherParams:
     asperity radius and density, the heat split; see docs/theory/washer.md.
     """
 
-    inner_radius: float = quantity(INNER, "m", 2e-3, 0.05, "inner radius of the washer")
-    outer_radius: float = quantity(OUTER, "m", 3e-3, 0.06, "outer radius of washer and gear face")
+    inner_radius: float = quantity(INNER, "m", 1e-3, 0.5, "inner radius of the washer")
+    outer_radius: float = quantity(OUTER, "m", 2e-3, 0.6, "outer radius of washer and gear face")
     gear_inner_radius: float = quantity(
-        0.0156, "m", 2e-3, 0.06, "inner radius of the gear face", belongs_to=RADII
+        0.0156, "m", 1e-3, 0.6, "inner radius of the gear face", belongs_to=RADII
     )
-    carrier_thickness: float = quantity(0.01, "m", 1e-4, 0.1, "thickness of the carrier plate")
-    washer_thickness: float = quantity(6.35e-4, "m", 1e-4, 0.02, "thickness of the washer")
-    gear_thickness: float = quantity(0.01, "m", 1e-4, 0.1, "thickness of the gear's web")
+    carrier_thickness: float = quantity(0.01, "m", 1e-4, 1.0, "thickness of the carrier plate")
+    washer_thickness: float = quantity(6.35e-4, "m", 5e-5, 0.1, "thickness of the washer")
+    gear_thickness: float = quantity(0.01, "m", 1e-4, 1.0, "thickness of the gear's web")
     roughness: float = quantity(
         5.15e-7, "m", LEAST_ROUGHNESS, 1e-5, "RMS roughness of every surface"
     )
@@ -269,7 +277,7 @@ class WasherParams:
         "young", YIELD_LAWS, "YieldStrainLaw", "modulus that the yield strain refers to"
     )
     asperity_radius: float = quantity(1e-5, "m", 1e-7, 1e-3, "radius of the asperity tips")
-    asperity_density: float = quantity(6.865114e9, "1/m2", 1e8, 1e12, "asperities per nominal area")
+    asperity_density: float = quantity(6.865114e9, "1/m2", 1e7, 1e13, "asperities per nominal area")
     asperity_height_law: str = choice(
         "surface", HEIGHT_LAWS, "HeightLaw", "scatter of the asperity heights"
     )
@@ -287,7 +295,7 @@ class WasherParams:
     viscosity_constant: float = quantity(3.545, "1", 1.0, 6.0, "G_o of the Roelands law")
     viscosity_exponent: float = quantity(1.053, "1", 0.2, 3.0, "S_o of the Roelands law")
     viscosity_scale: float = quantity(6.31e-5, "Pa.s", 1e-6, 1e-2, "scale of the Roelands law")
-    oil_cooling: bool = flag(True, "whether the oil that flows through film 1 carries heat away")
+    oil_cooling: bool = flag(True, "whether the oil that flows through the film carries heat away")
     oil_density: float = quantity(850.0, "kg/m3", 500.0, 1500.0, "density of the oil")
     oil_heat_capacity: float = quantity(
         2000.0, "J/(kg.K)", 500.0, 5000.0, "specific heat of the oil"
@@ -370,7 +378,7 @@ class WasherParams:
     )
 
     @classmethod
-    def preset(cls, name: str, **changes: Any) -> "WasherParams":
+    def preset(cls, name: str, **changes: object) -> "WasherParams":
         """Return the parameters of a preset, some of them changed.
 
         ``"paper"``: the equations of Jackson & Green (2006): temperature fields of two dimensions

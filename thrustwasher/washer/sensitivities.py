@@ -52,7 +52,7 @@ LIMITS = {
     "friction_pressure_max": L.P_FRICTION_PRESSURE_MAX,
 }
 NEAR = 1e-3  # of a limit: at it
-ASIDE = 1e-3  # [sigma] of film thickness, beside a corner
+ASIDE = 1e-3  # [sigma] of film thickness, next to a corner
 SEARCH = 1e-3  # [sigma] first step towards a fold
 MOST_STEPS = 12
 FLAT = 1e-7  # of the load per sigma of film thickness: an extremum
@@ -256,7 +256,7 @@ def _limit_met(here: Linearised) -> str:
 def _at_corner(here: Linearised, varied: list[Varied], limit: str) -> Array:
     """Return the derivatives of the load where the mean contact pressure is at a limit.
 
-    From two places beside it, for differences must not reach across the corner.
+    From two places next to it, for differences must not reach across the corner.
     """
     w, par = here.w, here.par
     face, wanted = face_area(par), float(par[LIMITS[limit]])

@@ -20,8 +20,8 @@ from ..numerics.jit import Array
 from .kernel_arguments import Recent, constants, work_array
 from .kernels import layout as L
 from .kernels import step as kernel
+from .kernels.continuation import BUDGET
 from .kernels.regime_and_status import LEAST_TEMPERATURE
-from .kernels.solve import BUDGET
 from .kernels.workspace import size_of_state, size_of_work
 from .parameters import SPEC, WasherParams
 from .washer_result import BRANCH_NAMES, BRANCHES, BY_CARD, OVERLAP, Inputs, WasherResult, result_of
@@ -149,7 +149,7 @@ def solve_washer(
     Parameters
     ----------
     params : geometry, surfaces, oil
-    load : axial load [N], 1 .. 1e4
+    load : axial load [N], 1 .. 2e5
     speed : [rad/s] of washer and gear against the carrier, either sign, up to 2000
     tilt : of the gear [rad], 0 .. 0.01
     oil_temperature : [K], 233.15 .. 473.15
@@ -169,7 +169,7 @@ def solve_washer(
     Raises
     ------
     ParameterError : an argument is outside its range (named, with unit and range)
-    BranchError : the branch asked for has no solution at this load
+    BranchError : the branch requested has no solution at this load
     SolveError : not converged, or not within the budget of work: BUDGET = 1500 Newton iterations,
         counted by ``iterations`` of the result, after which the status is OVER_BUDGET
 
@@ -266,7 +266,7 @@ SWEEP = Sweep(
     least={
         "stick_margin": (
             1.0,
-            "gap 2 cannot hold the washer, which would slip on the gear; here both turn together",
+            "the gear cannot hold the washer, which would slip on it; here both turn together",
         ),
         "film_thickness": (0.0, OVERLAP),
     },
@@ -302,7 +302,7 @@ def _solve(
     start: WasherResult | None,
     card: bool = False,
 ) -> WasherResult:
-    """Solve on a mesh; ``card``: the rung is one whose cards know its error."""
+    """Solve on a mesh; ``card``: the level is one whose verification tables know its error."""
     ready = _prepared(params, nodes)
     if start is not None and _continues(start, params, nodes):
         state = start._state.copy()

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import ParameterError, Status
+from ..face_load import Face, OnFaces
 from ..ladder.error_table import error_estimate
 from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
@@ -21,20 +22,20 @@ from .kernels.outputs import outputs_at
 from .kernels.regime_and_status import point_of
 from .kernels.workspace import Fields, fields_of, size_of_work, workspace_of
 from .mesh_error import OF_FILM, mesh_error
-from .parameters import SPEC, WasherParams, face_of
+from .parameters import SPEC, WasherParams, face_of, washer_face
 from .sensitivities import Solved, parameter_derivatives
 
 BRANCHES = {"film": L.FILM_BRANCH, "contact": L.CONTACT_BRANCH}  # that one can ask for
 SLIPS = (
-    "gap 2 cannot hold the washer: its dry friction takes {:.2g} times the friction torque, so the "
-    "washer would slip on the gear; here both turn together"
+    "the gear cannot hold the washer: dry friction between them takes {:.2g} times the friction "
+    "torque, so the washer would slip on the gear; here both turn together"
 )
 OVERLAP = (
     "below 0 the mean surfaces would overlap, asperities alone carry and wear; lower the load or "
     "raise roughness or viscosity"
 )
 PRESSED = "film_thickness = {:.3g} um: " + OVERLAP
-BY_CARD = -1.0  # in place of an error: a card is looked at when somebody asks
+BY_CARD = -1.0  # in place of an error: a verification table is looked at when somebody asks
 INPUTS = tuple(signal.name for signal in SPEC.inputs)
 Inputs = tuple[float, float, float, float, float]  # of a solution, in that order
 FULL_FILM = 3.0  # film ratio above which regime and branch are called film
@@ -48,9 +49,10 @@ FAR_FACE = (
 )
 COUNTS = 0.1  # share of the torque from which dry friction counts
 BEYOND = (
-    "dry friction was measured for mean contact pressures of {:.3g} .. {:.3g} Pa; here {:.3g} Pa: "
-    "it is held at the end, {:.3g}; give data for this pressure (friction_reference, "
-    "friction_slope, friction_pressure_min, friction_pressure_max) or friction_law = 'constant'"
+    "dry friction was measured for mean contact pressures of {low:.3g} .. {high:.3g} Pa; here "
+    "{pressure:.3g} Pa: it is held at the end, {friction:.3g}; give data for this pressure "
+    "(friction_reference, friction_slope, friction_pressure_min, friction_pressure_max) or "
+    "friction_law = 'constant'"
 )
 LOAD, SPEED, TILT, OIL = (signal.verified for signal in SPEC.inputs[:4])
 BRANCH_NAMES = {L.FILM_BRANCH: "film", L.UNSTABLE: "unstable", L.CONTACT_BRANCH: "contact"}
@@ -86,13 +88,13 @@ class Fold:
 
 
 @dataclass(frozen=True, slots=True)
-class WasherResult(AtPoint):
+class WasherResult(AtPoint, OnFaces):
     """Steady state of the washer at one operating point; SI units."""
 
     friction_torque: float  # [N m] sign of speed
     temperature: float  # [K] area mean of carrier and washer
     temperature_max: float  # [K] of carrier and washer
-    film_thickness: float  # [m] least separation of the mean surfaces of film 1
+    film_thickness: float  # [m] minimum separation of the mean surfaces of film 1
     film_ratio: float  # [-] film_thickness over sigma
     fluid_load: float  # [N]
     contact_load: float  # [N]
@@ -128,8 +130,8 @@ class WasherResult(AtPoint):
         """[-] relative, of friction_torque, at most 1; with ``grid`` by a second solve.
 
         On the named meshes it follows from how steeply the torque follows the load (some
-        milliseconds), with the map from its card. Both hold for the parameters and the box that a
-        card was measured for; elsewhere it is None.
+        milliseconds), with the map from its verification table. Both hold for the parameters and
+        the box that a verification table was measured for; elsewhere it is None.
         """
         if self._error != BY_CARD:
             return self._error
@@ -138,6 +140,9 @@ class WasherResult(AtPoint):
             return known
         share = self.fluid_load / (self.fluid_load + self.contact_load)
         return mesh_error(self.solved(), self.fidelity, share, self.film_ratio)
+
+    def _on_faces(self) -> tuple[Face, float, float]:
+        return washer_face(self.params), self.load, self.speed
 
     def _by_table(self) -> float | None:
         names = ("load", "speed", "tilt", "oil_temperature")
@@ -154,7 +159,7 @@ class WasherResult(AtPoint):
         """Return the inputs: load, speed, tilt, oil temperature, that of the gear's far face."""
         return (self.load, self.speed, self.tilt, self.oil_temperature, self.far_face_temperature)
 
-    def asked_with(self) -> Asked:
+    def request(self) -> Asked:
         """Return model, parameters and point that it is the solution of."""
         point = dict(zip(INPUTS, self.point(), strict=True))
         return Asked(SPEC.key, self.params, {**point, "fidelity": self.fidelity})
@@ -179,7 +184,7 @@ class WasherResult(AtPoint):
 
         Raises
         ------
-        ParameterError : a name is none of them, or the rung has no mesh
+        ParameterError : a name is none of them, or the level has no mesh
         SolveError : at a fold, where results have no derivatives
 
         Notes
@@ -207,7 +212,7 @@ class WasherResult(AtPoint):
         return Solved(self.params, self.grid, self.point(), self._state)
 
     def fields(self) -> WasherFields:
-        """Return gap, pressures, temperatures and oil flow; it takes a rung with a mesh."""
+        """Return gap, pressures, temperatures and oil flow; it takes a level with a mesh."""
         if self.grid == NO_MESH:
             raise ParameterError(
                 f"fidelity = {self.fidelity!r} has no fields; allowed: 'field' or 'fine'"
@@ -372,13 +377,13 @@ def friction_warning(params: WasherParams, contact: float, torque: float) -> str
     mean_radius = 0.5 * (params.inner_radius + params.outer_radius)
     if friction * contact * mean_radius < COUNTS * torque:
         return ""
-    return BEYOND.format(low, high, pressure, friction)
+    return BEYOND.format(low=low, high=high, pressure=pressure, friction=friction)
 
 
 def _liquid_flow(m: WasherModel, f: Fields) -> tuple[Array, Array]:
     """Return the liquid's flow per width [m2/s] (n_r, n_theta) outward and around.
 
-    It is the mean of the two faces beside a node; a node at a rim has one.
+    It is the mean of the two faces next to a node; a node at a rim has one.
     """
     shape = len(m.cos), len(m.r)
     liquid = f.liquid.reshape(shape)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ...errors import ParameterError, suggestion
 from ...model.idle import idle_warnings
 from ...model.oil import refuse_two_ways, sheet_oil
-from ...model.parameters import allowed, check_number, earlier_of
+from ...model.parameters import allowed, check_number, earlier_of, former_names_of
 from ...model.part_file import (
     PartFile,
     find_part,
@@ -17,11 +17,13 @@ from ...model.part_file import (
     load_part,
     preset_part,
     preset_parts,
+    scene_parts,
 )
 from ...model.point import Point, point_of
 from ...model.record import Option
 from ...model.registry import find_model, models_with_points, spec_of
-from ...sweep.axes import Place, places, split_settings
+from ...moved import now_named
+from ...settings import Place, places, split_settings
 from ...units import has_unit, parse_quantity
 from ._output import note, parameters_of, warn
 
@@ -40,8 +42,8 @@ def add_inputs(parser: argparse.ArgumentParser, inputs: "Iterable[Signal]") -> N
             option_name(signal.name),
             dest=signal.name,
             metavar="QUANTITY",
-            help=f"{signal.help} [{signal.unit}]; {span}, default {signal.usual:g}, moved into the "
-            "part's [box]",
+            help=f"{signal.help} [{signal.unit}]; {span}, default {signal.usual:g} or "
+            "the nearest value in the part's [box]",
         )
 
 
@@ -178,16 +180,18 @@ def read_part(arguments: argparse.Namespace, spec: "ModelSpec") -> PartFile:
 
 
 def solvable(name: str, preset: str | None = None) -> PartFile:
-    """Return the part of a part file, or that of a model with its defaults or those of a preset.
+    """Return the part of a part file or built-in scene, or a model with defaults or a preset.
 
     ParameterError unless its model is solved at operating points.
     """
+    if preset is None and name in scene_parts():
+        return find_part(name)
     if not is_part(name):
         spec = spec_of(find_model(name).key)
         return find_part(spec.key) if preset is None else preset_part(spec, preset)
     if preset is not None:
         raise ParameterError(
-            f"--preset {preset}: beside the part file {name}, allowed: one of them"
+            f"--preset {preset}: together with the part file {name}, allowed: one of them"
         )
     part = load_part(name)
     spec_of(part.spec.key)
@@ -197,7 +201,7 @@ def solvable(name: str, preset: str | None = None) -> PartFile:
 class _ListParameters(argparse.Action):
     """Print the parameters and leave, as ``--help`` does."""
 
-    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         parser._print_message(f"{parameter_table(self.const)}\n")
         parser.exit()
 
@@ -220,7 +224,7 @@ def with_oil(arguments: argparse.Namespace, part: PartFile, others: Iterable[str
         return part.with_oil(oil)
     sets = part.oil.parameters_for(part.spec) if part.oil else {}
     if changed := [name for name in others if name in sets]:
-        note(f"{', '.join(changed)}: given beside the oil of the part, which it is no more")
+        note(f"{', '.join(changed)}: given in addition to the oil of the part, which it is no more")
         return replace(part, oil=None)
     return part
 
@@ -245,6 +249,7 @@ def read_settings(settings: Iterable[str], spec: "ModelSpec") -> dict[str, Any]:
     """Return the values that ``--set NAME=VALUE`` gives, by name."""
     metadata = {f.name: f.metadata for f in fields(spec.params)} | earlier_of(spec.params)
     given = split_settings(settings, "--set", "NAME=VALUE, e.g. roughness=4e-7")
+    given = now_named("--set", former_names_of(spec.params), given)
     for name, text in given.items():
         if name not in metadata:
             hint = suggestion(name, metadata, "did you mean {}? ")
@@ -278,13 +283,15 @@ def _default(field: Any) -> str:
 
 
 def add_fidelity(parser: argparse.ArgumentParser, spec: "ModelSpec", *, auto: bool = False) -> None:
-    """Add ``--fidelity`` with one sentence per rung, and ``auto`` where the cards may choose."""
+    """Add ``--fidelity`` with a sentence per level, and ``auto`` if there are error tables."""
     words = [f"{name}: {text}" for name, text in spec.rungs.items()]
     if auto:
-        words.append("auto:0.01: the cheapest rung whose torque is verified to 1 % at this point")
+        words.append(
+            "auto:0.01: the cheapest fidelity level whose torque is verified to 1 % at this point"
+        )
     usual = spec.default_fidelity
     help = "; ".join([*words, f"default {usual} or the part file's"]).replace("%", "%%")
-    parser.add_argument("--fidelity", help=help, metavar="RUNG")
+    parser.add_argument("--fidelity", help=help, metavar="LEVEL")
 
 
 def add_options(parser: argparse.ArgumentParser, options: Iterable[Option]) -> None:
@@ -314,7 +321,7 @@ def add_oil(parser: Any) -> None:
 
 
 def refuse_unused(
-    arguments: argparse.Namespace, what: str, options: Iterable[str], **usual: Any
+    arguments: argparse.Namespace, what: str, options: Iterable[str], **usual: object
 ) -> None:
     """Raise ParameterError if an option is given for which a command has no use there.
 

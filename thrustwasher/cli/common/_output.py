@@ -6,8 +6,7 @@ import dataclasses
 import json
 import sys
 import tempfile
-import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -20,6 +19,9 @@ from ...shown import text_of as text_of
 from ...storage.whole_files import new_folder
 from ...storage.whole_files import whole_file as whole_file
 from ...storage.whole_files import whole_folder as whole_folder
+from ._progress import duration as duration
+from ._progress import going_on as going_on
+from ._progress import time_left as time_left
 
 PLOT_SUFFIXES = (".png", ".svg", ".pdf")
 LINES = 16  # of a table on the screen
@@ -30,12 +32,12 @@ def parameters_of(params: Any) -> dict[str, Any]:
     return {f.name: getattr(params, f.name) for f in dataclasses.fields(params)}
 
 
-def print_json(record: Mapping[str, Any]) -> None:
+def print_json(record: Mapping[str, object]) -> None:
     """Write one JSON object to standard output, numbers in full precision; it has ``warnings``."""
     print(json_text({"warnings": [], **record}))
 
 
-def json_text(record: Mapping[str, Any]) -> str:
+def json_text(record: Mapping[str, object]) -> str:
     """Return one JSON object as text."""
     return json.dumps(plain(record), indent=2, allow_nan=False)
 
@@ -47,7 +49,9 @@ def print_rows(rows: Sequence[tuple[str, str, str]]) -> None:
         print(f"  {name:<{names}}  {value:<{values}}  {meaning}".rstrip())
 
 
-def print_table(units: Mapping[str, str], series: Mapping[str, Sequence[Any]], width: int) -> None:
+def print_table(
+    units: Mapping[str, str], series: Mapping[str, Sequence[object]], width: int
+) -> None:
     """Write the columns that have units, of lines that are spread evenly."""
     print("".join(f"{name:>{width}}" for name in units))
     last = len(next(iter(series.values()))) - 1
@@ -73,40 +77,6 @@ def warn(warnings: Iterable[str]) -> None:
         note(f"warning: {' '.join(text.split())}")
 
 
-def time_left(label: str) -> Callable[[int, int], None]:
-    """Return ``show(done, total)`` that also says how long it will take; in a pipe a line a minute.
-
-    What was done before the first call does not count for the pace.
-    """
-    stream, on_terminal = sys.stderr, sys.stderr.isatty()
-    every = 0.1 if on_terminal else 60.0
-    began = last = time.monotonic()
-    before = -1
-
-    def show(done: int, total: int) -> None:
-        nonlocal last, before
-        before = done if before < 0 else before
-        now = time.monotonic()
-        if done >= total:
-            stream.write("\r\033[K" if on_terminal else "")
-        elif now - last >= every and done > before:
-            last = now
-            left = (now - began) * (total - done) / (done - before)
-            text = f"{label} {done} of {total} ({done / total:.0%}), {_duration(left)} left"
-            stream.write(f"\r\033[K{text}" if on_terminal else text + "\n")
-        stream.flush()
-
-    return show
-
-
-def _duration(seconds: float) -> str:
-    """Return a duration for a glance: 40 s, 3 min, 2 h 10 min."""
-    if seconds < 90.0:
-        return f"{seconds:.0f} s"
-    minutes = round(seconds / 60.0)
-    return f"{minutes} min" if minutes < 90 else f"{minutes // 60} h {minutes % 60} min"
-
-
 def add_targets(
     parser: argparse.ArgumentParser, *, plot: str, out: str = "", instead: str = "a table"
 ) -> None:
@@ -124,12 +94,12 @@ def write_text(path: Path, text: str) -> None:
 
 
 class Targets(NamedTuple):
-    """The files asked for, if any."""
+    """The files requested, if any."""
 
     out: Path | None
     plot: Path | None
 
-    def write(self, units: Mapping[str, str], series: Mapping[str, Iterable[Any]]) -> None:
+    def write(self, units: Mapping[str, str], series: Mapping[str, Iterable[object]]) -> None:
         """Write columns as CSV; the unit stands in the head of each."""
         if self.out is None:
             return

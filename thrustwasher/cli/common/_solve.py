@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from ...model.record import Command, Model, Variants
-from ...model.solutions import closing, heading, point_lines
+from ...model.solutions import closing, input_lines, point_lines, title_of
 from ...model.spec import ModelSpec
+from ...plugins import called
 from . import _options, _output
 
 SHOWN = 4  # parameters of an output on the screen
@@ -21,7 +22,7 @@ class PointCommand:
 
     def __init__(self, model: Model) -> None:
         assert model.command is not None
-        self.HELP = model.command.help
+        self.HELP, self.EXAMPLES = model.command.help, model.command.examples
         self._model, self._command = model, model.command
 
     def add_arguments(self, parser: argparse.ArgumentParser) -> None:
@@ -61,14 +62,14 @@ class PointCommand:
         wall_time = time.perf_counter() - began
         own = "" if any(options.values()) else self._model.doubt(result)
         changes = _changes(getattr(arguments, "sensitivities", None), result)
-        warnings = at.warn(filter(None, [*result.warnings, own]))
+        named = self._model.own_names(arguments.part or given["preset"])
+        more = filter(None, [*at.part.over_limits(result), *result.warnings, own])
+        warnings = at.warn(map(named, more))
         if targets.plot:
-            from ...report.model_plots import FIGURES, ranking_figure
-
             targets.draw(
-                FIGURES[spec.key](result, point, params)
+                called("point_figures")[spec.key](result, point, params)
                 if changes is None
-                else ranking_figure(spec.name, _ranking(model, spec, result, changes))
+                else called("ranking_figure")(spec.name, _ranking(model, spec, result, changes))
             )
         found, parameters = _output.scalars(result), _output.parameters_of(params)
         if arguments.json:
@@ -77,10 +78,10 @@ class PointCommand:
                 given["change_per_percent"] = changes
             _output.print_json({**found, **point, **given, **at.record(warnings, wall_time)})
             return 0
-        print(heading(self._model, params, point))
-        if at.there.taken:
-            print(f"  {at.there.taken}")
-        _output.print_rows(list(point_lines(self._model, result, point)))
+        name = "" if at.part.name == spec.name else f": {at.part.name}"
+        print(f"{title_of(self._model, params)}{name}")
+        lines = [*input_lines(self._model, at.there), *point_lines(self._model, result, point)]
+        _output.print_rows([(named(line.name), line.value, named(line.words)) for line in lines])
         if model.variants:
             _print_variants(model.variants, result, parameters)
         if changes is not None:
@@ -98,8 +99,8 @@ def _changes(asked: str | None, result: Any) -> Changes | None:
     return found
 
 
-def _ranking(model: Command, spec: ModelSpec, result: Any, changes: Changes) -> Ranking:
-    """Return unit and changes, the greatest first, of outputs in the table that change."""
+def _ranking(model: Command, spec: ModelSpec, result: object, changes: Changes) -> Ranking:
+    """Return unit and changes, largest first, of outputs in the table that change."""
     units = {s.name: s.unit for s in spec.outputs}
     units |= {name: unit for name, (unit, _) in model.extra.items()}
     return {
@@ -111,7 +112,7 @@ def _ranking(model: Command, spec: ModelSpec, result: Any, changes: Changes) -> 
 
 def print_ranking(ranking: Ranking) -> None:
     """Print for each output the parameters that change it most."""
-    print("  change by one percent more of a parameter, the greatest first:")
+    print("  change by one percent more of a parameter, largest first:")
     wide = max(map(len, ranking), default=0)
     for output, (unit, row) in ranking.items():
         words = (
@@ -122,8 +123,8 @@ def print_ranking(ranking: Ranking) -> None:
         print(f"  {output:<{wide}}  {', '.join(words)}")
 
 
-def _rung(asked: str, spec: ModelSpec, params: Any, point: Mapping[str, float]) -> str:
-    """Return the rung asked for by name, or the one that is chosen at ``point``.
+def _rung(asked: str, spec: ModelSpec, params: object, point: Mapping[str, float]) -> str:
+    """Return the level requested by name, or the one that is chosen at ``point``.
 
     Why it was chosen is written to standard error; SolveError if none holds the tolerance.
     """
@@ -137,7 +138,7 @@ def _rung(asked: str, spec: ModelSpec, params: Any, point: Mapping[str, float]) 
     return choice.fidelity
 
 
-def _print_variants(variants: Variants, result: Any, parameters: Mapping[str, Any]) -> None:
+def _print_variants(variants: Variants, result: object, parameters: Mapping[str, object]) -> None:
     """Print the results of all variants, a row for each; nothing where there are none."""
     names = (variants.name(column, row) for column in variants.columns for row in variants.rows)
     if all(getattr(result, name) is None for name in names):

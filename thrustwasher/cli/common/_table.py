@@ -20,6 +20,7 @@ def read_columns(
     *,
     strict: bool = False,
     names: Sequence[str] = (),
+    known: "Table | None" = None,
 ) -> dict[str, list[Any]]:
     """Return the columns, each a list of numbers in SI units.
 
@@ -29,12 +30,13 @@ def read_columns(
     a line, unless their name is nearly one of these. ``units`` holds the SI unit of every
     column by its name, ``optional`` the names that may be missing. ``strict``: other columns are
     refused unless their names begin with _, and a cell may be empty: None. ``names``: texts
-    NAME=CHANNEL of ``--column``. Errors name line and column.
+    NAME=CHANNEL of ``--column``. ``known``: the table, where it was read before and renamed. Errors
+    name line and column.
     """
     from ...storage.tables.table import numbers
     from ...storage.tables.table_file import read_table
 
-    table = read_table(path).renamed(_renaming(names))
+    table = read_table(path).renamed(renaming(names)) if known is None else known
     found, passed = _find(table, units, optional, strict)
     columns: dict[str, list[Any]] = {}
     for name, column in found.items():
@@ -50,7 +52,7 @@ def read_columns(
     return columns
 
 
-def _renaming(names: Sequence[str]) -> dict[str, str]:
+def renaming(names: Sequence[str]) -> dict[str, str]:
     """Return channel by name, from texts NAME=CHANNEL."""
     pairs = [text.partition("=") for text in names]
     for text, (name, _, channel) in zip(names, pairs, strict=True):

@@ -111,7 +111,7 @@ def directional_derivative(
     status = OK
     for k in range(int(par[L.D_RINGS])):
         work[np.uintp(L.W_SURFACE_CHANGE + k)] = heat
-    if started and par[L.P_INPUT_COURSE] == L.LINEAR_COURSE:
+    if started and par[L.P_INPUT_PROFILE] == L.LINEAR_COURSE:
         film, status = followed(par, inp, state, work, seed)
     surfaces(par, work, L.W_NOW, L.W_SURFACE)
     point = (inp[L.I_LOAD], inp[L.I_SPEED], work[np.uintp(L.W_NOW + L.Y_FILM)], inp[L.I_DRUM])

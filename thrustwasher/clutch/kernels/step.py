@@ -63,7 +63,7 @@ def step(
     Returns 0 or the status of a failure; advice stands in ``iout`` only. In rings ``temperature``
     is their area mean; the advice HOT goes by the hottest one.
     """
-    linear = par[L.P_INPUT_COURSE] == L.LINEAR_COURSE
+    linear = par[L.P_INPUT_PROFILE] == L.LINEAR_COURSE
     before, ahead = point_at(inp, 0.0), 0.0 if linear else dt
     load, slip, oil, drum = point_at(inp, ahead)
     good = are_finite(inp) and math.isfinite(dt) and dt >= 0.0

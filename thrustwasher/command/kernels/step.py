@@ -8,8 +8,10 @@ from ...numerics.status import OK
 
 IntArray = NDArray[np.int32]
 
-P_START, P_DURATION, P_BEFORE, P_AFTER, P_LEAD, P_FIDELITY = range(6)
-N_PARAM, NPAR = 6, 6
+# places: P_ of parameters
+P_START, P_DURATION, P_BEFORE, P_AFTER, P_LEAD, P_FIDELITY, N_PARAM = range(0, 7)
+# end of places
+NPAR = N_PARAM
 NINP, NSTATE, NWORK, NOUT, NIOUT = 0, 0, 1, 1, 1
 
 

@@ -23,7 +23,7 @@ LOG_CATEGORIES = {  # in the order of the enum in the shell's tables.h
     "logAll": "Everything, also tracebacks of defects",
 }
 MOST_STEPS = 1000  # of the default experiment; beyond it FMPy silently enlarges the step
-EVENT_OUTPUTS = ("film_ratio", "engine_speed", "temperature")  # beside the inputs in messages
+EVENT_OUTPUTS = ("film_ratio", "engine_speed", "temperature")  # next to the inputs in messages
 LARGEST = sys.float_info.max  # bound of a variable without bounds: NaN and infinity still fail
 
 
@@ -90,7 +90,7 @@ class Interface:
 
     @cached_property
     def listed(self) -> dict[str, tuple[Item, ...]]:
-        """The enumerations without the rungs that are gone, whose numbers are still taken."""
+        """The enumerations without the levels that are gone, whose numbers are still taken."""
         gone = self.spec.successors
         found = {"Fidelity": tuple(i for i in self.enumerations["Fidelity"] if i.name not in gone)}
         return {**self.enumerations, **found}
@@ -208,7 +208,7 @@ def _counted(options: dict[str, str]) -> tuple[Item, ...]:
     return tuple(Item(name=n, value=i, help=t) for i, (n, t) in enumerate(options.items(), 1))
 
 
-def _signal(signal: Signal, **own: Any) -> dict[str, Any]:
+def _signal(signal: Signal, **own: object) -> dict[str, Any]:
     same = ("name", "unit", "help", "low", "high", "nominal", "relative")
     return (
         own

@@ -194,7 +194,7 @@ def value_attributes(v: Variable) -> Attributes:
 
 
 def _span(shown: Interface, v: Variable) -> Attributes:
-    """Return the least and the largest number of an enumeration that is listed."""
+    """Return the minimum and the maximum number of an enumeration that is listed."""
     if v.type_name is None:
         return {}
     numbers = [item.value for item in shown.listed[v.type_name]]

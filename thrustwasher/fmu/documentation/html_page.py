@@ -20,7 +20,7 @@ from .markup import data_uri, markup
 from .reference_results import FOLDER
 
 Rows = list[tuple[str, ...]]
-WIDTH = 1e-3  # rad/s, of the central difference: small beside every smoothing
+WIDTH = 1e-3  # rad/s, of the central difference: small compared with every smoothing
 
 
 def page(shown: Interface, folder: Path, order: Order, guid: str, *, runs: bool = True) -> str:

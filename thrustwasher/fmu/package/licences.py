@@ -11,7 +11,7 @@ from .model_sources import PACKAGE
 
 PLACE = "documentation/licenses"
 NOTICES = PACKAGE / "data" / "notices"  # of what linked the libraries
-SUMMARY = """Parts of this FMU and their licences; the full texts are beside this file.
+SUMMARY = """Parts of this FMU and their licences; the full texts are next to this file.
 
 {parts}
 None of them asks for anything but that these notices are kept. This list is no legal advice.

@@ -16,17 +16,17 @@ from ..model_kernels import content_digest, package_version
 
 PACKAGE = Path(str(files(__name__.partition(".")[0])))
 OWN = (PACKAGE / "fmu", PACKAGE / "native")  # what packs and links
-SHARED = ("shell", "portable", "documentation")  # folders beside those of the models
+SHARED = ("shell", "portable", "documentation")  # folders next to those of the models
 TEXTS = (".py", ".c", ".h", ".md", ".html", ".jinja", ".toml", ".txt", ".svg", ".png")
 
 
 def source_folder() -> Path:
-    """Return the folder of shell and texts: beside the package in a source tree, else in it."""
+    """Return the folder of shell and texts: next to the package in a source tree, else in it."""
     for folder in (PACKAGE / "_fmu_src", PACKAGE.parent / "fmu_src"):
         if folder.is_dir():
             return folder
     raise EnvironmentProblem(
-        "the folder fmu_src is missing beside the package; install thrustwasher again"
+        "the folder fmu_src is missing next to the package; install thrustwasher again"
     )
 
 

@@ -41,7 +41,7 @@ def _safe(callback: Callable[..., Any]) -> Callable[..., Any]:
     """Catch everything; return what the callback returns, or False after a failure."""
 
     @wraps(callback)
-    def guarded(self: "Slave", *args: Any) -> Any:
+    def guarded(self: "Slave", *args: object) -> Any:
         try:
             return callback(self, *args)
         except BaseException as problem:
@@ -82,7 +82,7 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
     log_categories = LOG_CATEGORIES
     start_time = 0.0
 
-    def __init__(self, **kwargs: Any) -> None:
+    def __init__(self, **kwargs: object) -> None:
         super().__init__(**kwargs)
         # pythonfmu adds the folder to sys.path once per instantiation: one is enough
         if self.resources in sys.path:
@@ -171,7 +171,7 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
         except BaseException as problem:
             return str(problem)
 
-    def tell(self, text: str, status: Any, category: str | None = None) -> None:
+    def tell(self, text: str, status: object, category: str | None = None) -> None:
         """Queue a message; FMI gives # and % in texts a meaning, so they are not used."""
         text = text.replace("#", "no. ").replace("%", " percent")
         # a file's name may hold what is no UTF-8, and pythonfmu does not survive such a text

@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from dataclasses import fields
 from enum import IntEnum
-from functools import partial
 from math import isfinite
 from struct import pack, unpack
 from typing import Any
@@ -21,14 +20,11 @@ from ..model_kernels import content_digest
 from .snapshot import ARRAYS, Snapshot
 
 # What is said of an input outside the part's box, and outside what was verified: before it, behind.
-RANGES = (
-    (
-        "",
-        "the part's box: solved all the same, but it is not what the part is meant for; change "
-        "the input, or [box] in the part file",
-    ),
-    ("OUTSIDE_VERIFIED: ", "for which the accuracy was verified; use with care"),
-)
+RANGES = {
+    "": "the part's box: solved all the same, but it is not what the part is meant for; change the "
+    "input, or [box] in the part file",
+    "OUTSIDE_VERIFIED: ": "for which the accuracy was verified; use with care",
+}
 
 
 class Mode(IntEnum):
@@ -69,7 +65,6 @@ class Core:
         self.state, self.work = np.zeros(kernel.NSTATE), np.zeros(kernel.NWORK)
         self.out, self.iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
         taken = given if self._takes_rates else self.inp
-        self._step_into = partial(kernel.step, self.par, taken, self.state, self.work)
         self._arrays = {name: getattr(self, name) for name in (*ARRAYS, "work")}
         handed = {name: a for name, a in self._arrays.items() if name != "rates"}
         self._step = bound(kernel.step, **handed | {"inp": taken})
@@ -195,11 +190,8 @@ class Core:
         if v.unit == "K" and not v.relative and low <= value + 273.15 <= high:
             text += f" Did you mean {value + 273.15:g} K ({value:g} degC)?"
         if value == 0.0 and v.causality == "input":
-            usual = f"{v.name} = {v.start:g}{unit}"
-            text += (
-                " Some hosts set an input to 0 that is not connected: connect it to a constant, "
-            )
-            text += f"{usual} is its default."
+            text += " Some hosts set an input to 0 that is not connected: connect it to a constant,"
+            text += f" {v.name} = {v.start:g}{unit} is its default."
         return text
 
     def prepare(self) -> None:
@@ -363,7 +355,8 @@ class Core:
     def solve_aside(self) -> None:
         """Let ``work`` belong to the present point; outputs and memory stay as they are."""
         out, iout = self.out.copy(), self.iout.copy()
-        self._step_into(out, iout, self.time, 0.0)
+        self._step(self.time, 0.0)
+        self.out[:], self.iout[:] = out, iout
 
     def _story(self, rc: int, where: str) -> str:
         point = self._point(self.shown.inputs)
@@ -377,7 +370,7 @@ class Core:
     def advice(self) -> list[str]:
         """Return what the host has to be warned of now, each once until it has passed."""
         outside, unverified, begin = [], False, f"{self._here}: "
-        for k, (name, words) in enumerate(RANGES):
+        for k, (name, words) in enumerate(RANGES.items()):
             for i, (v, (low, high)) in enumerate(
                 zip(self.shown.inputs, self._ranges[k], strict=True)
             ):

@@ -26,7 +26,7 @@ class Stepped:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def free_state(self, state: Any) -> None:
+    def free_state(self, state: object) -> None:
         """Do nothing: a state is an ordinary object."""
 
     def close(self) -> None:
@@ -36,7 +36,7 @@ class Stepped:
 class DirectInstance(Stepped):
     """The kernels of a model in this process, without an FMU."""
 
-    def __init__(self, spec: ModelSpec, *, parameters: Mapping[str, Any] | None = None) -> None:
+    def __init__(self, spec: ModelSpec, *, parameters: Mapping[str, object] | None = None) -> None:
         start = perf_counter()
         self.spec = spec
         self.shown = interface(spec)

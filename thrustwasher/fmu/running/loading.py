@@ -228,7 +228,9 @@ def _begin2(fmu: Any, messages: Messages) -> None:
     callbacks.allocateMemory, callbacks.freeMemory = default.allocateMemory, default.freeMemory
     if VARIADIC_AS_USUAL:
 
-        def log(_: Any, _name: bytes, status: int, category: bytes, text: bytes, more: int) -> None:
+        def log(
+            _: object, _name: bytes, status: int, category: bytes, text: bytes, more: int
+        ) -> None:
             sent = ctypes.string_at(more) if text == b"%s" and more else text
             _keep(messages, status, category, sent)
 

@@ -36,7 +36,7 @@ class Protocol:
     def __init__(self, fmu: Any, version: int) -> None:
         self.fmu, self._version = fmu, version
         self.types = TYPES[version]
-        self.lengths = version - 2  # times the number of values is handed over beside the values
+        self.lengths = version - 2  # times the number of values is handed over next to the values
         self._do_step = self.function("DoStep")
         self._early = (c_bool(), c_bool(), c_bool(), c_double())
         self._rest = (0,) if version == 2 else (False, *(ctypes.byref(x) for x in self._early))

@@ -10,8 +10,8 @@ from pathlib import Path
 
 from ...model.registry import kernel_of
 from ...native import digest, shipped
+from ...native.compiling.portable import identity, portable
 from ...native.files import Note
-from ...native.portable import identity, portable
 from ...templates import filled
 from ..description.interface import Interface
 from ..package.model_sources import source_folder
@@ -34,7 +34,7 @@ def source_files(shown: Interface, fmi: int, note: Note, guid: str) -> dict[str,
     """Return file name -> content of the folder sources, for one version of FMI.
 
     What part.bin says, ``guid`` among it, is compiled in, and the map of a model that has nothing
-    else: these sources read no file, but for a washer's maps beside its solver.
+    else: these sources read no file, but for a washer's maps next to its solver.
 
     The C of the kernels is what is shipped; of a model without it is made now, which takes wasm2c
     and zig (EnvironmentProblem says so).

@@ -23,11 +23,11 @@ from . import call_table
 
 SIZES = ("NPAR", "NINP", "NSTATE", "NWORK", "NOUT", "NIOUT")
 MOST_INPUTS = 32  # dependencies are bits of one word
-# The C files of a native FMU beside the generated ones and the dispatch to the kernels.
+# The C files of a native FMU next to the generated ones and the dispatch to the kernels.
 SHELL_FILES = tuple(
     """
-    lifecycle.c course.c events.c resource.c values.c text.c messages.c state.c derivative.c fmi2.c
-    fmi2_values.c fmi3.c fmi3_values.c fmi3_state.c fmi3_declined.c
+    lifecycle.c events.c solution.c resource.c values.c text.c messages.c state.c derivative.c
+    fmi2.c fmi2_values.c fmi3.c fmi3_values.c fmi3_state.c fmi3_declined.c
     """.split()
 )
 VERSIONS = (2, 3)  # of FMI, both in one library
@@ -232,11 +232,11 @@ def _tables(lists: dict[str, tuple[str, list[str]]]) -> str:
     return "\n".join([*parts, ""])
 
 
-def _row(values: Iterable[Any]) -> str:
+def _row(values: Iterable[object]) -> str:
     return "{" + ", ".join(map(_text, values)) + "}"
 
 
-def _text(value: Any) -> str:
+def _text(value: object) -> str:
     """Return a value in C; in a literal all that C might read otherwise is octal digits."""
     if value is None:
         return "0"

@@ -1,6 +1,6 @@
 """Which FMI function may be called when: one table, as data, in ``calls.toml``.
 
-The C tables of the native shell are written from it, and the tests walk through it: every function
+The C tables of the native shell are written from it, and the tests go through it: every function
 in every mode. A mode there is a name of here in small letters.
 """
 

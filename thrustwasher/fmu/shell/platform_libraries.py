@@ -1,26 +1,26 @@
 """The shared libraries inside native FMUs: the C shell linked with kernels, one per platform.
 
-A library serves every part of its model and both versions of FMI: what is an FMU's own lies in its
-resources. The libraries of the package's models are shipped; others are linked when they are
-wanted, and kept in the user's cache.
+A library serves every part of its model, both versions of FMI, and Python, which loads its kernels:
+what is an FMU's own lies in its resources. The libraries of the package's models are shipped;
+others are linked when they are requested, and kept in the user's cache.
 """
 
 import hashlib
 import struct
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from dataclasses import replace
 from importlib import metadata
 from pathlib import Path
 
 from ...errors import ParameterError
 from ...model.prepare import tables_of
 from ...model.spec import ModelSpec
-from ...native import digest, files, shipped
+from ...native import digest, files, mathematics, shipped
+from ...native.compiling.objects import objects
 from ...native.files import Note, to_stderr
-from ...native.library import linked_objects
-from ...native.link import COMMON, Linker, find_linker, local_linker, this_level, this_platform
-from ...native.objects import kept_folder, objects
+from ...native.kept import kept_folder
+from ...native.library import TABLE, linked_objects, local_platform, table_sources
+from ...native.link import COMMON, Linker, find_linker, local_linker
 from ...native.targets import PLATFORMS, Platform
 from ..description.interface import Interface, interface
 from ..package.model_sources import Order, source_folder
@@ -35,7 +35,7 @@ FAT_ALIGNMENT = 14  # as a power of two: the page of arm64
 def chosen(
     platforms: Sequence[str] | None, note: Note, specs: Iterable[ModelSpec]
 ) -> tuple[str, ...]:
-    """Return the platforms to build for: those asked for, else all that can be had."""
+    """Return the platforms to build for: those requested, else all that can be had."""
     shipped_all = all(is_shipped(spec) for spec in specs)
     possible = tuple(PLATFORMS) if shipped_all else find_linker().platforms
     if platforms is None:
@@ -52,27 +52,22 @@ def chosen(
     return tuple(name for name in PLATFORMS if name in platforms)
 
 
-def local_level(spec: ModelSpec) -> str | None:
-    """Return the CPU level that is compiled for use on this machine only, None: all of them.
-
-    What is shipped has them all; what has to be compiled is compiled for this processor alone.
-    """
-    if shipped.has_objects(spec.kernel):
-        return None
-    return this_level(this_platform()).name
-
-
 def tools(linker: Linker) -> str:
     """Return names and versions of everything that links, with the C headers' package."""
     return f"fmpy {metadata.version('fmpy')}, {linker.name} {linker.version}"
 
 
 def library_identity(spec: ModelSpec, *, local: bool) -> str:
-    """Return what decides a model's libraries beside the FMU's own texts."""
+    """Return what decides a model's libraries next to the FMU's own texts."""
     if is_shipped(spec):
         return library_digest(spec)
     linker = local_linker() if local else find_linker()
-    return f"{library_digest(spec)} {tools(linker)} {local_level(spec) if local else ''}"
+    levels = _levels(local_platform(spec.kernel)) if local else ""
+    return f"{library_digest(spec)} {tools(linker)} {levels}"
+
+
+def _levels(platform: Platform) -> str:
+    return "-".join(level.name for level in platform.levels)
 
 
 def native_contents(shown: Interface, order: Order, guid: str) -> dict[str, bytes]:
@@ -95,7 +90,7 @@ def native_contents(shown: Interface, order: Order, guid: str) -> dict[str, byte
 
 
 def _maps(spec: ModelSpec, local: bool) -> list[bytes]:
-    """Return a model's tables that are shipped, or that of a part of one's own if there is one.
+    """Return a model's tables that are shipped, or that of your own part if there is one.
 
     Those of other parameters are of no use to a part. ``local``: all that this machine has.
     """
@@ -137,11 +132,9 @@ def library(
     made = library_digest(spec)
     if own := shipped.fmu_libraries(spec.kernel, made).get(platform):
         return own
-    target, linker = PLATFORMS[platform], local_linker() if local else find_linker()
-    level = local_level(spec) if local else None
-    if level:
-        target = replace(target, levels=tuple(x for x in target.levels if x.name == level))
-    by = f"{linker.name}-{linker.version}-{level or 'all'}"
+    linker = local_linker() if local else find_linker()
+    target = local_platform(spec.kernel) if local else PLATFORMS[platform]
+    by = f"{linker.name}-{linker.version}-{_levels(target)}"
     place = kept_folder(spec.kernel) / f"fmu-{made}-{platform}-{by}.{target.extension}"
     data = files.kept(place)
     if data is None:
@@ -154,7 +147,7 @@ def library(
 
 def linked(spec: ModelSpec, platform: Platform, linker: Linker, note: Note = to_stderr) -> bytes:
     """Link the shared library of a model for one platform; nothing that was made before is used."""
-    exports = [name for fmi in c_tables.VERSIONS for name in call_table.functions(fmi)]
+    exports = [TABLE, *(n for fmi in c_tables.VERSIONS for n in call_table.functions(fmi))]
     parts, code = {**sources(spec), **headers()}, objects(spec.kernel, [platform], note)
     name = shipped.short(spec.kernel)
     return linked_objects(parts, code, platform, name, exports, linker=linker, note=note)
@@ -162,7 +155,8 @@ def linked(spec: ModelSpec, platform: Platform, linker: Linker, note: Note = to_
 
 def library_digest(spec: ModelSpec) -> str:
     """Return 16 hex digits over all that a model's libraries are made of, compilers aside."""
-    hashed = hashlib.sha256(f"{shipped.digest_now(spec.kernel)} {COMMON}".encode())
+    kernels = f"{shipped.digest_now(spec.kernel)} {mathematics.digest()}"
+    hashed = hashlib.sha256(f"{kernels} {COMMON}".encode())
     for name, content in sorted(sources(spec).items()):
         hashed.update(f"{name}\0{len(content)}\0".encode() + content)
     return hashed.hexdigest()[:16]
@@ -173,7 +167,8 @@ def sources(spec: ModelSpec) -> dict[str, bytes]:
     tables = {name: text.encode() for name, text in c_tables.sources(interface(spec)).items()}
     folder = source_folder() / "shell"
     names = [*c_tables.SHELL_FILES, *(f.name for f in sorted(folder.glob("*.h")))]
-    return {name: digest.read(folder / name) for name in names} | dispatch() | tables
+    shell = {name: digest.read(folder / name) for name in names}
+    return shell | dispatch() | tables | table_sources(spec.kernel)
 
 
 def dispatch() -> dict[str, bytes]:

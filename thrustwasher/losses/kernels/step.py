@@ -23,37 +23,25 @@ from .loss_laws import (
     starved,
 )
 
-(
-    P_PLANETS,
-    P_PLANET_BEARING_COUNT,
-    P_PLANET_BEARING_DIAMETER,
-    P_PLANET_VISCOUS_FACTOR,
-    P_PLANET_LOAD_FACTOR,
-    P_BEARING_VISCOUS_FACTOR,
-    P_BEARING_LOAD_FACTOR,
-    P_PUMP_DISPLACEMENT,
-    P_LINE_PRESSURE,
-    P_PUMP_EFFICIENCY,
-    P_OIL_VOLUME,
-    P_OIL_DENSITY,
-    P_VISCOSITY_CONSTANT,
-    P_VISCOSITY_EXPONENT,
-    P_VISCOSITY_SCALE,
-    P_SPEED_SMOOTHING,
-    P_SHAFT,
-) = range(17)
+# places: P_ of parameters
+P_PLANETS, P_PLANET_BEARING_COUNT, P_PLANET_BEARING_DIAMETER, P_PLANET_VISCOUS_FACTOR = range(0, 4)
+P_PLANET_LOAD_FACTOR, P_BEARING_VISCOUS_FACTOR, P_BEARING_LOAD_FACTOR = range(4, 7)
+P_PUMP_DISPLACEMENT, P_LINE_PRESSURE, P_PUMP_EFFICIENCY, P_OIL_VOLUME, P_OIL_DENSITY = range(7, 12)
+P_VISCOSITY_CONSTANT, P_VISCOSITY_EXPONENT, P_VISCOSITY_SCALE, P_SPEED_SMOOTHING = range(12, 16)
+P_INPUT_BEARING_COUNT, P_INPUT_BEARING_DIAMETER, P_INPUT_BEARING_LOAD = range(16, 19)
+P_INPUT_GEAR_DIAMETER, P_INPUT_GEAR_WIDTH, P_INPUT_IMMERSION, P_INPUT_SEAL_DIAMETER = range(19, 23)
+P_OUTPUT_BEARING_COUNT, P_OUTPUT_BEARING_DIAMETER, P_OUTPUT_BEARING_LOAD = range(23, 26)
+P_OUTPUT_GEAR_DIAMETER, P_OUTPUT_GEAR_WIDTH, P_OUTPUT_IMMERSION = range(26, 29)
+P_OUTPUT_SEAL_DIAMETER, P_DRUM_BEARING_COUNT, P_DRUM_BEARING_DIAMETER = range(29, 32)
+P_DRUM_BEARING_LOAD, P_DRUM_GEAR_DIAMETER, P_DRUM_GEAR_WIDTH, P_DRUM_IMMERSION = range(32, 36)
+P_DRUM_SEAL_DIAMETER, P_STARVATION_CONSTANT, P_BEARING_SECTION = range(36, 39)
+P_BEARING_TYPE_CONSTANT, P_PLANET_BEARING_SECTION, P_PLANET_BEARING_TYPE_CONSTANT = range(39, 42)
+P_FIDELITY, N_PARAM = range(42, 44)
+# end of places
+P_SHAFT = P_INPUT_BEARING_COUNT
 # of each shaft, input, output, drum; places behind P_SHAFT + ROW times its number
 A_COUNT, A_DIAMETER, A_LOAD, A_GEAR, A_WIDTH, A_IMMERSION, A_SEAL, ROW = range(8)
 SHAFTS, PLANET, SPEEDS = 3, 3, 4  # the planet's speed comes behind those of the shafts
-(
-    P_STARVATION,
-    P_BEARING_SECTION,
-    P_BEARING_KIND,
-    P_PLANET_SECTION,
-    P_PLANET_KIND,
-    P_FIDELITY,
-    N_PARAM,
-) = range(P_SHAFT + SHAFTS * ROW, P_SHAFT + SHAFTS * ROW + 7)
 # of each shaft: churning by both sets, radius times width of the gear, cube root of that times the
 # radius; of each speed: starvation of its bearings
 D_SLOW, D_FAST, D_AREA, D_CUBE = (N_PARAM + i * SHAFTS for i in range(4))
@@ -100,16 +88,16 @@ def derive(par: Array) -> int:
         par[np.uintp(D_AREA + i)] = 0.5 * gear * width
         par[np.uintp(D_CUBE + i)] = (0.25 * gear * gear * width) ** (1.0 / 3.0)
         par[np.uintp(D_STARVING + i)] = starved(
-            par[P_STARVATION],
-            par[P_BEARING_KIND],
+            par[P_STARVATION_CONSTANT],
+            par[P_BEARING_TYPE_CONSTANT],
             par[np.uintp(row + A_DIAMETER)],
             par[P_BEARING_SECTION],
         )
     par[D_STARVING + PLANET] = starved(
-        par[P_STARVATION],
-        par[P_PLANET_KIND],
+        par[P_STARVATION_CONSTANT],
+        par[P_PLANET_BEARING_TYPE_CONSTANT],
         par[P_PLANET_BEARING_DIAMETER],
-        par[P_PLANET_SECTION],
+        par[P_PLANET_BEARING_SECTION],
     )
     work = par[P_PUMP_DISPLACEMENT] * par[P_LINE_PRESSURE]
     par[D_PUMP] = work / (2.0 * math.pi * par[P_PUMP_EFFICIENCY])

@@ -10,18 +10,18 @@ from ...clutch.release import cold_release
 from ...clutch.solve import doubts_of_warmth
 from ...numerics.jit import Array
 from ...transmission.kernels.directional_derivative import LEAST_WASHER_LOAD
-from ...units import format_quantity as say
+from ...transmission.kernels.shift_figures import FEW
 from ..cosim.loop import Recorder
 from ..key_figures.events_and_phases import STANDSTILL, Event, lock_up, locks_of
 from ..key_figures.figure_list import KeyFigure
-from ..oscillation.judder import FEW
 from ..scene.connections import PACKS
 from ..scene.scene import Scene
+from ..warning_texts import warning
 
 Signals = Mapping[str, Array]
 TURNS_SHARE = 0.02  # of the time to lock-up: shorter sticking in turn changes no figure
 NUMERICAL = 10.0  # steps between two lock-ups, at most
-KISS = 0.1  # of the greatest load: a pack that lets go later has more
+KISS = 0.1  # of the maximum load: a pack that lets go later has more
 SETTLED = 0.995  # of it: a pack that engages is pressed already
 FLARE = 10.0  # rad/s, some 100 rpm: felt and heard
 
@@ -47,13 +47,7 @@ def _at_the_start(scene: Scene, time: Array, signals: Signals) -> Iterator[str]:
         slips = (load > least * load.max()) & (np.abs(slip) > STANDSTILL) & before
         if slips.any():
             i = int(np.argmax(slips))
-            yield (
-                f"Before the shift begins, at {time[i]:.4g} s, the {pack} is pressed with "
-                f"{say(float(load[i]), 'N')} and slips with {say(abs(float(slip[i])), 'rad/s')}: "
-                "the initial speeds do not belong to this gear, or the pack takes its load too "
-                "late; its heat is counted as the shift's. Set initial_engine_speed and "
-                "initial_drum_speed of this gear, and starts_pressed"
-            )
+            yield warning("before_shift", time=time[i], pack=pack, load=load[i], slip=abs(slip[i]))
 
 
 def _in_turn(scene: Scene, time: Array, events: list[Event]) -> Iterator[str]:
@@ -66,15 +60,9 @@ def _in_turn(scene: Scene, time: Array, events: list[Event]) -> Iterator[str]:
     between = np.diff(time[(time >= first) & (time <= held)])
     step = float(np.median(between)) if len(between) else scene.step
     every = (held - first) / ((len(locks) - 1) * step)
-    why = (
-        f"a lock-up every {every:.2g} steps, which is numerical: their number follows the step"
-        if every <= NUMERICAL
-        else "the driveline asks for more than the pack can hold"
-    )
-    yield (
-        f"The {scene.engaging} sticks and slips in turn from {first:.4g} to {held:.4g} s "
-        f"({len(locks)} lock-ups), before it holds: {why}. Lock-up is the last of them"
-    )
+    why = warning("why_numerical", every=every) if every <= NUMERICAL else warning("why_overloaded")
+    count = len(locks)
+    yield warning("in_turn", pack=scene.engaging, first=first, last=held, count=count, why=why)
 
 
 def _of_temperature(scene: Scene, time: Array, signals: Signals) -> Iterator[str]:
@@ -84,7 +72,7 @@ def _of_temperature(scene: Scene, time: Array, signals: Signals) -> Iterator[str
             continue
         warm = signals[f"{pack}.temperature"]
         for line in doubts_of_warmth(part.params, float(warm.min()), float(warm.max())):
-            yield f"The {pack}: {line}"
+            yield warning("warmth", pack=pack, text=line)
         of_pack = {n: signals[f"{pack}.{n}"] for n in ("load", "speed", "film_ratio", "energy")}
         for line in cold_release(
             part.params,
@@ -102,25 +90,18 @@ def _neutral(
 ) -> Iterator[str]:
     flare = next((f for f in figures if f.name == "flare"), None)
     most = flare.value or 0.0 if flare else 0.0
-    free = _open(signals) & (time >= scene.shift_start) & (time <= scene.wanted_until)
+    pack, other = scene.engaging, scene.releasing
+    free = _open(signals) & (time >= scene.shift_start) & (time <= scene.required_until)
     if not free.any() and most <= FLARE:
         return
     if free.any():
         begin = int(np.argmax(free))
         end = begin + int(np.argmin(free[begin:])) if not free[begin:].all() else len(time) - 1
-        cause = (
-            f"From {time[begin]:.4g} to {time[end]:.4g} s neither pack is pressed: the engine is "
-            f"free; the {scene.engaging} fills or closes too late, or the {scene.releasing} lets "
-            "go too early"
-        )
-        yield cause + (f". The engine flares by {say(most, 'rad/s')}" if most > FLARE else "")
+        cause = warning("neutral", begin=time[begin], end=time[end], pack=pack, other=other)
+        yield cause + (warning("neutral_flare", flare=most) if most > FLARE else "")
     else:
         at = flare.time if flare and flare.time is not None else scene.shift_start
-        yield (
-            f"The engine flares by {say(most, 'rad/s')} at {at:.4g} s: the {scene.releasing} lets "
-            f"go before the {scene.engaging} carries its torque; let it go later or press the "
-            f"{scene.engaging} earlier"
-        )
+        yield warning("flare", flare=most, time=at, pack=pack, other=other)
 
 
 def _open(signals: Signals) -> NDArray[np.bool_]:
@@ -134,11 +115,8 @@ def _at_the_end(scene: Scene, time: Array, signals: Signals, events: list[Event]
     kind = f"{scene.engaging}_released"
     gone = [e.time for e in events if e.kind == kind and held is not None and e.time >= held]
     if gone and not any(signals[f"transmission.{pack}_locked"][-1] > 0.5 for pack in PACKS):
-        yield (
-            f"At the end no pack holds: the {scene.engaging}, locked at {held:.4g} s, lets go at "
-            f"{gone[-1]:.4g} s, where its pressure falls from {scene.wanted_until:.4g} s on; let "
-            "its profile end at the pressure that holds"
-        )
+        until = scene.required_until
+        yield warning("lets_go", pack=scene.engaging, held=held, gone=gone[-1], until=until)
 
 
 def _of_washers(signals: Signals) -> Iterator[str]:
@@ -147,12 +125,7 @@ def _of_washers(signals: Signals) -> Iterator[str]:
         return
     heat = float(signals["transmission.washer_heat"][-1])
     if heat > 0.0:
-        yield (
-            f"No tilting couple loads the washers (thrust_share = 0, spur teeth, or needles that "
-            f"hold it all): each is solved with {LEAST_WASHER_LOAD:g} N, the least load; the "
-            f"{say(heat, 'J')} they took and their film are of that load. "
-            "Leave out [washer] or set washers = 0"
-        )
+        yield warning("unloaded_washers", minimum=LEAST_WASHER_LOAD, heat=heat)
 
 
 def failed_because(scene: Scene, time: Array, recorder: Recorder) -> str:
@@ -169,13 +142,9 @@ def failed_because(scene: Scene, time: Array, recorder: Recorder) -> str:
         if not locked[-1]:
             held = np.flatnonzero(locked)
             since = float(time[held[-1]]) if len(held) else float(time[0])
-            now = "neither is pressed" if _open(reached)[-1] else "they only slip"
+            state = warning("failed_open" if _open(reached)[-1] else "failed_slipping")
             speed = float(reached["transmission.engine_speed"][-1])
-            reasons.insert(
-                0,
-                (
-                    f"since {since:.4g} s no pack held ({now} at {time[done[-1]]:.4g} s) and the "
-                    f"engine reached {say(speed, 'rad/s')}: look at the pressures of both packs"
-                ),
-            )
+            at = time[done[-1]]
+            why = warning("failed", since=since, state=state, time=at, speed=speed)
+            reasons.insert(0, why)
     return "; ".join(reasons)

@@ -14,9 +14,10 @@ from ..key_figures.figure_list import FILM_SPEED
 from ..scene.connections import PACKS
 from ..scene.doubts import idle_parameters
 from ..scene.scene import Scene
+from ..warning_texts import warning
 
 Signals = Mapping[str, Array]
-OTHER_STEP = 0.01  # of the step asked for: by so much another is worth a word
+OTHER_STEP = 0.01  # of the step requested: by so much another is worth a word
 MOST_OUTSIDE = 0.05  # share of a run's points that a map may leave to the field
 ROOM = 1e-6  # of a box's width
 
@@ -35,26 +36,13 @@ def doubts(scene: Scene, step: float, time: Array, signals: Signals) -> Iterator
 def _of_times(scene: Scene, step: float) -> Iterator[str]:
     begin, end = scene.shift_start, scene.shift_start + scene.shift_duration
     if begin < scene.start_time:
-        yield (
-            f"The shift begins at {begin:.4g} s, before the run does at {scene.start_time:.4g} s: "
-            "the run starts amid it, with locked or pressed packs as the scene says; set an "
-            "earlier start_time or later pressures"
-        )
+        yield warning("begins_before", begin=begin, start=scene.start_time)
     if begin >= scene.stop_time:
-        yield (
-            f"The shift begins at {begin:.4g} s, after the run ends at {scene.stop_time:.4g} s: "
-            "nothing shifts; set a later stop_time"
-        )
+        yield warning("begins_after", begin=begin, stop=scene.stop_time)
     elif end > scene.stop_time:
-        yield (
-            f"The run ends at {scene.stop_time:.4g} s, before the pressures of the shift have "
-            f"settled at {end:.4g} s: figures are those so far; set a later stop_time"
-        )
+        yield warning("ends_after", stop=scene.stop_time, end=end)
     if abs(step / scene.step - 1.0) > OTHER_STEP:
-        yield (
-            f"The step is {say(step, 's', digits=4)}, not {say(scene.step, 's', digits=4)}: whole "
-            "steps end at the stop time"
-        )
+        yield warning("other_step", step=step, given=scene.step)
 
 
 def _of_solvers(scene: Scene, time: Array, signals: Signals) -> Iterator[str]:
@@ -74,8 +62,9 @@ def _of_solvers(scene: Scene, time: Array, signals: Signals) -> Iterator[str]:
                         *outside_verified(spec, now),
                         *outside_laws(spec.key, params, now),
                     ]
-                for text in found or [f"{status.advice} ({status.name})"]:
-                    yield f"{part} from t = {time[i]:.4g} s: {text}"
+                advice = warning("advice", advice=status.advice, name=status.name)
+                for text in found or [advice]:
+                    yield warning("status", part=part, time=time[i], text=text)
 
 
 def _of_boxes(scene: Scene, signals: Signals) -> Iterator[str]:
@@ -88,22 +77,18 @@ def _of_boxes(scene: Scene, signals: Signals) -> Iterator[str]:
             least, most = float(values.min()), float(values.max())
             if least < low - room or most > high + room:
                 unit = next(s.unit for s in part.spec.inputs if s.name == key)
-                seen, meant = (
-                    f"{say(a, unit)} .. {say(b, unit)}" for a, b in ((least, most), (low, high))
-                )
-                yield (
-                    f"{name}: {key} of {seen} in this run leaves the {meant} that its part file is "
-                    "meant for ([box]); widen the box or take another part"
-                )
+                found = {"low": least, "high": most, "minimum": low, "most": high}
+                ends = {end: say(value, unit) for end, value in found.items()}
+                yield warning("box", part=name, key=key, **ends)
 
 
 def _of_linings(scene: Scene, signals: Signals) -> Iterator[str]:
-    """Yield what a pack's lining does not bear, at the greatest load."""
+    """Yield what a pack's lining does not bear, at the maximum load."""
     for name in PACKS:
         if (load := signals.get(f"{name}.load")) is not None:
             part = scene.parts[name]
             found = outside_laws(part.spec.key, part.params, {"load": float(load.max())})
-            yield from (f"{name}: {text}" for text in found)
+            yield from (warning("of_part", part=name, text=text) for text in found)
 
 
 def _of_maps(scene: Scene, signals: Signals) -> Iterator[str]:
@@ -117,7 +102,7 @@ def _of_maps(scene: Scene, signals: Signals) -> Iterator[str]:
     points = np.column_stack([signals[n] for n in names])
     with suppress(ParameterError):  # another's washer: it answered without a map of ours
         if text := outside_text(part.params, points, "steps", MOST_OUTSIDE):
-            yield f"washer: {text}"
+            yield warning("of_part", part="washer", text=text)
 
 
 def _of_dry_friction(scene: Scene, time: Array, signals: Signals) -> Iterator[str]:
@@ -136,6 +121,5 @@ def _of_dry_friction(scene: Scene, time: Array, signals: Signals) -> Iterator[st
     ]
     if n := sum(map(bool, texts)):
         first = next(i for i, text in enumerate(texts) if text)
-        yield (
-            f"washer: at {n} of {len(texts)} points, first at {time[first]:.4g} s: {texts[first]}"
-        )
+        points = len(texts)
+        yield warning("dry_friction", count=n, points=points, time=time[first], text=texts[first])

@@ -1,8 +1,6 @@
-"""What must not be missed at a steady point of a gearbox, and what of that in a whole map."""
+"""What must not be missed at a steady point of a gearbox."""
 
-import re
-from collections.abc import Iterator, Sequence
-from typing import Any
+from collections.abc import Iterator
 
 from ...errors import Status
 from ...model.advice import warnings_of
@@ -15,11 +13,10 @@ from ..scene.scene import Scene
 
 AGES = 423.15  # K: rule of thumb; above it transmission fluid ages fast
 BODIES = ("temperature_max", "bulk_temperature")  # outputs: of bodies that the oil wets
-NUMBER = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?")
 
 
 def capacity(scene: Scene, pack: str) -> float:
-    """Return the torque [N m] that a pack can hold under the greatest load of its scene."""
+    """Return the torque [N m] that a pack can hold under the maximum load of its scene."""
     part, gearbox = scene.parts[pack], scene.parts["transmission"].params
     if part.spec.key not in MODELS:  # a pack from elsewhere
         return float("inf")
@@ -51,7 +48,7 @@ def doubts_of_point(
     """
     if abs(reaction) > most:
         yield (
-            f"{holding}: {say(abs(reaction), 'N.m')} to hold, its capacity at the greatest load of "
+            f"{holding}: {say(abs(reaction), 'N.m')} to hold, its capacity at the maximum load of "
             f"this scene is {say(most, 'N.m')}: it would slip"
         )
     for name, part in system.parts.items():
@@ -81,19 +78,3 @@ def _of_part(scene: Scene, name: str, part: ConnectedPart) -> Iterator[str]:
 def _limit(part: ConnectedPart, name: str) -> float:
     """Return the temperature from which on there is a warning of the model's own."""
     return next((s.limit for s in part.spec.outputs if s.name == name and s.limit), float("inf"))
-
-
-def of_whole_map(points: Sequence[Any], doubts: Sequence[Sequence[str]]) -> tuple[str, ...]:
-    """Return one line for what is said at several points, which differs in numbers alone.
-
-    ``points``: torque [N m] and speed [rad/s] of each.
-    """
-    found: dict[str, list[tuple[Any, str]]] = {}
-    for point, texts in zip(points, doubts, strict=True):
-        for text in texts:
-            found.setdefault(NUMBER.sub("", text), []).append((point, text))
-    return tuple(
-        f"at {len(said)} of {len(points)} points, first at {say(said[0][0][0], 'N.m')} and "
-        f"{say(said[0][0][1], 'rad/s')}: {said[0][1]}"
-        for said in found.values()
-    )

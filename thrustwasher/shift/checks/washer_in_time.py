@@ -30,7 +30,7 @@ NEARLY = 0.8  # of a limit: what the quick mesh may find where the finer one is 
 TURN, CLEAR = 0.5, 3.0  # of a limit: the difference may change so much then; beyond, it is clear
 MOST = 100  # instants set closer
 LEAST_STEPS, LEAST_TIME = 5, 5e-3  # [steps], [s]: shorter differences are passed over
-SHARE, OF_GREATEST = 0.1, 0.05  # of the larger value, of the run's greatest torque
+SHARE, OF_GREATEST = 0.1, 0.05  # of the larger value, of the run's maximum torque
 THIN = 3.0  # film ratio: above it the film carries all, whatever its thickness
 WARMER = 5.0  # K
 COMPARED = ("friction_torque", "film_ratio", "temperature_max")
@@ -61,7 +61,7 @@ class InTime(NamedTuple):
     """Why it could not be followed to the end; empty if it could."""
     differences: list[Difference]
     worst: float
-    """The greatest difference over its limit, however short."""
+    """The maximum difference over its limit, however short."""
 
     def warnings(self, part: str, remedy: str) -> list[str]:
         """Return what must not be missed."""
@@ -231,7 +231,7 @@ def _walk(
 def _longest(
     name: str, time: Array, steady: Array, followed: Array, beyond: NDArray[np.bool_]
 ) -> Difference | None:
-    """Return the longest interval of points beyond a limit, at its greatest difference."""
+    """Return the longest interval of points beyond a limit, at its maximum difference."""
     edges = np.flatnonzero(np.diff(np.concatenate(([False], beyond, [False])).astype(int)))
     intervals = [(float(time[b - 1] - time[a]), a, b) for a, b in edges.reshape(-1, 2).tolist()]
     if not intervals:

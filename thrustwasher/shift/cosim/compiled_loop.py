@@ -39,11 +39,11 @@ values2 = values3 = step2 = step3 = clock_posix = clock_windows = _only_compiled
 if way() in ("emit", "jit"):
     import numba
 
-    from ...native.callbacks import pointer
+    from ...native.compiling.callbacks import pointer
 
     types: Any = numba.types
 
-    def _function(*takes: Any) -> Any:
+    def _function(*takes: object) -> Any:
         """Return what makes of an address a C function ``int f(takes...)``."""
         return pointer(types.ExternalFunctionPointer(types.int32(*takes), None))
 

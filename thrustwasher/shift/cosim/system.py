@@ -49,10 +49,10 @@ class Capable(Stepping, Protocol):
     def get_state(self) -> Any:
         """Return a handle of the complete state."""
 
-    def set_state(self, state: Any) -> None:
+    def set_state(self, state: object) -> None:
         """Go back to a state."""
 
-    def free_state(self, state: Any) -> None:
+    def free_state(self, state: object) -> None:
         """Give a state back."""
 
     def directional_derivative(

@@ -1,14 +1,16 @@
 """What passengers feel of a shift: how long its phases last, jerk, torque hole, flare."""
 
+import math
+
 import numpy as np
 
 from ...numerics.jit import Array
+from ...transmission.kernels import shift_figures as K
 from ..scene.scene import Scene
 from .events_and_phases import Event, Signals, find_phases
 from .figure_list import Found
 
-JERK_TIME = 0.01  # s over which a change of acceleration counts
-SETTLED = 0.1  # s after the shift's end: the new gear's acceleration
+COMFORT = {"peak_jerk": K.JERK, "flare": K.FLARE, "torque_hole": K.HOLE}
 
 
 def phase_figures(scene: Scene, signals: Signals, events: list[Event], lock: float | None) -> Found:
@@ -31,34 +33,19 @@ def comfort_figures(
 ) -> Found:
     """Return jerk and torque hole of the vehicle, and the engine's flare; without one none.
 
-    The hole is what is missing to the smaller of two accelerations, that at the start of the shift
-    and that settled after it. In an upshift this is the one after, in a downshift the one before:
-    what the new gear gives or takes for good is no hole. The shift ends at ``end`` [s], where the
-    later pack's slip does; without one at lock-up.
+    The shift ends at ``end`` [s], where the later pack's slip does; without one at lock-up.
     """
     if scene.vehicle is None:
         return {}
-    felt = scene.vehicle.reach * signals["transmission.output_acceleration"]
-    begin, ratio = scene.shift_start, 1.0 + scene.parts["transmission"].params.ratio
-    after = (time >= begin) & (time <= time[-1] - JERK_TIME)
-    change = np.abs(np.interp(time + JERK_TIME, time, felt) - felt)
-    at = int(np.argmax(np.where(after, change, -1.0)))
-    found: Found = {
-        "peak_jerk": (float(change[at]) / JERK_TIME, float(time[at])),
-        "torque_hole": (None, None),
-    }
-    engine = signals["transmission.engine_speed"]
-    way = -1.0 if np.interp(begin, time, engine) < 0.0 else 1.0
-    high = way * (engine - ratio * signals["transmission.output_speed"])
-    during = np.flatnonzero((time >= begin) & (time <= (time[-1] if lock is None else lock)))
-    if len(during):
-        at = during[int(np.argmax(high[during]))]
-        found["flare"] = (max(0.0, float(high[at])), float(time[at]))
-    if lock is not None:
-        settled = max(lock, lock if end is None else end) + SETTLED
-        during = np.flatnonzero((time >= begin) & (time <= settled))
-        if len(during) and settled <= time[-1]:
-            at = during[int(np.argmin(felt[during]))]
-            smaller = float(np.min(np.interp((begin, settled), time, felt)))
-            found["torque_hole"] = (max(0.0, smaller - float(felt[at])), float(time[at]))
-    return found
+    names = (
+        f"transmission.{name}" for name in ("output_acceleration", "engine_speed", "output_speed")
+    )
+    points, turning, engine, output = map(
+        np.ascontiguousarray, (time, *(signals[n] for n in names))
+    )
+    ratio, found = 1.0 + scene.parts["transmission"].params.ratio, np.empty(K.N_COMFORT)
+    held, over = (math.nan if t is None else t for t in (lock, end))
+    felt = scene.vehicle.reach * turning
+    K.comfort(points, felt, engine, output, ratio, scene.shift_start, held, over, found)
+    values = [None if math.isnan(x) else float(x) for x in found]
+    return {name: (values[at], values[at + 1]) for name, at in COMFORT.items()}

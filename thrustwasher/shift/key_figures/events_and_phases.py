@@ -1,5 +1,6 @@
 """Events and phases of a shift, read from its signals."""
 
+import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -8,9 +9,10 @@ from numpy.typing import NDArray
 
 from ...model.toml_tables import table_beside
 from ...numerics.jit import Array
-from ..oscillation.judder import FEW
+from ...transmission.kernels.shift_figures import held_from, standstill
 from ..scene.connections import PACKS
 from ..scene.scene import Scene
+from ..warning_texts import warning
 
 Signals = dict[str, Array]
 STANDSTILL = 1.0  # rad/s
@@ -70,7 +72,7 @@ def find_events(scene: Scene, time: Array, signals: Signals) -> list[Event]:
         hot = np.flatnonzero(signals[f"{part}.{signal.name}"] > limit)
         if len(hot):
             when = float(time[hot[0]])
-            found.append(Event(when, f"{part}_hot", f"{part} is hotter than {limit:g} K"))
+            found.append(Event(when, f"{part}_hot", warning("hot_part", part=part, limit=limit)))
     return sorted([*found, *_of_pistons(scene, time, signals)], key=lambda e: e.time)
 
 
@@ -96,22 +98,18 @@ def _of_pistons(scene: Scene, time: Array, signals: Signals) -> Iterator[Event]:
 def _standstill(time: Array, signals: Signals, i: int) -> float:
     """Return when the drum came to rest in the step that ends at point ``i``.
 
-    The transmission locates it but does not hand it out. The brake's heat of that step does: slip
-    falls to zero in proportion to time, so heat = torque x slip at the step's start x time / 2.
+    The transmission locates it but does not hand it out. The brake's heat of that step does.
     """
     slip, torque, heat = (
         signals[f"transmission.brake_{name}"] for name in ("speed", "reaction", "heat")
     )
-    begin, end = float(time[i - 1]), float(time[i])
-    power = abs(float(slip[i - 1] * torque[i - 1]))
-    if power == 0.0:
-        return end
-    return min(end, begin + 2.0 * float(heat[i] - heat[i - 1]) / power)
+    power, begin, end = abs(slip[i - 1] * torque[i - 1]), float(time[i - 1]), float(time[i])
+    return standstill(begin, end, float(power), float(heat[i] - heat[i - 1]))
 
 
 def locks_of(scene: Scene, found: list[Event]) -> list[float]:
     """Return when the engaging pack locked [s], while it was meant to hold."""
-    until = scene.wanted_until
+    until = scene.required_until
     kind = f"{scene.engaging}_locked"
     return [e.time for e in found if e.kind == kind and scene.shift_start <= e.time <= until]
 
@@ -122,13 +120,12 @@ def lock_up(scene: Scene, found: list[Event]) -> float | None:
     None if it does not: it slips at last, or still sticks and slips in turn for as long as it
     already did.
     """
-    locks, until = locks_of(scene, found), scene.wanted_until
-    kind = f"{scene.engaging}_released"
-    if not locks or any(e.kind == kind and locks[-1] <= e.time <= until for e in found):
-        return None
-    if len(locks) >= FEW and until - locks[-1] <= locks[-1] - locks[0]:
-        return None
-    return locks[-1]
+    locks, released = (
+        np.array([e.time for e in found if e.kind == f"{scene.engaging}_{kind}"], np.float64)
+        for kind in ("locked", "released")
+    )
+    held = held_from(locks, released, scene.shift_start, scene.required_until)
+    return None if math.isnan(held) else held
 
 
 def find_phases(scene: Scene, signals: Signals, found: list[Event]) -> list[Phase]:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...numerics.jit import Array
+from ...transmission.kernels import shift_figures as K
 from ..oscillation.judder import Judder, judder_figures
 from ..scene.connections import MESHES, PACKS, SPEED
 from ..scene.scene import Scene
@@ -26,7 +27,7 @@ TIE_UP_SHARE = 0.1  # of the torque held before: less is a handover that overlap
 def key_figures(
     scene: Scene, time: Array, signals: Signals, events: list[Event], judder: Judder | None = None
 ) -> list[KeyFigure]:
-    """Return the numbers a shift is judged by, SI units; None where there is no such thing."""
+    """Return the numbers a shift is evaluated by, SI units; None where there is no such thing."""
     start, pack, other = scene.shift_start, scene.engaging, scene.releasing
     lock = lock_up(scene, events)
     middle = None if scene.kiss_end is not None else start + 0.5 * scene.shift_duration
@@ -91,7 +92,7 @@ def read_off(scene: Scene, time: Array, signals: Signals) -> Found:
         of_one = {part: signals[signal]} if signal in signals else {}
         known = of_all(scene, signals, quantity) if part == "meshes" else of_one
         if known:
-            extreme = np.min if reading in ("least", "turning") else np.max
+            extreme = np.min if reading in ("minimum", "turning") else np.max
             speed = signals.get(f"{next(iter(known))}.{SPEED}", time)
             values = extreme(list(known.values()), axis=0)
             found[name] = READINGS[reading](values, time, speed)
@@ -129,12 +130,10 @@ def slip_end(scene: Scene, time: Array, signals: Signals) -> int | None:
 
     A pack without load may turn on: it drags, but takes no part in the shift.
     """
-    slips = np.zeros(len(time), dtype=np.bool_)
-    for pack in PACKS:
-        load, slip = (signals[f"transmission.{pack}_{name}"] for name in ("load", "speed"))
-        slips |= (load > 0.0) & (slip != 0.0)
-    during = np.flatnonzero(slips & (time >= scene.shift_start))
-    return int(during[-1]) + 1 if len(during) and during[-1] + 1 < len(time) else None
+    own = [signals[f"transmission.{pack}_{n}"] for pack in PACKS for n in ("load", "speed")]
+    points, *rows = map(np.ascontiguousarray, (time, *own))
+    end = K.slip_end(points, rows[0], rows[1], rows[2], rows[3], scene.shift_start)
+    return None if end < 0 else end
 
 
 def shift_heat(scene: Scene, time: Array, signals: Signals, end: int | None) -> float | None:
@@ -142,7 +141,7 @@ def shift_heat(scene: Scene, time: Array, signals: Signals, end: int | None) -> 
     if end is None:
         return None
     heat = np.sum([signals[f"transmission.{pack}_heat"] for pack in PACKS], axis=0)
-    return float(heat[end] - np.interp(scene.shift_start, time, heat))
+    return float(K.shift_heat(np.ascontiguousarray(time), heat, scene.shift_start, end))
 
 
 def energy_balance(signals: Signals) -> dict[str, float]:
@@ -182,9 +181,9 @@ def energy_balance(signals: Signals) -> dict[str, float]:
 
 
 def loss_figures(scene: Scene, time: Array, signals: Signals) -> Found:
-    """Return the heat of oil pump, churning, bearings and seals: that of the book, divided.
+    """Return the heat of oil pump, churning, bearings and seals: that of the balance, divided.
 
-    In each step the book's heat is divided as the powers are at its end.
+    In each step the balance's heat is divided as the powers are at its end.
     """
     if "losses" not in scene.parts:
         return {}
@@ -201,7 +200,7 @@ def peak(values: Array, time: Array) -> tuple[float, float]:
 
 
 def least(values: Array, time: Array) -> tuple[float | None, float | None]:
-    """Return the least value and its time."""
+    """Return the minimum value and its time."""
     i = int(np.argmin(values))
     return (float(values[i]), float(time[i])) if np.isfinite(values[i]) else (None, None)
 
@@ -321,7 +320,7 @@ def tie_up_figures(scene: Scene, time: Array, signals: Signals) -> Found:
 
 
 def least_turning(values: Array, time: Array, speed: Array) -> tuple[float | None, float | None]:
-    """Return the least value above FILM_SPEED, and its time.
+    """Return the minimum value above FILM_SPEED, and its time.
 
     Where the speed passes FILM_SPEED between two samples the value is interpolated to that speed:
     the figure must not depend on where the samples happen to lie. A film ratio belongs to the speed
@@ -339,8 +338,8 @@ def least_turning(values: Array, time: Array, speed: Array) -> tuple[float | Non
 
 # What a figure is of a signal, its time and the part's speed.
 READINGS: dict[str, Callable[[Array, Array, Array], tuple[float | None, float | None]]] = {
-    "greatest": lambda values, time, _: peak(values, time),
-    "least": lambda values, time, _: least(values, time),
+    "maximum": lambda values, time, _: peak(values, time),
+    "minimum": lambda values, time, _: least(values, time),
     "turning": least_turning,
     "margin": lambda values, time, _: least(1.0 - values, time),
     "size": lambda values, time, _: peak(np.abs(values), time),

@@ -114,7 +114,7 @@ class Correction:
         ]
         return messages + [
             f"{name}: friction falls with slip, H c/J down to {gain:.2g}: the driveline itself is "
-            "unstable there and the step is long beside its growth; nothing was damped"
+            "unstable there and the step is long compared with its growth; nothing was damped"
             for name, gain in self.worst.items()
             if gain < -LONG
         ]

@@ -18,7 +18,7 @@ class Master(NamedTuple):
 
     schedule: Callable[[System], Schedule]
     torque_age: int  # how many steps the torques that the transmission receives are old
-    in_python: bool = False  # it works beside the instances in every step: no compiled loop
+    in_python: bool = False  # it works next to the instances in every step: no compiled loop
 
 
 MASTERS: dict[str, Master] = {

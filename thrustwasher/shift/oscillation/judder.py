@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...numerics.jit import Array
+from ...transmission.kernels.shift_figures import FEW
 from ..key_figures.figure_list import FIGURES, Found
 from ..scene.connections import PACKS
 from ..scene.scene import Scene
@@ -26,9 +27,8 @@ PERIODS = 2.0  # of the mode in one window
 LEAST_SAMPLES = 16  # in a window, for a fit
 MOST_SAMPLES = 200
 MOST_WINDOWS = 60
-SMALL = 0.5  # of the greatest amplitude: up to there an oscillation counts as small
-LEAST_AMPLITUDE = 1e-4  # of the greatest shaft torque: less is no oscillation
-FEW = 3  # lock-ups of one pack; so many are stick-slip
+SMALL = 0.5  # of the maximum amplitude: up to there an oscillation counts as small
+LEAST_AMPLITUDE = 1e-4  # of the maximum shaft torque: less is no oscillation
 AGREES = 0.1, 1e-3  # of the predicted growth, and of the frequency
 
 
@@ -42,7 +42,7 @@ class Judder:
     frequency: float
     growth: float  # Measured; below 0 the oscillation decays
     amplitude: float
-    """[N m] of the shaft torque at its greatest, half of the way from crest to trough."""
+    """[N m] of the shaft torque at its maximum, half of the way from crest to trough."""
     locks: int  # How often the pack stuck meanwhile
     slope: float  # [N m s/rad] of the pack's torque over its slip
     damping: float  # [N m s/rad] of the shaft

@@ -82,7 +82,7 @@ def damping_limit_of(
     """Return the damping of the shaft [N m s/rad] at which the mode neither grows nor decays.
 
     0 if no damping is needed. For one slipping pack with the other open and no load there is a
-    closed form (``reference.torsional_stability``).
+    closed form (``tests/closed_forms/torsional_stability.py``).
     """
 
     def grows(damping: float) -> bool:
@@ -130,7 +130,7 @@ def capacity_slopes(
     """Return the slope of the capacity over the size of the slip [N m s/rad] at recorded points.
 
     Film and temperature are those of the record and do not follow within a period: they are slower.
-    With the rung ``fine``, whose rings have speeds and temperatures of their own, it is the slope
+    With the level ``fine``, whose rings have speeds and temperatures of their own, it is the slope
     at the mean radius and the mean temperature.
     """
     par = prepare(params, fidelity)

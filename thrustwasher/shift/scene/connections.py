@@ -44,10 +44,12 @@ _TABLE = table_beside(__file__, "links.toml")
 PACK_INPUTS = ("clutch_torque", "brake_torque")  # of the transmission
 
 # At a tolerance.
-DIRECT = ("washer",)  # parts whose own torque is judged, beside what it does to the shift
+DIRECT = (
+    "washer",
+)  # parts whose own torque is evaluated, in addition to what it does to the shift
 # Models whose outputs follow from the inputs of the moment; a pack has a past: film, temperature.
 WITHOUT_PAST = ("washer", "gearmesh")
-# The outputs that a part is judged by.
+# The outputs that a part is evaluated by.
 JUDGED: Mapping[str, tuple[str, ...]] = {
     "washer": ("friction_torque",),
     "clutch": ("torque_capacity", "temperature"),

@@ -10,6 +10,7 @@ from ...gearmesh.parameters import GearMeshParams
 from ...gearmesh.plausibility import doubts_of_parameters
 from ...model.idle import idle_warnings
 from ...transmission.parameters import COURSES, course_points
+from ..warning_texts import warning
 from .connections import MESHES
 from .scene import Part, Scene
 
@@ -28,14 +29,11 @@ def doubts(scene: Scene) -> Iterator[str]:
     for name in COURSES:
         last = [t for t, _ in course_points(gearbox, name)][-1:]
         if last and last[0] > scene.stop_time:
-            yield (
-                f"{name}: the last point is at {last[0]:g} s, the run ends at {scene.stop_time:g} "
-                "s: the shift is cut off; a later stop_time shows all of it"
-            )
+            yield warning("cut_off", profile=name, last=last[0], stop=scene.stop_time)
 
 
 def idle_parameters(scene: Scene) -> Iterator[str]:
-    """Say which rungs are gone, and which parameters have no effect beside others or on theirs."""
+    """Say which levels are gone, and which parameters have no effect."""
     for name, part in scene.parts.items():
         is_pack, rung = isinstance(part.params, ClutchParams), part.asked or part.fidelity
         for line in (
@@ -69,7 +67,7 @@ def _of_washers(scene: Scene, gearbox: Any) -> Iterator[str]:
         if washer.outer_radius > root:
             yield (
                 f"[washer] outer_radius = {washer.outer_radius:g} m, but the planet of {teeth} "
-                f"teeth has a root radius of {root:.4g} m: the washer does not fit beside it"
+                f"teeth has a root radius of {root:.4g} m: the washer does not fit next to it"
             )
 
 

@@ -30,7 +30,7 @@ from .scene_tables import (
 COLUMNS = {"times": 0, "points": 1}  # of a profile's points: path -> place in the pair
 
 
-def lines_of(table: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
+def lines_of(table: Mapping[str, object], above: str = "") -> Iterator[tuple[str, Any]]:
     """Yield the lines of a scene's ``[scatter]``, a path and a law; tables in it are paths too."""
     for key, given in table.items():
         if isinstance(given, Mapping) and not {*LAWS, "source"} & set(given):
@@ -51,7 +51,7 @@ def of_parts(parts: Mapping[str, Part]) -> dict[str, Any]:
     return found | ({CORRELATION: pairs} if pairs else {})
 
 
-def scene_scatter(scene: Scene, table: Mapping[str, Any] | None = None) -> Scatter:
+def scene_scatter(scene: Scene, table: Mapping[str, object] | None = None) -> Scatter:
     """Return what scatters in a scene.
 
     Parameters
@@ -111,7 +111,7 @@ def _place(name: str, nominal: float, rule: tuple[str, float, float]) -> Place:
     return Place(name=name, nominal=nominal, unit=rule[0], low=rule[1], high=rule[2])
 
 
-def _of_part(part: Part, table: Mapping[str, Any]) -> dict[str, Place]:
+def _of_part(part: Part, table: Mapping[str, object]) -> dict[str, Place]:
     """Return the parameters of a part that a scene may give, by their own names.
 
     Those of an earlier form are among them where the part's ``table`` is of that form.
@@ -133,7 +133,7 @@ def _of_vehicle(scene: Scene) -> list[Place]:
     ]
 
 
-def _of_oil(table: Mapping[str, Any]) -> list[Place]:
+def _of_oil(table: Mapping[str, object]) -> list[Place]:
     """Return the factor of the viscosity, and the numbers that a scene's oil is given by."""
     rules = {k: (unit, low, high) for k, (unit, low, high, _) in OIL.items() if k in table}
     rules |= {k: rule for k, rule in SHEET.items() if k in table}

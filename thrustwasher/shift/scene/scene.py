@@ -20,7 +20,7 @@ from ..masters.master import FIXED_STEPS, MASTERS
 MAX_STEPS = 500_000  # all signals of so many steps still fit into memory
 STEP_RANGE = (1e-6, 1.0)  # s
 STEPS_OF_A_SHIFT = 20.0  # at least
-PRESSED = 0.9  # of the greatest pressure: below it a pack that lets go is meant to
+PRESSED = 0.9  # of the maximum pressure: below it a pack that lets go is meant to
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,13 +31,13 @@ class Part:
     fidelity: str
     params: Any
     tolerance: float | None = None
-    """Asked for with fidelity "auto": the rung is still to be chosen; None: it is as it stands."""
+    """Requested with fidelity "auto": the level is still to be chosen; None: it is as it stands."""
     labels: dict[str, Any] = field(default_factory=dict, compare=False)
     """Name, notes and box of its part file, as packages show them."""
     scatter: Mapping[str, Any] = field(default_factory=dict, compare=False)
     """What scatters by its part file or preset: a law by the parameter's name."""
     asked: str = field(default="", compare=False)
-    """Name by which the rung was asked for; it may be that of one that is gone."""
+    """Name by which the level was requested; it may be that of one that is gone."""
 
     def parameters(self) -> dict[str, Any]:
         """Return all parameters by name, the fidelity among them, as an FMU takes them."""
@@ -45,11 +45,11 @@ class Part:
         return {**values, "fidelity": self.fidelity}
 
     def at(self, rung: str) -> "Part":
-        """Return the part with a rung that stands."""
+        """Return the part with a level that stands."""
         return replace(self, fidelity=rung, tolerance=None, asked="")
 
     def asked_for(self, where: str, text: object) -> "Part":
-        """Return the part at the rung that a text asks for: "field", "auto" or "auto:0.01"."""
+        """Return the part at the level that a text asks for: "field", "auto" or "auto:0.01"."""
         asked, tolerance = rung_and_tolerance(where, self.spec, text)
         rung = rung_named(self.spec, asked)
         return replace(self, fidelity=rung, tolerance=tolerance, asked=asked)
@@ -192,7 +192,7 @@ class Scene:
         return points[i][0]
 
     @property
-    def wanted_until(self) -> float:
+    def required_until(self) -> float:
         """The time [s] up to which the engaging pack is meant to hold: its pressure falls then."""
         gearbox = self.parts["transmission"].params
         points = course_points(gearbox, f"{self.engaging}_pressure")
@@ -244,21 +244,21 @@ class Scene:
         # with second order.
         # Stick and slip are decided in it alone.
         for name, part in parts.items():
-            if hasattr(part.params, "input_course"):
-                parts[name] = replace(part, params=_with(part.params, input_course="linear"))
+            if hasattr(part.params, "input_profile"):
+                parts[name] = replace(part, params=_with(part.params, input_profile="linear"))
             if hasattr(part.params, "holding"):
                 held = parts[name]
                 parts[name] = replace(held, params=_with(held.params, holding="off"))
         return replace(self, parts=parts)
 
 
-def _with(params: Any, **values: Any) -> Any:
+def _with(params: Any, **values: object) -> Any:
     """Return parameters with these values; what does not change is not checked again."""
     new = {name: value for name, value in values.items() if getattr(params, name) != value}
     return replace(params, **new) if new else params
 
 
-def shift_of_pressures(gearbox: Any) -> dict[str, Any]:
+def shift_of_pressures(gearbox: object) -> dict[str, Any]:
     """Return the shift that profiles of pressure make, as fields of a scene.
 
     The pack whose pressure ends higher than it began engages; the shift begins where its pressure
@@ -281,9 +281,9 @@ def shift_of_pressures(gearbox: Any) -> dict[str, Any]:
 
 
 def with_fidelities(scene: Scene, choices: Sequence[str]) -> Scene:
-    """Return the scene with other rungs: "field" for all parts, "washer=map" for one.
+    """Return the scene with other levels: "field" for all parts, "washer=map" for one.
 
-    Later choices overrule earlier ones; parts with one rung keep it.
+    Later choices overrule earlier ones; parts with one level keep it.
     """
     parts = dict(scene.parts)
     for asked in choices:

@@ -3,7 +3,7 @@
 A number may carry its unit, "24 degC" or "3000 rpm"; a bare number is SI. A scene with a ``base``
 takes everything from that scene and changes what it names.
 
-Beside a built-in scene stand the bands of its figures, from a study made beforehand: a nominal run
+Next to a built-in scene stand the bands of its figures, from a study made beforehand: a nominal run
 takes seconds and says nothing of its luck, a study takes minutes.
 """
 
@@ -27,8 +27,10 @@ from ...model.oil import (
     viscosity_of,
 )
 from ...model.oil_laws import ZERO
-from ...model.parameters import earlier_of, other_names_of, plainly_named
-from ...model.part_file import PartFile, load_part, preset_part
+from ...model.parameters import earlier_of, former_names_of, other_names_of, plainly_named
+from ...model.part_file import PartFile, load_part, preset_part, scene_of_part, scene_parts
+from ...model.registry import MODELS as ALL_MODELS
+from ...model.registry import find_model
 from ...model.scatter import CORRELATION
 from ...model.spec import ModelSpec
 from ...model.toml_tables import (
@@ -40,9 +42,11 @@ from ...model.toml_tables import (
     read_value,
     table_beside,
 )
-from ..key_figures.figure_list import FIGURES
+from ...moved import now_named
+from ..key_figures.figure_list import FIGURES, RENAMED
 from ..masters.master import FIXED_STEPS
 from .connections import MESHES, PARTS, REQUIRED
+from .course_file import beside, course_notes, with_courses, without_old
 from .doubts import doubts
 from .places import lines_of, of_parts, scene_scatter
 from .scene import Part, Published, Scene, shift_of_pressures
@@ -81,17 +85,22 @@ MOST_MADE = 64  # parts that are kept
 _MADE: dict[str, tuple[Part, list[str]]] = {}
 
 
+RAMP = 'a file with base = "planetary-sun" and [shift] duration = "{}" is that scene'
+GONE = {"planetary-fast": RAMP.format("0.1 s"), "planetary-slow": RAMP.format("0.5 s")}
+INSTEAD = {"clutch": "; gear pairs without a clutch are a [train]"}  # of what is missing
+
+
 def builtin_scenes() -> list[str]:
     """Return the names of the scenes that come with the package."""
     return sorted(f.name[:-5] for f in _folder().iterdir() if f.name.endswith(".toml"))
 
 
 def _folder() -> Traversable:
-    """Return where the built-in scenes lie: beside this package's folder."""
+    """Return where the built-in scenes lie: next to this package's folder."""
     return resources.files(__package__.rpartition(".")[0]) / "scenes"
 
 
-def load_scene(name_or_path: str | Path, oil: str | Mapping[str, Any] | None = None) -> Scene:
+def load_scene(name_or_path: str | Path, oil: str | Mapping[str, object] | None = None) -> Scene:
     """Return a built-in scene by name, or the scene of a TOML file; with another ``oil``."""
     name = str(name_or_path)
     table = merged_tables(name, {} if oil is None else {"oil": oil_table("oil", oil)})
@@ -103,7 +112,7 @@ def load_scene(name_or_path: str | Path, oil: str | Mapping[str, Any] | None = N
     return scene
 
 
-def merged_tables(name: str, top: Mapping[str, Any] | None = None) -> dict[str, Any]:
+def merged_tables(name: str, top: Mapping[str, object] | None = None) -> dict[str, Any]:
     """Return the merged tables of a scene and its bases; ``top`` replaces what they say."""
     seen: list[str] = []
     merged = dict(top or {})
@@ -116,26 +125,49 @@ def merged_tables(name: str, top: Mapping[str, Any] | None = None) -> dict[str, 
         base = table.pop("base", "")
         if not isinstance(base, str):
             raise ParameterError(f"scene {name!r}: base = {base!r}, allowed: a scene's name")
-        merged = _overlay(_without_parts(table, merged), merged)
+        merged = _overlay(without_old(_without_parts(table, merged), merged), merged)
         if base.endswith(".toml") and name.endswith(".toml"):
             base = str(Path(name).parent / base)
         name = base
     if merged.get("losses") is False:  # as said in a scene whose base has them
         del merged["losses"]
-    return merged
+    return with_courses(f"scene {seen[0]!r}", merged)
+
+
+def _refuse_other(name: str, key: object) -> None:
+    """Refuse a file of a model that has scenes of its own, without a shift."""
+    known = isinstance(key, str) and key in ALL_MODELS
+    if known and (what := find_model(str(key)).scene_of):
+        raise ParameterError(
+            f"scene = {name!r}: is {what}, without a shift: `thrustwasher efficiency {name}` runs "
+            "it; explore, sweep, scatter, optimise take it too"
+        )
 
 
 def _parse(name: str) -> dict[str, Any]:
+    if found := scene_parts().get(name):
+        _refuse_other(name, found.spec.key)
     if name.endswith(".toml"):
         table = read_file("scene", name)
+        _refuse_other(name, scene_of_part(table) or table.get("model"))
+        if isinstance(kind := table.get("model"), str):
+            place = next((key for key, spec in PARTS.items() if spec.key == kind), kind)
+            raise ParameterError(
+                f"scene = {name!r}: is a part ({kind}), allowed: a scene; one takes the part by "
+                f"[{place}] part = {Path(name).name!r}"
+            )
     elif name in builtin_scenes():
         table = parse(f"scene = {name!r}", (_folder() / f"{name}.toml").read_text("utf-8"))
     else:
+        if gone := GONE.get(name):
+            raise ParameterError(f"scene = {name!r} is gone: {gone}")
         known = builtin_scenes()
         hint = suggestion(name, known, "; did you mean {!r}?")
         raise ParameterError(
             f"scene = {name!r}, allowed: {', '.join(known)} or the path of a .toml file{hint}"
         )
+    if name.endswith(".toml"):
+        beside(table, Path(name).parent)
     if "master_tolerance" in table:
         raise ParameterError(f"scene {name!r}: master_tolerance: {FIXED_STEPS}")
     if isinstance(table.get("oil"), str):
@@ -150,9 +182,10 @@ def _parse(name: str) -> dict[str, Any]:
     for part, spec in PARTS.items():
         if isinstance(table.get(part), dict):
             with within(f"scene {name!r} [{part}]"):
-                own = table[part] = plainly_named(other_names_of(spec.params), table[part])
+                own = now_named(part, former_names_of(spec.params), table[part])
+                own = table[part] = plainly_named(other_names_of(spec.params), own)
             if isinstance(own.get("part"), str) and name.endswith(".toml"):
-                own["part"] = str(Path(name).parent / own["part"])  # lies beside the scene
+                own["part"] = str(Path(name).parent / own["part"])  # lies next to the scene
     return table
 
 
@@ -199,14 +232,17 @@ def scene_of(source: str, table: dict[str, Any]) -> Scene:
             raise ParameterError(f"{where}: {key} = {value!r}, allowed: a table [{key}]{more}")
     moves = "pressure" if "pressure" in table else "shift"
     if moves == "pressure" and "shift" in table:
-        raise ParameterError(f"{where}: [shift] beside [pressure], allowed: a ramp or profiles")
+        raise ParameterError(
+            f"{where}: [shift] together with [pressure], allowed: a ramp or profiles"
+        )
     for key in (*REQUIRED, moves, "stop_time"):
         if key not in table:
-            raise ParameterError(f"{where}: {key!r} is missing")
+            raise ParameterError(f"{where}: {key!r} is missing{INSTEAD.get(key, '')}")
     numbers: dict[str, Any] = {"start_time": 0.0, "step": 1e-3, "oil_temperature": 297.15}
     numbers |= {k: number(where, k, table[k], NUMBERS[k]) for k in NUMBERS if k in table}
     vehicle = vehicle_of(f"{where} [vehicle]", table.get("vehicle"))
     merged, the_oil = table, dict(table.get("oil", {}))
+    courses = list(course_notes(merged))
     table = {**table, "transmission": driveline_table(where, table, vehicle)}
     factor = factor_of(f"{where} [oil]", "viscosity_scale", the_oil)
     given = read_oil(f"{where} [oil]", the_oil)
@@ -215,7 +251,7 @@ def scene_of(source: str, table: dict[str, Any]) -> Scene:
     if "washer" in parts and "mesh" not in parts:
         if parts["washer"].params.gear_far_face == "bulk":
             raise ParameterError(
-                f"{where} [washer]: gear_far_face = 'bulk', allowed: beside [mesh], whose bulk "
+                f"{where} [washer]: gear_far_face = 'bulk', allowed: with [mesh], whose bulk "
                 "temperature it takes"
             )
     scene = Scene(
@@ -226,11 +262,14 @@ def scene_of(source: str, table: dict[str, Any]) -> Scene:
         parts=parts,
         vehicle=vehicle,
         sequence=None,
-        notes=tuple(notes),
+        notes=(*notes, *(text for text, is_far in courses if not is_far)),
         source=source,
         table=merged,
         scatter={**of_parts(parts), **merged.get("scatter", {})},
-        warnings=tuple(_oil_warnings(given, parts, numbers["oil_temperature"], own)),
+        warnings=(
+            *_oil_warnings(given, parts, numbers["oil_temperature"], own),
+            *(text for text, is_far in courses if is_far),
+        ),
         published=_published(f"{where} [published]", table.get("published")),
         **(
             _shift(f"{where} [shift]", table["shift"])
@@ -359,6 +398,7 @@ def _published(where: str, table: dict[str, Any] | None) -> Published | None:
     source = values.pop("source", None)
     if not isinstance(source, str):
         raise ParameterError(f"{where}: source = {source!r}, allowed: a text")
+    values = now_named(where, RENAMED, values)
     nothing_else(where, values, ["source", *FIGURES])
     figures = {k: quantity(where, k, v, FIGURES[k].unit) for k, v in values.items()}
     return Published(source=source, figures=figures)
@@ -421,10 +461,12 @@ def _made_part(
     return part.asked_for(where, rung), lost
 
 
-def _start(spec: ModelSpec, file: Any, preset: Any) -> PartFile | None:
+def _start(spec: ModelSpec, file: object, preset: object) -> PartFile | None:
     """Return the part of a file or a preset; None where neither is named."""
     if file is not None and preset is not None:
-        raise ParameterError(f"preset = {preset!r} beside part = {file!r}, allowed: one of them")
+        raise ParameterError(
+            f"preset = {preset!r} together with part = {file!r}, allowed: one of them"
+        )
     if file is None and preset is None:
         return None
     own = preset_part(spec, str(preset)) if file is None else load_part(str(file))
@@ -434,7 +476,7 @@ def _start(spec: ModelSpec, file: Any, preset: Any) -> PartFile | None:
 
 
 def _values(own: PartFile) -> tuple[dict[str, Any], str]:
-    """Return parameters and rung that a part's file or a preset gives."""
+    """Return parameters and level that a part's file or a preset gives."""
     return {k: x for k, x in own.parameters.items() if k not in RESERVED}, own.fidelity
 
 

@@ -11,7 +11,7 @@ from ...transmission.vehicle import Vehicle
 from .connections import PACKS
 from .scene import STEP_RANGE
 
-# Key -> (unit, least, largest).
+# Key -> (unit, minimum, maximum).
 NUMBERS = {
     "start_time": ("s", -1e6, 1e6),
     "stop_time": ("s", -1e6, 1e6),
@@ -24,6 +24,7 @@ SHIFT = {
     "from": ("1", 0.0, 1.0),
     "to": ("1", 0.0, 1.0),
 }
+COURSE = ("points", "points_from")  # of a table with a profile
 SCALE = ("1", 0.01, 100.0)  # a factor, 1 where none is given
 ENGINE = {"speed": "initial_engine_speed", "inertia": "input_inertia"}
 # Key of [pressure.clutch], [pressure.brake] -> parameter of the transmission, {} the pack.
@@ -43,13 +44,13 @@ RESERVED = {
     "oil_temperature": "the scene's own oil_temperature sets it for all parts",
     "torque_age": "the choice of master sets it",
     "ring_mesh": "a table [ring_mesh] sets it",
-    "input_course": "in a shift it is linear, as the transmission expects",
+    "input_profile": "in a shift it is linear, as the transmission expects",
     "holding": "in a shift it is off: the transmission decides between stick and slip",
 }
 
 NEEDLES = 0.004  # friction of a needle thrust bearing at its mean radius: an estimate
 BEARING_TABLES = tuple(BEARINGS)
-# Of [transmission], what acts no more beside a table: key -> (table, what it says instead).
+# Of [transmission], what acts no more next to a table: key -> (table, what it says instead).
 USELESS = {
     "engine_torque": ("engine", "its points"),
     "engine_start_time": ("engine", "its points"),
@@ -69,7 +70,7 @@ def driveline_table(where: str, table: dict[str, Any], vehicle: Vehicle | None) 
         more |= {name: engine.pop(key) for key, name in ENGINE.items() if key in engine}
         factor = factor_of(f"{where} [engine]", "torque_scale", engine)
         more |= points_of(f"{where} [engine]", "engine_torque", "torque", engine, factor)
-        nothing_else(f"{where} [engine]", engine, ["points", "torque_scale", *ENGINE])
+        nothing_else(f"{where} [engine]", engine, [*COURSE, "torque_scale", *ENGINE])
     for pack, own in table.get("pressure", {}).items():
         if pack not in PACKS or not isinstance(own, dict):
             raise unknown(f"{where} [pressure]", pack, list(PACKS))
@@ -78,7 +79,7 @@ def driveline_table(where: str, table: dict[str, Any], vehicle: Vehicle | None) 
         factor = factor_of(place, "scale", own)
         more |= points_of(place, f"{pack}_pressure", "pressure", own, factor)
         more |= {name.format(pack): own.pop(key) for key, name in keys.items() if key in own}
-        nothing_else(place, own, ["points", "scale", *keys])
+        nothing_else(place, own, [*COURSE, "scale", *keys])
         more["actuation"] = "pressure"
     for name in BEARING_TABLES:
         if name in table:
@@ -86,13 +87,15 @@ def driveline_table(where: str, table: dict[str, Any], vehicle: Vehicle | None) 
     for name, (other, says) in USELESS.items():
         if name in given and other in table:
             raise ParameterError(
-                f"{where} [transmission]: {name} = {given[name]!r} beside [{other}], allowed: one "
+                f"{where} [transmission]: {name} = {given[name]!r} together with [{other}], "
+                f"allowed: one "
                 f"of them ({says} would act alone)"
             )
     for name in more:
         if name in given:
             raise ParameterError(
-                f"{where} [transmission]: {name} = {given[name]!r} beside a table that gives "
+                f"{where} [transmission]: {name} = {given[name]!r} together with a table "
+                f"that gives "
                 "it ([engine], [vehicle], [pressure] or a bearing's), allowed: one of them"
             )
     return given | more
@@ -121,6 +124,7 @@ def vehicle_of(where: str, table: dict[str, Any] | None) -> Vehicle | None:
     if table is None:
         return None
     known = {f.name: f.metadata for f in fields(Vehicle)}
+    table = {key: x for key, x in table.items() if key != "points_from"}
     nothing_else(where, table, known)
     values = {k: read_value(where, k, x, known[k]) for k, x in table.items()}
     with within(where):
@@ -140,8 +144,11 @@ def points_of(
     The values are multiplied by ``factor``.
     """
     points = table.pop("points", None)
+    table.pop("points_from", None)
     if not isinstance(points, list) or not all(isinstance(p, list) and len(p) == 2 for p in points):
-        raise ParameterError(f"{where}: points = {points!r}, allowed: pairs [time, {what}]")
+        raise ParameterError(
+            f"{where}: points = {points!r}, allowed: pairs [time, {what}] or a file"
+        )
     unit = COURSES[name][0]
     found = [
         (quantity(where, "time", t, "s"), factor * quantity(where, what, x, unit))

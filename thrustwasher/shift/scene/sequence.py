@@ -21,7 +21,7 @@ DOWN = {"clutch": "clutch_pressure", "brake": "brake_pressure", "engine": "engin
 def sequence_of(scene: Scene) -> ShiftSequence:
     """Return the sequence of a scene; ParameterError if it has none."""
     if scene.sequence is None:
-        raise ParameterError(f"scene {scene.name!r}: it has no [sequence], allowed: run_shift")
+        raise ParameterError(f"scene {scene.name!r}: it has no [sequence], allowed: cosimulate")
     return scene.sequence
 
 
@@ -127,7 +127,7 @@ def read_sequence(where: str, scene: Scene, table: dict[str, Any]) -> ShiftSeque
     if not isinstance(repeat, int) or not 1 <= repeat <= 1000:
         raise ParameterError(f"{where}: repeat = {repeat!r}, allowed: 1 .. 1000")
     if repeat > 1 and "period" not in table:
-        raise ParameterError(f"{where}: 'period' is missing beside repeat = {repeat}")
+        raise ParameterError(f"{where}: 'period' is missing with repeat = {repeat}")
     pause = number(where, "pause_step", table.get("pause_step", 0.5), ("s", *STEP_RANGE))
     first = [(quantity(where, "time", t, "s"), way) for t, way in given]
     later = [i * numbers.get("period", 0.0) for i in range(repeat)]
@@ -135,7 +135,8 @@ def read_sequence(where: str, scene: Scene, table: dict[str, Any]) -> ShiftSeque
     if params.actuation == "pressure" and "down" not in table and "down" in dict(first).values():
         raise ParameterError(f"{where}: [sequence.down] is missing, the profiles of a shift down")
     own: dict[str, Any] = {}
-    down = dict(table.get("down", {}))
+    sources = {f"{name}_from" for name in DOWN}  # what is said of profiles in files
+    down = {key: x for key, x in table.get("down", {}).items() if key not in sources}
     nothing_else(f"{where[:-1]}.down]", down, DOWN)
     for name, key in DOWN.items():
         own |= course_fields(key, points) if (points := course_points(params, key)) else {}

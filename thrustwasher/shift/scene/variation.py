@@ -18,12 +18,12 @@ DRAW = "One draw of the scatter of scene {!r}"
 RUNG = ("fidelity", "tolerance", "asked")  # and in its parts
 
 
-def varied_scene(scene: Scene, values: Mapping[str, Any]) -> Scene:
+def varied_scene(scene: Scene, values: Mapping[str, object]) -> Scene:
     """Return the scene with other values.
 
     Parameters
     ----------
-    scene : as ``load_scene`` returns it, or with other options and rungs since
+    scene : as ``load_scene`` returns it, or with other options and levels since
     values : by path, SI units, as ``scene_places`` names them
 
     Raises
@@ -42,7 +42,7 @@ def varied_scene(scene: Scene, values: Mapping[str, Any]) -> Scene:
     return replace(found, parts={**found.parts, **rungs}, **options).checked()
 
 
-def scene_text(scene: Scene, values: Mapping[str, Any], head: str = DRAW) -> str:
+def scene_text(scene: Scene, values: Mapping[str, object], head: str = DRAW) -> str:
     """Return the text of a file with the scene as its base and other values, by path.
 
     ``head`` is its first line, with the scene's name in it. Read back it is
@@ -61,11 +61,11 @@ def scene_text(scene: Scene, values: Mapping[str, Any], head: str = DRAW) -> str
     return "\n".join([*lines, *_written(_difference(before, now))]) + "\n"
 
 
-def _differs(one: Any, other: Any, *keys: str) -> bool:
+def _differs(one: object, other: object, *keys: str) -> bool:
     return any(getattr(one, key) != getattr(other, key) for key in keys)
 
 
-def _with_values(scene: Scene, values: Mapping[str, Any]) -> Tables:
+def _with_values(scene: Scene, values: Mapping[str, object]) -> Tables:
     """Return the scene's tables with other values; what does not change is shared."""
     if not scene.table:
         raise ParameterError(f"scene {scene.name!r}: was made by hand, allowed: of load_scene")
@@ -78,7 +78,7 @@ def _with_values(scene: Scene, values: Mapping[str, Any]) -> Tables:
     return tables
 
 
-def _put(table: Tables, path: list[str], value: Any) -> None:
+def _put(table: Tables, path: list[str], value: object) -> None:
     """Put a value at a path into a table, whose tables and lists on the way are copied."""
     key, *rest = path
     if not rest:
@@ -93,7 +93,7 @@ def _put(table: Tables, path: list[str], value: Any) -> None:
         _put(table[key], rest, value)
 
 
-def _difference(before: Mapping[str, Any], now: Mapping[str, Any]) -> Tables:
+def _difference(before: Mapping[str, object], now: Mapping[str, object]) -> Tables:
     """Return what a table has that another one lacks, or has otherwise."""
     found: Tables = {}
     for key, value in now.items():
@@ -106,7 +106,7 @@ def _difference(before: Mapping[str, Any], now: Mapping[str, Any]) -> Tables:
     return found
 
 
-def _written(table: Mapping[str, Any], above: str = "") -> Iterator[str]:
+def _written(table: Mapping[str, object], above: str = "") -> Iterator[str]:
     """Yield the lines of a TOML table, its own values first."""
     inner = {key: value for key, value in table.items() if isinstance(value, Mapping)}
     own = {key: value for key, value in table.items() if key not in inner}

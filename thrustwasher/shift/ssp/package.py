@@ -1,6 +1,6 @@
 """The files of a package but the FMUs: the system's description and a page of documentation.
 
-Both are templates beside this module. The page says what the package is, how to run it, and what
+Both are templates next to this module. The page says what the package is, how to run it, and what
 runs of different masters differ by.
 """
 

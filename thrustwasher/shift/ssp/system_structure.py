@@ -97,7 +97,7 @@ def prepared(scene: Scene) -> Scene:
 def start_values(scene: Scene, instances: Mapping[str, Stepping]) -> Starts:
     """Return the inputs of every part of a prepared scene at the start, as they belong together.
 
-    The instances are those of ``run_shift``; they are initialized here.
+    The instances are those of ``cosimulate``; they are initialized here.
     """
     system = connected(scene, instances)
     system.initialize(scene.start_time)

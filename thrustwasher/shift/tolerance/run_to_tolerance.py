@@ -1,4 +1,4 @@
-"""A shift at a tolerance: a run with the cheapest rungs, the choice, its check, further runs."""
+"""A shift at a tolerance: a run with the cheapest levels, the choice, its check, further runs."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping
@@ -9,7 +9,7 @@ from typing import Any
 from ...errors import ParameterError, SolveError
 from ..checks.guard import guarded
 from ..cosim.system import Stepping
-from ..run import Progress, run_shift
+from ..run import Progress, cosimulate
 from ..scene.connections import DIRECT
 from ..scene.scene import Part, Scene
 from ..shift_result import ShiftResult
@@ -17,12 +17,12 @@ from .rung_check import check_part
 from .selection import first_rung, select
 from .selection_record import Check, CheckRecord, Selected, Selection
 
-STEP_SHARE = 0.3  # of the tolerance asked for is the communication step's
+STEP_SHARE = 0.3  # of the tolerance requested is the communication step's
 Make = Callable[[str, Part], Stepping]
 
 
 class Pool:
-    """Instances by part, rung and parameters; one that has been used is reset."""
+    """Instances by part, level and parameters; one that has been used is reset."""
 
     def __init__(self, make: Make) -> None:
         self._make = make
@@ -54,39 +54,40 @@ def run_auto(
     progress: Progress | None = None,
     compiled: bool | None = None,
 ) -> ShiftResult:
-    """Simulate a shift; the rung of every part that asks for a tolerance is found here.
+    """Simulate a shift; the level of every part that asks for a tolerance is found here.
 
     Parameters
     ----------
-    scene : what to simulate; ``tolerance`` of a part is the relative error asked for
+    scene : what to simulate; ``tolerance`` of a part is the relative error requested
     make : returns an instance of a part, of the fidelity that stands in it; whoever makes it closes
         it. One that has ``reset`` is used again
     guard : check the run afterwards: its step by a second run with shorter ones, washers that were
-        taken as steady by following them in time, and rungs that were chosen; run again a rung
+        taken as steady by following them in time, and levels that were chosen; run again a level
         higher where one does not hold, or in time where a washer of a tolerance is not steady
-    progress, compiled : as in ``run_shift``
+    progress, compiled : as in ``cosimulate``
 
     Returns
     -------
-    ShiftResult : with ``selection``, if rungs were chosen, and with what the checks found
+    ShiftResult : with ``selection``, if levels were chosen, and with what the checks found
 
     Raises
     ------
-    ParameterError, SolveError : as in ``run_shift``; also if no rung of a part holds its tolerance
+    ParameterError, SolveError : as in ``cosimulate``; also if no level of a part holds its
+        tolerance
     """
     pool = Pool(make)
 
     def run(now: Scene) -> ShiftResult:
-        return run_shift(now, pool.all_of(now), progress=progress, compiled=compiled)
+        return cosimulate(now, pool.all_of(now), progress=progress, compiled=compiled)
 
     def checked(result: ShiftResult) -> ShiftResult:
-        return guarded(result, pool.all_of, partial(run_shift, compiled=compiled))
+        return guarded(result, pool.all_of, partial(cosimulate, compiled=compiled))
 
     scene, remarks = _without_choice(scene)
     asking = {n: p for n, p in scene.parts.items() if p.tolerance}
     result = run(with_rungs(scene, {n: first_rung(p, guard) for n, p in asking.items()}))
     chosen = select(scene, result, guard)
-    rungs = {c.part: c.rung for c in chosen}
+    rungs = {c.part: c.fidelity for c in chosen}
     if any(result.scene.parts[name].fidelity != rung for name, rung in rungs.items()):
         result = run(with_rungs(scene, rungs))
     if guard:
@@ -98,7 +99,7 @@ def run_auto(
 
 
 def with_rungs(scene: Scene, rungs: Mapping[str, str]) -> Scene:
-    """Return the scene with these rungs, as they stand."""
+    """Return the scene with these levels, as they stand."""
     changed = {name: scene.parts[name].at(rung) for name, rung in rungs.items()}
     return replace(scene, parts={**scene.parts, **changed})
 
@@ -106,7 +107,7 @@ def with_rungs(scene: Scene, rungs: Mapping[str, str]) -> Scene:
 def _followed(
     scene: Scene, result: ShiftResult, checked_run: Callable[[Scene], ShiftResult]
 ) -> ShiftResult:
-    """Repeat a run in time where a washer whose rung was to be chosen is not steady in it.
+    """Repeat a run in time where a washer whose level was to be chosen is not steady in it.
 
     Where that fails the run before it counts, with its warning, and why.
     """
@@ -127,7 +128,7 @@ def _followed(
 
 
 def _in_time(scene: Scene) -> Scene:
-    """Return the scene with washers whose bodies store heat, at a rung that can follow it."""
+    """Return the scene with washers whose bodies store heat, at a level that can follow it."""
     parts = dict(scene.parts)
     for name in DIRECT:
         if (part := parts.get(name)) is not None:
@@ -138,7 +139,7 @@ def _in_time(scene: Scene) -> Scene:
 
 
 def _without_choice(scene: Scene) -> tuple[Scene, list[str]]:
-    """Return the scene with default rungs for parts that follow heat in time, and what to say."""
+    """Return the scene with default levels for parts that follow heat in time, and what to say."""
     parts, remarks = dict(scene.parts), []
     for name, part in parts.items():
         if part.tolerance and getattr(part.params, "thermal_mode", "") == "transient":
@@ -166,9 +167,9 @@ def _step_remarks(result: ShiftResult, asking: Iterable[Part]) -> list[str]:
 def _checked(
     result: ShiftResult, chosen: list[Selected], pool: Pool, run: Callable[[Scene], ShiftResult]
 ) -> ShiftResult:
-    """Check a run and repeat it with higher rungs until every part holds or has its last one.
+    """Check a run and repeat it with higher levels until every part holds or has its last one.
 
-    Only parts whose rung has changed are checked again: the others' inputs hardly move. Where a
+    Only parts whose level has changed are checked again: the others' inputs hardly move. Where a
     repeated run fails, the last one that came to its end is returned, and why.
     """
     watched, checks = chosen, list[Check]()

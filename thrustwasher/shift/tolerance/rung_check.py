@@ -1,6 +1,6 @@
-"""After a run: a rung that was chosen for it, compared with the one above.
+"""After a run: a level that was chosen for it, compared with the one above.
 
-The rung above is solved at some thirty recorded points: those with the extremes of inputs and of
+The level above is solved at some thirty recorded points: those with the extremes of inputs and of
 what is compared, those after changes of regime, and others spread over the run. A model whose
 outputs follow from the inputs of the moment is solved at these points only; one with a past of its
 own, such as a pack's film and temperature, follows the whole record, since it would have another
@@ -32,7 +32,7 @@ REGIMES = ("regime", "solver_status", "distress")  # outputs whose change is a c
 def check_part(
     run: int, chosen: Selected, result: ShiftResult, take: Callable[[str, Part], Stepping]
 ) -> Check | None:
-    """Compare the rung of one part in a finished run with the one above; None: there is none.
+    """Compare the level of one part in a finished run with the one above; None: there is none.
 
     ``take`` returns an instance of a part by its name.
     """
@@ -69,14 +69,14 @@ def check_part(
 
 
 def _moving(names: Sequence[str], inputs: Array) -> Places:
-    """Return the points that can be compared: without speed no rung has a torque, nor any heat."""
+    """Return the points that can be compared: without speed no level has a torque, nor any heat."""
     if SPEED not in names:
         return np.arange(len(inputs))
     return np.flatnonzero(inputs[:, names.index(SPEED)])
 
 
 def _outside(chosen: Selected, result: ShiftResult, moving: Places) -> str:
-    """Say when a rung that looks up left what it is verified for; empty if it did not."""
+    """Say when a level that looks up left what it is verified for; empty if it did not."""
     status = result.signals.get(f"{chosen.part}.solver_status")
     left = moving[status[moving] == Status.OUTSIDE_VERIFIED] if status is not None else moving[:0]
     if not len(left):
@@ -87,7 +87,7 @@ def _outside(chosen: Selected, result: ShiftResult, moving: Places) -> str:
 def _points(chosen: Selected, result: ShiftResult, inputs: Array, moving: Places) -> list[int]:
     """Return the recorded points to compare at, in the order of time.
 
-    None lies within ``NEAR`` steps of a change of regime, where outputs may jump: in another rung
+    None lies within ``NEAR`` steps of a change of regime, where outputs may jump: in another level
     they do so a step earlier or later.
     """
     signals = {name: result.signals.get(f"{chosen.part}.{name}") for name in REGIMES}
@@ -145,7 +145,7 @@ def _solved(
 def _farthest(
     chosen: Selected, part: Part, result: ShiftResult, solved: dict[int, list[float]]
 ) -> Difference:
-    """Return the largest difference of the two rungs, the first that is no number if there is."""
+    """Return the largest difference of the two levels, the first that is no number if there is."""
     worst, names = Difference(0.0), [signal.name for signal in part.spec.outputs]
     for i, outputs in solved.items():
         for scale in chosen.scales:

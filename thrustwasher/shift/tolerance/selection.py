@@ -1,8 +1,8 @@
-"""Which rungs of a part may serve in a run, cheapest first.
+"""Which levels of a part may serve in a run, cheapest first.
 
-The inputs are those that a first run with the cheapest rungs has recorded. Where a table of
-measured errors speaks of a washer or a mesh, rungs that it shows to be too coarse are left out. Of
-packs it does not decide: it knows one kind of engagement, and the check compares the rung with the
+The inputs are those that a first run with the cheapest levels has recorded. Where a table of
+measured errors speaks of a washer or a mesh, levels that it shows to be too coarse are left out. Of
+packs it does not decide: it knows one kind of engagement, and the check compares the level with the
 next one in the engagement at hand.
 """
 
@@ -17,8 +17,8 @@ from ..scene.scene import Part, Scene
 from ..shift_result import ShiftResult
 from .selection_record import Box, Scale, Selected
 
-# Of the tolerance asked for the rungs have this share; the step has 0.3, the rest is spare. A
-# torque that is judged by itself has all of it: it follows from the inputs of the moment.
+# Of the tolerance requested the levels have this share; the step has 0.3, the rest is spare. A
+# torque that is evaluated by itself has all of it: it follows from the inputs of the moment.
 MODEL_SHARE = 0.6
 FLOOR = 0.1  # of the scene's range: below it differences count as if the value were this large
 LEAST_RISE = 1.0  # K; a temperature that hardly moves is not compared more closely
@@ -26,17 +26,17 @@ TORQUE = "friction_torque"
 
 
 def first_rung(part: Part, is_checked: bool) -> str:
-    """Return the rung of a part in the first run: the cheapest, or the default of one unchecked."""
+    """Return a part's level in the first run: the cheapest, or the default if unchecked."""
     rungs = rungs_of(part.spec, part.params)
     known = is_checked or rungs[0] in fresh_rungs(part.spec.key, part.params)
     return rungs[0] if known else part.spec.default_fidelity
 
 
 def select(scene: Scene, first: ShiftResult, is_checked: bool = True) -> list[Selected]:
-    """Return the rungs that may serve of every part that asks for a tolerance, by a first run.
+    """Return the levels that may serve of every part that asks for a tolerance, by a first run.
 
     Unless the run ``is_checked`` afterwards, which covers what lies between the points of a table,
-    its errors count times a factor of safety. SolveError: by its table no rung holds.
+    its errors count times a factor of safety. SolveError: by its table no level holds.
     """
     safety = 1.0 if is_checked else SAFETY
     return [_selected(n, p, first, safety) for n, p in scene.parts.items() if p.tolerance]
@@ -53,11 +53,12 @@ def _selected(name: str, part: Part, first: ShiftResult, safety: float) -> Selec
     if not fitting:
         best = min(errors, key=lambda rung: errors[rung])
         raise SolveError(
-            f"part {name!r}, {TORQUE}: no rung reaches {100.0 * share:.2g} %; the best is {best} "
-            f"with {shown_error(errors[best], None)}; ask for less or name a rung"
+            f"part {name!r}, {TORQUE}: no fidelity level reaches {100.0 * share:.2g} %; the "
+            f"best is {best} "
+            f"with {shown_error(errors[best], None)}; ask for less or name a fidelity level"
         )
     rung, asked = fitting[0], f"(asked {shown_error(share, None)})"
-    words = [f"{name}: {rung}, its last rung; no table of errors speaks here"]
+    words = [f"{name}: {rung}, its last fidelity level; no table of errors speaks here"]
     if rung in errors:
         words = [f"{name}: {rung}, {TORQUE} within {shown_error(errors[rung], None)} {asked}"]
     elif len(fitting) > 1:
@@ -72,7 +73,7 @@ def _selected(name: str, part: Part, first: ShiftResult, safety: float) -> Selec
 
 
 def _inputs(name: str, part: Part, run: ShiftResult) -> Box:
-    """Return the least and largest value of each input while the part moves."""
+    """Return the minimum and maximum value of each input while the part moves."""
     signals = {s.name: run.signals[f"{name}.{s.name}"] for s in part.spec.inputs}
     moves = signals[SPEED] != 0.0 if SPEED in signals else slice(None)
     found = {n: values[moves] if values[moves].size else values for n, values in signals.items()}
@@ -80,7 +81,7 @@ def _inputs(name: str, part: Part, run: ShiftResult) -> Box:
 
 
 def _errors(part: Part, box: Box, safety: float) -> dict[str, float]:
-    """Return the largest error of each rung that a table knows, in what it covers of a box."""
+    """Return the largest error of each level that a table knows, in what it covers of a box."""
     if part.spec.key not in WITHOUT_PAST:
         return {}
     known = fresh_rungs(part.spec.key, part.params)
@@ -90,7 +91,7 @@ def _errors(part: Part, box: Box, safety: float) -> dict[str, float]:
 
 def _scale(part: str, output: str, run: ShiftResult) -> Scale:
     """Return what differences of an output count against, by its range in a run."""
-    if output == "temperature":  # of the hotter pack: what a scene is judged by
+    if output == "temperature":  # of the hotter pack: what a scene is evaluated by
         rises = [float(np.ptp(run.signals[f"{pack}.{output}"])) for pack in PACKS]
         return Scale(output, max(LEAST_RISE, *rises), relative=False)
     largest = float(np.abs(run.signals[f"{part}.{output}"]).max())

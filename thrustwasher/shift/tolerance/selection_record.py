@@ -10,8 +10,8 @@ Box = dict[str, tuple[float, float]]
 class Scale(NamedTuple):
     """How far apart two values of an output are.
 
-    Their difference over ``floor`` or, if ``relative``, over the value of the rung above if that is
-    larger.
+    Their difference over ``floor`` or, if ``relative``, over the value of the level above if that
+    is larger.
     """
 
     output: str
@@ -25,24 +25,24 @@ class Scale(NamedTuple):
 
 
 class Selected(NamedTuple):
-    """The rungs of one part that may serve, cheapest first, and why."""
+    """The levels of one part that may serve, cheapest first, and why."""
 
     part: str
-    rungs: tuple[str, ...]
-    tolerance: float  # the rung's share of the tolerance asked for
+    levels: tuple[str, ...]
+    tolerance: float  # the level's share of the tolerance requested
     verified: bool  # a table of measured errors speaks of the first one
     words: tuple[str, ...]
     box: Box  # the inputs that the first run has recorded
     scales: tuple[Scale, ...]
 
     @property
-    def rung(self) -> str:
-        """The rung that was chosen."""
-        return self.rungs[0]
+    def fidelity(self) -> str:
+        """The level that was chosen."""
+        return self.levels[0]
 
-    def after(self, rung: str) -> str | None:
-        """Return the next rung after one of them; None: it is the last."""
-        return dict(pairwise(self.rungs)).get(rung)
+    def after(self, fidelity: str) -> str | None:
+        """Return the next level after one of them; None: it is the last."""
+        return dict(pairwise(self.levels)).get(fidelity)
 
 
 class Selection(NamedTuple):
@@ -59,8 +59,8 @@ class Selection(NamedTuple):
         parts = [
             {
                 "part": p.part,
-                "rung": p.rung,
-                "above": p.after(p.rung),
+                "fidelity": p.fidelity,
+                "above": p.after(p.fidelity),
                 "tolerance": p.tolerance,
                 "verified": p.verified,
                 "box": p.box,
@@ -71,7 +71,7 @@ class Selection(NamedTuple):
 
 
 class Difference(NamedTuple):
-    """An output of a part in the rung that served and in the one above, and its time [s]."""
+    """An output of a part in the level that served and in the one above, and its time [s]."""
 
     share: float
     output: str = ""
@@ -85,26 +85,26 @@ class Check(NamedTuple):
 
     run: int  # which run: 1 is the first
     part: str
-    rung: str  # the rung that served
-    above: str  # the rung that it was compared with
+    fidelity: str  # the level that served
+    above: str  # the level that it was compared with
     tolerance: float
     points: int  # recorded points at which the two were compared
-    failed: tuple[str, ...]  # points at which the rung above gave no solution, with its message
+    failed: tuple[str, ...]  # points at which the level above gave no solution, with its message
     worst: Difference
-    outside: str  # how the run left what the rung is verified for; empty if it did not
+    outside: str  # how the run left what the level is verified for; empty if it did not
     seconds: float
 
     @property
     def holds(self) -> bool:
-        """True if the rung keeps its promise in this run, as far as it was checked."""
+        """True if the level keeps its promise in this run, as far as it was checked."""
         return not self.outside and self.worst.share <= self.tolerance
 
     def words(self) -> str:
         """Return it as a sentence."""
         points = "1 point" if self.points == 1 else f"{self.points} points"
         text = (
-            f"{self.part}: {self.rung}, compared with {self.above} at {points}, worst difference "
-            f"{100.0 * self.worst.share:.2g} % ({100.0 * self.tolerance:.2g} % allowed)"
+            f"{self.part}: {self.fidelity}, compared with {self.above} at {points}, worst "
+            f"difference {100.0 * self.worst.share:.2g} % ({100.0 * self.tolerance:.2g} % allowed)"
         )
         if self.failed:
             text += f"; {len(self.failed)} without a solution, first {self.failed[0]}"
@@ -117,7 +117,7 @@ class CheckRecord(NamedTuple):
     checks: list[Check]  # in the order they were made: those of every run
     again: list[str]  # what every further run changed, in words
     earlier_seconds: float  # wall time of the runs that did not count in the end [s]
-    stopped: str = ""  # why a run a rung higher came to nothing; then the one before it counts
+    stopped: str = ""  # why a run a level higher came to nothing; then the one before it counts
 
     @property
     def seconds(self) -> float:

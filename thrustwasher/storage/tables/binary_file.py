@@ -59,7 +59,7 @@ def _spreadsheet(path: Path) -> Table:
     return Table(str(path), columns, [n for n, _ in rows[1:]], remarks)
 
 
-def _text(value: Any) -> str:
+def _text(value: object) -> str:
     """Return what a cell of a spreadsheet holds."""
     if value is None:
         return ""

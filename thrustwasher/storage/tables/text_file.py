@@ -9,10 +9,12 @@ from ...errors import ParameterError
 from .table import LONGEST, Column, Table, is_unit, plain_unit, split_head
 
 SEPARATORS = ";\t,"
-# thin and fixed spaces that group the digits of large numbers
-_SPACES = dict.fromkeys(map(ord, "\u00a0\u2007\u2009\u202f"), None)
+# spaces and apostrophes that group the digits of large numbers
+_SPACES = dict.fromkeys(map(ord, " \u00a0\u2007\u2009\u202f'\u2019"), None)
 _WITH_COMMA = re.compile(r"[+-]?(\d{1,3}(\.\d{3})+|\d*),\d+([eE][+-]?\d+)?")
 _WITH_POINT = re.compile(r"[+-]?\d*\.\d+([eE][+-]?\d+)?")
+_GROUPS_AND_POINT = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+\.\d*")
+_GROUPS = re.compile(r"[+-]?[1-9]\d{0,2}([ \u00a0\u2007\u2009\u202f'\u2019]\d{3})+([.,]\d*)?")
 _THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+")
 COMMAS = "; if these are decimal commas they shift the columns: separate the cells by semicolons"
 
@@ -41,13 +43,16 @@ def read_text_table(path: Path) -> Table:
             raise ParameterError(said + (COMMAS if separator == "," else ""))
     if not rows:
         raise ParameterError(f"{path}: has column names but no line of numbers")
-    commas = _has_decimal_commas(path, rows, names)
-    if commas:
-        remarks.append("decimal commas")
+    commas, groups = _signs(path, rows, names)
+    remarks += ["decimal commas"] * commas + ["groups of thousands"] * groups
     columns = []
     for i, (name, unit) in enumerate(zip(names, units, strict=True)):
         cells = [row[i] if i < len(row) else "" for _, row in rows]
-        columns.append(Column(name, unit, [_pointed(c) for c in cells] if commas else cells))
+        if commas:
+            cells = [_pointed(cell) for cell in cells]
+        elif groups:
+            cells = [_ungrouped(cell) for cell in cells]
+        columns.append(Column(name, unit, cells))
     return Table(str(path), columns, [number for number, _ in rows], remarks)
 
 
@@ -102,39 +107,72 @@ def _is_units(cells: Sequence[str]) -> bool:
     return bool(named) and all(is_unit(cell) for cell in cells) and "1" not in named
 
 
-def _has_decimal_commas(
+def _signs(
     path: Path, rows: Sequence[tuple[int, list[str]]], names: Sequence[str]
-) -> bool:
-    """Tell if the decimal sign is a comma; a file that can be read in two ways is refused."""
-    certain, unsure, pointed = None, None, None
+) -> tuple[bool, bool]:
+    """Tell if the decimal sign is a comma, and if groups of thousands are parted.
+
+    A file has one decimal sign: "1,200" has a group next to "0.5", "1.200" one next to "0,5". A
+    file that can be read in two ways is refused.
+    """
+    first: dict[str, tuple[int, str, str]] = {}
     for number, cells in rows:
         for name, cell in zip(names, cells, strict=False):
-            if name.startswith("_") or ("," not in cell and "." not in cell):
-                continue
-            plain = cell.translate(_SPACES)
-            if _WITH_COMMA.fullmatch(plain):
-                if _THOUSANDS.fullmatch(plain):
-                    unsure = unsure or (number, name, cell)
-                else:
-                    certain = certain or (number, name, cell)
-            elif _WITH_POINT.fullmatch(plain):
-                pointed = pointed or (number, name, cell)
-    comma = certain or unsure
-    if comma and pointed:
+            if not name.startswith("_") and not cell.isdigit():
+                for kind in _kinds(cell):
+                    first.setdefault(kind, (number, name, cell))
+    comma = first.get("comma") or first.get("comma or group")
+    point = first.get("point") or first.get("point or group")
+    is_told = ("comma" in first) != ("point" in first)
+    if comma and point and not is_told:
         raise ParameterError(
-            f"{path}: line {comma[0]} has {comma[1]} = {comma[2]!r} and line {pointed[0]} "
-            f"{pointed[1]} = {pointed[2]!r}, one decimal sign is required"
+            f"{path}: line {comma[0]} has {comma[1]} = {comma[2]!r} and line {point[0]} "
+            f"{point[1]} = {point[2]!r}, one decimal sign is required"
         )
-    if unsure and not certain:
+    if comma and not is_told:
         raise ParameterError(
-            f"{path}, line {unsure[0]}: {unsure[1]} = {unsure[2]!r} may have a decimal comma or "
+            f"{path}, line {comma[0]}: {comma[1]} = {comma[2]!r} may have a decimal comma or "
             "groups of thousands; write the numbers with a decimal point, or with digits enough "
             "to tell"
         )
-    return certain is not None
+    commas = "comma" in first
+    return commas, "group" in first or ("point or group" if commas else "comma or group") in first
+
+
+def _kinds(cell: str) -> tuple[str, ...]:
+    """Return what a number's signs may be: decimal "comma" or "point", and "group"."""
+    plain = _plain(cell)
+    parted = ("group",) if plain != cell else ()
+    if _GROUPS_AND_POINT.fullmatch(plain):
+        return "point", "group"
+    if _WITH_COMMA.fullmatch(plain):
+        return (*parted, "comma or group" if _THOUSANDS.fullmatch(plain) else "comma")
+    if _WITH_POINT.fullmatch(plain):
+        is_group = _THOUSANDS.fullmatch(plain.replace(".", ","))
+        return (*parted, "point or group" if is_group else "point")
+    if _THOUSANDS.fullmatch(plain.replace(".", ",")):  # more than one point
+        return "point or group", "group"
+    return parted
+
+
+def _plain(cell: str) -> str:
+    """Return a cell without the spaces or apostrophes that part its thousands."""
+    if cell.isascii() and " " not in cell and "'" not in cell:
+        return cell
+    return cell.translate(_SPACES) if _GROUPS.fullmatch(cell) else cell
+
+
+def _ungrouped(cell: str) -> str:
+    """Return a cell with a decimal point without what parts its thousands."""
+    plain = _plain(cell)
+    if _GROUPS_AND_POINT.fullmatch(plain) or _THOUSANDS.fullmatch(plain):
+        return plain.replace(",", "")
+    return plain
 
 
 def _pointed(cell: str) -> str:
     """Return a cell with a decimal point for its comma."""
-    plain = cell.translate(_SPACES)
-    return plain.replace(".", "").replace(",", ".") if _WITH_COMMA.fullmatch(plain) else plain
+    plain = _plain(cell)
+    if _WITH_COMMA.fullmatch(plain) or _THOUSANDS.fullmatch(plain.replace(".", ",")):
+        return plain.replace(".", "").replace(",", ".")
+    return plain

@@ -15,16 +15,12 @@ from ...numerics.jit import Array, kernel
 from ...numerics.status import BAD_INPUT, NOT_FINITE, OK
 
 PORTS = 7
-(
-    P_VOLUME,
-    P_OIL_DENSITY,
-    P_OIL_HEAT_CAPACITY,
-    P_HOUSING_CAPACITY,
-    P_CONDUCTANCE,
-    P_INITIAL_TEMPERATURE,
-    P_FACTOR,
-) = range(7)
-N_PARAM = P_FACTOR + PORTS + 1
+# places: P_ of parameters
+P_VOLUME, P_OIL_DENSITY, P_OIL_HEAT_CAPACITY, P_HOUSING_CAPACITY, P_CONDUCTANCE = range(0, 5)
+P_INITIAL_TEMPERATURE, P_FACTOR_1 = range(5, 7)
+P_FIDELITY, N_PARAM = range(13, 15)
+# end of places
+P_FACTOR = P_FACTOR_1  # as many as ports
 D_HEAT, D_CAPACITY = N_PARAM, N_PARAM + 1  # of a volume of oil [J/(m3 K)]; of the sump [J/K]
 NPAR = N_PARAM + 2
 I_AMBIENT, I_FLOW, I_COOLER, I_ENERGY = range(PORTS, PORTS + 4)

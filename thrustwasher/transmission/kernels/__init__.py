@@ -7,6 +7,7 @@
 ``stick_slip``              which modes are consistent, and when they end
 ``integrate_step``          intervals of smooth motion between the instants where something changes
 ``piston``                  courses of pressure, filling, lag, centrifugal head
+``shift_figures``           what a finished shift is judged by: lock-up, jerk, flare, torque hole
 ``directional_derivative``  how the outputs change with the inputs: exact, modes as they are
 ``step``                    one co-simulation step: received torques in, speeds and loads out
 ==========================  =======================================================================
@@ -18,6 +19,8 @@ CALLED = {
     "thrustwasher.transmission.kernels.step": (
         "thrustwasher.transmission.kernels.directional_derivative: directional_derivative",
         "thrustwasher.transmission.kernels.dynamics: broken_rule derive",
+        "thrustwasher.transmission.kernels.shift_figures: comfort held_from shift_heat slip_end",
+        "thrustwasher.transmission.kernels.shift_figures: standstill",
         "thrustwasher.transmission.kernels.step: step",
     ),
 }

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...numerics.arrays import are_finite, clear
 from ...numerics.jit import Array, kernel
-from ...numerics.smoothing import sign_of
+from ...numerics.smoothing import sign_of, soft_size_slope
 from ...numerics.status import NOT_FINITE, OK
 from . import dynamics
 from . import layout as L
@@ -180,7 +180,8 @@ def directional_derivative(
     rigid = not par[L.P_SHAFT_STIFFNESS] > 0.0
     shaft = load if rigid else 0.0
     # The bearings feel the size of the tooth torque, which feels the bearings.
-    side, lost = sign_of(work[L.W_TEETH]), loss_change(par, inp, work, seed)
+    side = soft_size_slope(work[L.W_TEETH], dynamics.LIGHT)
+    lost = loss_change(par, inp, work, seed)
     free = balance_change(par, work, clutch, brake, resists, engine, shaft, capacity, 0.0, lost)[0]
     none, nothing = (0.0, 0.0), (0.0, 0.0, 0.0)
     back = balance_change(par, work, none, none, 0.0, 0.0, 0.0, capacity, side, nothing)[0]

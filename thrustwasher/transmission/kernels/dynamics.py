@@ -21,6 +21,7 @@ import numpy as np
 
 from ...numerics.arrays import are_finite
 from ...numerics.jit import Array, kernel
+from ...numerics.smoothing import soft_size
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
 from .planet_bearing import derive_needles
@@ -45,6 +46,7 @@ SPEED_SCALE = 1.0  # rad/s: smaller speeds are kept to an absolute error
 TWIST_SCALE = 0.01  # rad
 ENERGY_SCALE = 100.0  # J
 SLOW = 0.1  # rad/s: rolling resistance passes through zero over it
+LIGHT = 0.1  # N m of the teeth, within which the thrust bearings' friction is rounded at none
 MAX_SECANTS = 12
 SAME = 1e-14  # of the tooth torque: rounding
 LOOSE = 1e-9  # of it: what a secant that has not ended may leave
@@ -221,7 +223,7 @@ def balance(par: Array, work: Array, s: float, load: float, teeth: float) -> flo
     tau -= work[L.W_LOSS_OWN]
     work[L.W_BEARING_TEETH] = teeth
     work[L.W_TEETH] = tau - teeth * work[L.W_BEARING_OWN]
-    return abs(work[L.W_TEETH])
+    return soft_size(work[L.W_TEETH], LIGHT)
 
 
 @kernel

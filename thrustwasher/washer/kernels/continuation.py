@@ -3,6 +3,8 @@
 With the film thickness prescribed the solution is unique: falling film thickness leads from light
 load over the film branch, through the fold where the film is lost, back along the unstable
 branch to the fold where it is regained, and along the contact branch.
+
+Python's ``load_curve`` and the page's are `begin_curve`, then `next_point` and `pass_fold` in turn.
 """
 
 import math
@@ -11,14 +13,26 @@ import numpy as np
 
 from ...numerics.arrays import clear, copy
 from ...numerics.jit import Array, inlined, kernel
-from ...numerics.status import MAX_ITERATIONS, OK
+from ...numerics.status import MAX_ITERATIONS, OK, OVER_BUDGET
 from . import layout as L
 from .constants import WasherModel
 from .gap import evaluate_gaps
-from .newton import FILM, NO_FLOOR, evaluate, newton, smooth_film
+from .heat import set_steady
+from .newton import FILM, LOAD, NO_FLOOR, evaluate, is_spent, newton, smooth_film
+from .outputs import outputs_at
 from .workspace import Fields, Point, Workspace, fields_of, forget_factor, model_of, square, vector
 
 LARGEST_RISE = 50.0  # [K] of a temperature by a step along the tangent
+BUDGET = 1500.0  # Newton iterations that one solution may take
+ENTRY_RATIO = 6.0  # film ratio at which the whole curve is entered
+FINEST = 0.1  # [sigma] between its points near contact
+GOLDEN = 0.618
+MOST_LOADS = 100  # by 2 % each: seven times the load
+MOST_STEPS = 1000
+# where asperities carry this share and the load grows by this factor from point to point, points
+# go by load: hot oil may let it grow without bound at one film thickness
+ALONE, STEEP = 0.9, 1.1
+SHALLOW = 3e-4  # relative drop of the load that makes a fold; solve_washer uses the same
 
 
 @kernel
@@ -254,3 +268,183 @@ def find_fold(w: Workspace, pt: Point, upper: float, lower: float) -> int:
         ):
             return OK
     return OK if math.isfinite(w.curve[L.AT_LOAD]) else MAX_ITERATIONS
+
+
+@kernel
+def renew_budget(w: Workspace) -> None:
+    """Let the next solve take as many iterations as one from nothing."""
+    w.info[L.BUDGET] = w.info[L.ITERATIONS] + BUDGET
+
+
+@kernel
+def _stuck(w: Workspace, status: int, place: float) -> int:
+    """Return the status of a solve within a budget; write the place of the walk where it failed."""
+    spent = is_spent(w)
+    w.info[L.BUDGET] = 0.0
+    if status == OK:
+        return OK
+    w.curve[L.STUCK] = place
+    return OVER_BUDGET if spent else status
+
+
+@kernel
+def start_at(w: Workspace, pt: Point, ratio: float) -> int:
+    """Solve from nothing at a film ratio, within a budget; return a status."""
+    renew_budget(w)
+    return _stuck(w, enter_curve(w, pt, ratio), L.AT_ENTRY)
+
+
+@kernel
+def go_to_load(w: Workspace, pt: Point, load: float) -> int:
+    """Solve at a load [N] from here, where the asperities carry: no fold is on the way."""
+    renew_budget(w)
+    for _ in range(MOST_STEPS):
+        if not w.curve[L.AT_LOAD] < load * (1.0 - 1e-9):
+            return _stuck(w, OK, L.AT_A_LOAD)
+        step, status = load - w.curve[L.AT_LOAD], OK
+        remember(w, 0.0)
+        for _ in range(12):
+            target = w.curve[L.AT_LOAD] + step
+            status = newton(w, pt, LOAD, target, NO_FLOOR, w.curve[L.ACCURACY], 20.0)
+            if status == OK:
+                break
+            recall(w, 0.0)
+            forget_factor(w)
+            step *= 0.4
+        if status != OK:
+            return _stuck(w, status, L.AT_A_LOAD)
+        note(w)
+    return _stuck(w, MAX_ITERATIONS, L.AT_A_LOAD)
+
+
+@kernel
+def go_to_film(w: Workspace, pt: Point, film: float) -> int:
+    """Walk to a film thickness [m]; where that gets stuck less exactly, or by load.
+
+    Much oil on a coarse mesh makes Newton's method slow: a hundredth of the accuracy will do. By
+    load where asperities carry.
+    """
+    renew_budget(w)
+    status = walk_to(w, pt, film)
+    if status != OK:
+        renew_budget(w)
+        w.curve[L.ACCURACY] *= 100.0
+        status = walk_to(w, pt, film)
+        w.curve[L.ACCURACY] *= 0.01
+    if status != OK and film < w.curve[L.AT_FILM] and w.curve[L.AT_SHARE] > ALONE:
+        for _ in range(MOST_LOADS):
+            if w.curve[L.AT_FILM] > film:
+                pressed = go_to_load(w, pt, 1.02 * w.curve[L.AT_LOAD])
+                if pressed != OK:
+                    return pressed
+        renew_budget(w)
+        status = walk_to(w, pt, film)
+    return _stuck(w, status, L.ON_THE_WAY)
+
+
+@kernel
+def begin_curve(w: Workspace, pt: Point, load: float, whole: Array) -> int:
+    """Go to where the steady washer carries less than ``load`` [N]; return a status."""
+    set_steady(model_of(w), pt, fields_of(w))
+    w.curve[L.ACCURACY] = 1e-8
+    status = start_at(w, pt, ENTRY_RATIO)
+    for _ in range(MOST_STEPS):
+        thick = not w.curve[L.AT_FILM] < 1e3 * w.par[L.D_SIGMA1]
+        if status != OK or thick or not w.curve[L.AT_LOAD] > load:
+            break
+        status = go_to_film(w, pt, 1.25 * w.curve[L.AT_FILM])
+    clear(whole)
+    whole[L.CURVE_LOAD] = whole[L.TOP_LOAD] = w.curve[L.AT_LOAD]
+    whole[L.BEFORE_FILM] = whole[L.TOP_FILM] = w.curve[L.AT_FILM]
+    whole[L.BEFORE_LOAD], whole[L.RISES] = math.inf, 1.0
+    return status
+
+
+@kernel
+def next_point(w: Workspace, pt: Point, whole: Array) -> int:
+    """Go on to the next point of the curve; return a status."""
+    rises, here = whole[L.RISES] != 0.0, w.curve[L.AT_FILM]
+    steep = whole[L.CURVE_LOAD] > STEEP * whole[L.BEFORE_LOAD] and w.curve[L.AT_SHARE] > ALONE
+    by_load = rises and (whole[L.BY_LOAD] != 0.0 or steep)
+    whole[L.BEFORE_FILM], whole[L.BEFORE_LOAD] = here, whole[L.CURVE_LOAD]
+    status = OK
+    if not by_load:
+        status = go_to_film(w, pt, step_down(w.par[L.D_SIGMA1], here, FINEST))
+        # soft bodies turn the washer so that its film grows with the load
+        by_load = status != OK and rises and (whole[L.FOLDS] > 0.0 or w.curve[L.AT_FILM] < 0.0)
+    if by_load:
+        status = go_to_load(w, pt, STEEP * w.curve[L.AT_LOAD])
+    whole[L.BY_LOAD] = 1.0 if by_load else 0.0
+    whole[L.CURVE_LOAD] = w.curve[L.AT_LOAD]
+    return status
+
+
+@kernel
+def pass_fold(w: Workspace, pt: Point, whole: Array) -> int:
+    """Look if a fold lies behind the last point, then find it and come back; return a status."""
+    load, way = whole[L.CURVE_LOAD], 1.0 if whole[L.RISES] != 0.0 else -1.0
+    gain, noise = load - whole[L.TOP_LOAD], SHALLOW * whole[L.TOP_LOAD] + 1e-3
+    status, whole[L.FOLD] = OK, 0.0
+    if way * gain < -noise:
+        found = whole[L.FOLD_LOAD : L.N_WHOLE]
+        status = locate_fold(w, pt, way, whole[L.TOP_FILM], w.curve[L.AT_FILM], found)
+        whole[L.FOLD], whole[L.RISES] = way, 1.0 - whole[L.RISES]
+        whole[L.FOLDS] += 1.0
+    elif not way * gain > 0.0:
+        return OK
+    whole[L.TOP_LOAD], whole[L.TOP_FILM] = load, whole[L.BEFORE_FILM]
+    return status
+
+
+@kernel
+def locate_fold(
+    w: Workspace, pt: Point, way: float, upper: float, lower: float, found: Array
+) -> int:
+    """Fill load and outputs where the load is greatest (``way`` 1) or least (-1), and come back.
+
+    Between two film thicknesses [m]; ``found``: (1 + N_ALL,).
+    """
+    film, load, slope = w.curve[L.AT_FILM], w.curve[L.AT_LOAD], w.curve[L.AT_SLOPE]
+    share, accuracy = w.curve[L.AT_SHARE], w.curve[L.ACCURACY]
+    status = OK
+    remember(w, 1.0)
+    for attempt in range(2):
+        if attempt == 0:
+            renew_budget(w)
+            status = _stuck(w, find_fold(w, pt, upper, lower), L.ON_THE_WAY)
+        else:
+            status = _search(w, pt, way, upper, lower)
+        if status == OK:
+            there = Point(w.curve[L.AT_LOAD], pt.speed, pt.tilt, pt.oil_temperature, pt.far_face)
+            outputs_at(w, there)
+            found[0] = w.curve[L.AT_LOAD]
+            copy(w.outputs, found[1:])
+        recall(w, 1.0)
+        forget_factor(w)
+        w.curve[L.AT_FILM], w.curve[L.AT_LOAD], w.curve[L.AT_SLOPE] = film, load, slope
+        w.curve[L.AT_SHARE], w.curve[L.ACCURACY] = share, accuracy
+        if status == OK:
+            break
+    return status
+
+
+@kernel
+def _search(w: Workspace, pt: Point, way: float, upper: float, lower: float) -> int:
+    """Go to the greatest or least load between two film thicknesses [m]; return a status.
+
+    By golden section, for folds too flat for the slope to say on which side they lie.
+    """
+    for _ in range(MOST_STEPS):
+        if not upper - lower > 1e-3 * w.par[L.D_SIGMA1]:
+            return OK
+        loads = (0.0, 0.0)
+        for share in (GOLDEN, 1.0 - GOLDEN):
+            status = go_to_film(w, pt, lower + share * (upper - lower))
+            if status != OK:
+                return status
+            loads = (loads[1], way * w.curve[L.AT_LOAD])
+        if loads[0] > loads[1]:
+            lower += (1.0 - GOLDEN) * (upper - lower)
+        else:
+            upper -= (1.0 - GOLDEN) * (upper - lower)
+    return OK

@@ -319,7 +319,7 @@ def heat_change(
     if by_pressure:
         _pressure_change(m, f, dq, f.doutlet)
     colder = 0.0  # change of the supply's rise above the oil
-    if m.par[L.P_SUPPLY_TEMPERATURE] > 0.0:
+    if m.par[L.P_OIL_SUPPLY_TEMPERATURE] > 0.0:
         colder = -change.oil_temperature
     warmer = supply_rise(m, pt)
     for j in range(m.n_t):

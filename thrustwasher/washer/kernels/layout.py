@@ -16,49 +16,27 @@ from ...tribology.holding.memory import N_MEMORY
 Z_WASHER, Z_GEAR, TILT_X, TILT_Y = range(4)
 ON_WASHER, ON_GEAR, MOMENT_X, MOMENT_Y = range(4)
 
-# `par`: parameters in the order of WasherParams, then the fidelity. Behind a property of all
-# bodies come those of carrier, washer and gear, 0 where a body has the common one.
-(
-    P_INNER_RADIUS,
-    P_OUTER_RADIUS,
-    P_GEAR_INNER_RADIUS,
-    P_CARRIER_THICKNESS,
-    P_WASHER_THICKNESS,
-    P_GEAR_THICKNESS,
-    P_ROUGHNESS,
-    P_ROUGHNESS_CARRIER,
-    P_ROUGHNESS_WASHER,
-    P_ROUGHNESS_GEAR,
-) = range(10)
-P_YOUNGS_MODULUS, P_POISSON_RATIO, P_YIELD_STRENGTH = 10, 14, 18
-P_YIELD_STRAIN_LAW, P_ASPERITY_RADIUS, P_ASPERITY_DENSITY, P_ASPERITY_HEIGHT_LAW = range(22, 26)
-P_CONDUCTIVITY = 26
-(
-    P_CONDUCTION,
-    P_GEAR_FAR_FACE,
-    P_OIL_CONDUCTIVITY,
-    P_VISCOSITY_CONSTANT,
-    P_VISCOSITY_EXPONENT,
-    P_VISCOSITY_SCALE,
-    P_OIL_COOLING,
-    P_OIL_DENSITY,
-    P_OIL_HEAT_CAPACITY,
-    P_SUPPLY_TEMPERATURE,
-    P_CAVITY_SHEAR,
-    P_PRESSURE_FLOW_SHEAR,
-    P_FRICTION_LAW,
-    P_DRY_FRICTION,
-    P_FRICTION_REFERENCE,
-    P_FRICTION_SLOPE,
-    P_FRICTION_PRESSURE_MIN,
-    P_FRICTION_PRESSURE_MAX,
-    P_HEAT_SPLIT,
-    P_FILM_HEAT_FRACTION,
-    P_THERMAL_MODE,
-) = range(30, 51)
-P_DENSITY, P_SPECIFIC_HEAT = 51, 55
-P_BODY_STORAGE, P_THERMAL_START, P_HOLDING, P_COUPLING_INERTIA, P_COUPLING_AGE = range(59, 64)
-P_OUTSIDE_MAP, P_FIDELITY, N_PARAM = 64, 65, 66
+# `par`: parameters, then the fidelity. Behind a property of all bodies come those of carrier,
+# washer and gear, 0 where a body has the common one.
+# places: P_ of parameters
+P_INNER_RADIUS, P_OUTER_RADIUS, P_GEAR_INNER_RADIUS, P_CARRIER_THICKNESS = range(0, 4)
+P_WASHER_THICKNESS, P_GEAR_THICKNESS, P_ROUGHNESS, P_ROUGHNESS_CARRIER = range(4, 8)
+P_ROUGHNESS_WASHER, P_ROUGHNESS_GEAR, P_YOUNGS_MODULUS, P_YOUNGS_MODULUS_CARRIER = range(8, 12)
+P_YOUNGS_MODULUS_WASHER, P_YOUNGS_MODULUS_GEAR, P_POISSON_RATIO = range(12, 15)
+P_POISSON_RATIO_CARRIER, P_POISSON_RATIO_WASHER, P_POISSON_RATIO_GEAR = range(15, 18)
+P_YIELD_STRENGTH, P_YIELD_STRENGTH_CARRIER, P_YIELD_STRENGTH_WASHER = range(18, 21)
+P_YIELD_STRENGTH_GEAR, P_YIELD_STRAIN_LAW, P_ASPERITY_RADIUS, P_ASPERITY_DENSITY = range(21, 25)
+P_ASPERITY_HEIGHT_LAW, P_CONDUCTIVITY, P_CONDUCTIVITY_CARRIER, P_CONDUCTIVITY_WASHER = range(25, 29)
+P_CONDUCTIVITY_GEAR, P_CONDUCTION, P_GEAR_FAR_FACE, P_OIL_CONDUCTIVITY = range(29, 33)
+P_VISCOSITY_CONSTANT, P_VISCOSITY_EXPONENT, P_VISCOSITY_SCALE, P_OIL_COOLING = range(33, 37)
+P_OIL_DENSITY, P_OIL_HEAT_CAPACITY, P_OIL_SUPPLY_TEMPERATURE, P_CAVITY_SHEAR = range(37, 41)
+P_PRESSURE_FLOW_SHEAR, P_FRICTION_LAW, P_DRY_FRICTION, P_FRICTION_REFERENCE = range(41, 45)
+P_FRICTION_SLOPE, P_FRICTION_PRESSURE_MIN, P_FRICTION_PRESSURE_MAX, P_HEAT_SPLIT = range(45, 49)
+P_FILM_HEAT_FRACTION, P_THERMAL_MODE, P_DENSITY, P_DENSITY_CARRIER, P_DENSITY_WASHER = range(49, 54)
+P_DENSITY_GEAR, P_SPECIFIC_HEAT, P_SPECIFIC_HEAT_CARRIER, P_SPECIFIC_HEAT_WASHER = range(54, 58)
+P_SPECIFIC_HEAT_GEAR, P_BODY_STORAGE, P_THERMAL_START, P_HOLDING, P_COUPLING_INERTIA = range(58, 63)
+P_COUPLING_AGE, P_OUTSIDE_MAP, P_FIDELITY, N_PARAM = range(63, 67)
+# end of places
 N_STEADY = P_THERMAL_MODE  # a steady solution depends on those before; what follows is of time
 OF_CARRIER, OF_WASHER, OF_GEAR = 1, 2, 3  # places of a body's own property behind the common one
 CONTACT_YIELD, SUMMIT_HEIGHTS, CONSTANT_FRICTION = 2.0, 2.0, 2.0  # values of the laws
@@ -136,9 +114,29 @@ HOT_LIMIT = 523.0  # [K] of the hottest spot; above it oil and washer are lost
     N_INFO,
 ) = range(10)
 BRANCH, MULTIPLICITY, LOST, REGAINED, N_FOUND = range(5)  # loads of folds found: nan if not met
-# film thickness s [m], load [N], dload/ds [N/m], contact share [-]; tolerance, set by the caller
-AT_FILM, AT_LOAD, AT_SLOPE, AT_SHARE, ACCURACY = range(5)
+# film thickness s [m], load [N], dload/ds [N/m], contact share [-]; tolerance, set by the caller;
+# where it got stuck last
+AT_FILM, AT_LOAD, AT_SLOPE, AT_SHARE, ACCURACY, STUCK = range(6)
 N_CURVE = 8
+AT_ENTRY, ON_THE_WAY, AT_A_LOAD = 0.0, 1.0, 2.0
+# The whole curve: load of the last point, film thickness and load of the one before; load of the
+# highest point since the film was regained, of the lowest since it was lost, and the film thickness
+# before it; does the load rise, do points go by load, folds so far. A fold that was just passed (1:
+# the film is lost, -1: regained, 0: none): load and outputs.
+(
+    CURVE_LOAD,
+    BEFORE_FILM,
+    BEFORE_LOAD,
+    TOP_LOAD,
+    TOP_FILM,
+    RISES,
+    BY_LOAD,
+    FOLDS,
+    FOLD,
+    FOLD_LOAD,
+    FOLD_OUTPUTS,
+) = range(11)
+N_WHOLE = FOLD_OUTPUTS + N_ALL
 AT_FOUND = N_INFO
 AT_CURVE = AT_FOUND + N_FOUND
 AT_OUTPUTS = AT_CURVE + N_CURVE

@@ -250,7 +250,7 @@ def change_of_outputs(
     dout[L.O_THROUGHFLOW_HEAT] = gone
     dout[L.O_OIL_HEAT] = gone + faces
     dout[L.O_OUTLET] = change.oil_temperature
-    if m.par[L.P_SUPPLY_TEMPERATURE] > 0.0:
+    if m.par[L.P_OIL_SUPPLY_TEMPERATURE] > 0.0:
         dout[L.O_OUTLET] = 0.0
     if m.film_step > 0 and out[L.O_OIL_FLOW] > 0.0:
         warmth = out[L.O_THROUGHFLOW_HEAT] * flow / out[L.O_OIL_FLOW]

@@ -64,7 +64,7 @@ def broken_rule(par: Array) -> int:
         pair = contact_pair(par, L.OF_CARRIER + 2 * k)
         if not pair.yield_strength <= pair.contact_modulus:
             return 23 + k
-    if _too_small(par, L.P_SUPPLY_TEMPERATURE, LEAST_TEMPERATURE):
+    if _too_small(par, L.P_OIL_SUPPLY_TEMPERATURE, LEAST_TEMPERATURE):
         return 25
     cooled = par[L.P_OIL_COOLING] != 0.0
     if cooled and par[L.P_FILM_HEAT_FRACTION] != 1.0:

@@ -11,7 +11,7 @@ from ...numerics.jit import Array, inlined, kernel
 from ...numerics.status import NO_BRANCH, OK, OVER_BUDGET
 from . import layout as L
 from .branch import FILM_RATIO, descend, is_clear_film, solve_cold
-from .continuation import go_along
+from .continuation import BUDGET, go_along
 from .newton import (
     EXACT,
     LOAD,
@@ -26,7 +26,6 @@ from .newton import (
 from .workspace import Point, Workspace, fields_of, forget_factor, model_of, vector
 
 WARM_TOLERANCE = 5e-6
-BUDGET = 1500.0  # Newton iterations that one solution may take
 FLAT = 0.15  # of the load per sigma: flatter slopes need a heat factor made here, 0.05 off without
 CONTINUOUS = 0.2  # a film ratio that moves by less has stayed on its branch
 

@@ -30,7 +30,7 @@ STILL = 1e-13  # its change by which a sweep ends
 @kernel
 def supply_rise(m: WasherModel, pt: Point) -> float:
     """Return how much warmer than the oil around the washer the oil drawn in is [K]."""
-    supply = m.par[L.P_SUPPLY_TEMPERATURE]
+    supply = m.par[L.P_OIL_SUPPLY_TEMPERATURE]
     return float(supply - pt.oil_temperature) if supply > 0.0 else 0.0
 
 

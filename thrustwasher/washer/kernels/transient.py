@@ -14,11 +14,11 @@ from ...numerics.status import MAX_ITERATIONS, NO_BRANCH, OK
 from . import ladder
 from . import layout as L
 from .branch import DESCENT, ENTRY_RATIO, FILM_RATIO, descend, settle
-from .continuation import enter_curve, note, recall, remember, walk_down, walk_to
+from .continuation import BUDGET, enter_curve, note, recall, remember, walk_down, walk_to
 from .heat import set_steady
 from .newton import FILM, LOAD, NO_FLOOR, evaluate_here, is_spent, newton, smooth_film
 from .outputs import outputs_at
-from .solve import BUDGET, recall_state, scan_holds
+from .solve import recall_state, scan_holds
 from .workspace import Point, Workspace, fields_of, forget_factor, model_of
 
 ATOL, RTOL = 0.02, 2e-3  # [K], and of the largest rise: what a substep may be off

@@ -34,6 +34,10 @@ OUTSIDE = {  # outside_map -> what became of points there
     "hold": "have the answer of the box's nearest point (outside_map = 'hold')",
     "refuse": "have no answer (outside_map = 'refuse')",
 }
+OF_BOX = (
+    "fidelity = 'map': {outside} of {points} {what} are outside the map's box or without tilt and "
+    "{then}; build a map for a larger box, or choose 'field'"
+)
 HELD = (
     "answered by the nearest point of the box (outside_map = 'hold'); build a map for a larger "
     "box, or set outside_map = 'solve'"
@@ -280,10 +284,8 @@ def outside_text(params: WasherParams, points: Array, what: str, most: float = 0
         outside |= (there[:, i] < low * (1.0 - 1e-9)) | (there[:, i] > high * (1.0 + 1e-9))
     if np.mean(outside) <= most:
         return ""
-    return (
-        f"fidelity = 'map': {outside.sum()} of {len(points)} {what} are outside the map's box or "
-        f"without tilt and {OUTSIDE[params.outside_map]}; build a map for a larger box, or choose "
-        "'field'"
+    return OF_BOX.format(
+        outside=outside.sum(), points=len(points), what=what, then=OUTSIDE[params.outside_map]
     )
 
 

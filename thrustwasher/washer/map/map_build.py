@@ -1,4 +1,4 @@
-"""From parameters to a map file: survey, lines solved side by side, check, card."""
+"""From parameters to a map file: survey, lines solved side by side, check, metadata."""
 
 import math
 import os
@@ -50,12 +50,12 @@ def make_map(
     points: int = POINTS,
     progress: Callable[[str], Progress] | None = None,
 ) -> dict[str, Any]:
-    """Build a map, check it and write it; return its card.
+    """Build a map, check it and write it; return its metadata.
 
     Parameters
     ----------
     params : the washer
-    out : file to write, ``*.twm``; what is solved is kept beside it until the map is done
+    out : file to write, ``*.twm``; what is solved is kept next to it until the map is done
     box : (low, high) of load [N], speed [rad/s], tilt [rad], oil_temperature [K]
     tolerance : of the torque, relative: of mesh and map together
     fidelity : "fine" or "field", the mesh that is mapped; None: "field" with what a finer mesh
@@ -74,20 +74,30 @@ def make_map(
         raise ParameterError(f"fidelity = {fidelity!r}, allowed: {' or '.join(FIDELITIES)}")
     plan = plan_map(params, box, tolerance)
     show = progress or (lambda _label: lambda _done, _total: None)
-    made = partial(_made, plan, out, workers or os.cpu_count() or 1, points, show)
+    must = fidelity is None
+    made = partial(_made, plan, out, workers or os.cpu_count() or 1, points, show, must=must)
     usual = "field" if tolerance >= FIELD_FROM else "fine"
-    raised = fidelity is None and usual == "field"
+    raised = must and usual == "field"
     try:
-        card = made(fidelity or usual, raised=raised)
-        why = f"the map is {card['held_out']['torque']:.1%} off" if raised and _missed(card) else ""
+        return made(fidelity or usual, raised=raised)
     except NotSmooth as problem:
         why = str(problem)
-    if why:
-        card = made("fine", raised=False, lines=f"{why}: all lines on the finer mesh,")
-    if fidelity is None and _missed(card):
-        out.unlink()
-        raise SolveError(_too_coarse(card))
-    return card
+    except _MissedError as problem:
+        if not raised:
+            raise SolveError(_too_coarse(problem.card)) from None
+        why = f"the map is {problem.card['held_out']['torque']:.1%} off"
+    try:
+        return made("fine", raised=False, lines=f"{why}: all lines on the finer mesh,")
+    except _MissedError as problem:
+        raise SolveError(_too_coarse(problem.card)) from None
+
+
+class _MissedError(Exception):
+    """A held-out point misses the tolerance; the file is not written."""
+
+    def __init__(self, card: dict[str, Any]) -> None:
+        super().__init__()
+        self.card = card
 
 
 def _made(
@@ -99,9 +109,13 @@ def _made(
     fidelity: str,
     *,
     raised: bool,
+    must: bool,
     lines: str = "lines",
 ) -> dict[str, Any]:
-    """Build a map on a mesh, check and write it; return its card."""
+    """Build a map on a mesh, check and write it; return its metadata.
+
+    ``must``: it is written only if it keeps the tolerance; _MissedError otherwise.
+    """
     # Held to the end: another run that writes this map is refused before it has worked for nothing.
     journal = journal_for(out.with_name(f"{out.name}.journal"), plan, fidelity)
     finished = False
@@ -130,9 +144,11 @@ def _made(
                 plan.params, str(draft), grid=grid, run=run, points=points, progress=shown
             )
             card["held_out"] = asdict(verdict)
+            if must and _missed(card):
+                raise _MissedError(card)
             draft.write_bytes(pack(data, card))
         finished = True
-    except SolveError:
+    except (SolveError, _MissedError):
         finished = True  # the same again would end here again
         raise
     finally:
@@ -260,14 +276,16 @@ def find_reach(plan: MapPlan) -> float:
                 ratio = before * (line.ratio / before) ** share
                 largest = max(largest, (ratio**2 - L.LEAST_REACH**2) / task.scale)
     if not math.isfinite(largest):
-        raise SolveError("map: no film is thick enough for the least load; raise the least load")
+        raise SolveError(
+            "map: no film is thick enough for the minimum load; raise the minimum load"
+        )
     return 1.05 * largest
 
 
 def _card(
     plan: MapPlan, fidelity: str, change: Change | None, took: float, workers: int
 ) -> dict[str, Any]:
-    """Return a map's card; ``change`` is what a finer mesh added."""
+    """Return a map's metadata; ``change`` is what a finer mesh added."""
     mesh = (
         {"finer_lines": change.solved, "mesh_made_good": change.raised, "mesh_left": change.left}
         if change

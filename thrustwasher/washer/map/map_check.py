@@ -95,7 +95,7 @@ def check_map(
 
 
 def mesh_of(card: dict[str, Any]) -> tuple[int, int]:
-    """Return the mesh that a map with this card stands for."""
+    """Return the mesh that a map with this metadata stands for."""
     n_r, n_t = card.get("checked_on") or GRIDS[card["built_from"]]
     return int(n_r), int(n_t)
 

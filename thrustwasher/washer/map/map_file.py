@@ -1,4 +1,4 @@
-"""Map files: a zip archive with the map's numbers (single precision) and its card (JSON).
+"""Map files: a zip archive with the map's numbers (single precision) and its metadata (JSON).
 
 Shipped maps lie in ``thrustwasher/data/maps``; further folders are taken from the environment
 variable ``THRUSTWASHER_MAPS`` (separated as in ``PATH``) and are looked through first, then those
@@ -32,7 +32,7 @@ SHIPPED = DATA / "maps"
 SUFFIX = ".twm"
 NUMBERS, CARD = "map.f32", "card.json"
 VARIABLE = "THRUSTWASHER_MAPS"
-MOST_KEPT = 50  # maps of one's own, about half a megabyte each
+MOST_KEPT = 50  # your own maps, about half a megabyte each
 LARGEST = 64e6  # bytes of numbers; more is no map of ours
 
 
@@ -108,7 +108,7 @@ def _read(path: str, _stamp: tuple[int, ...]) -> MapFile:
                 raise ValueError("the map is larger than any map is")
             data, card = unpack(archive.read(NUMBERS)), json.loads(archive.read(CARD))
         if not isinstance(card, dict):
-            raise ValueError("its card is no JSON object")
+            raise ValueError("its metadata is no JSON object")
     except (OSError, *DAMAGED) as problem:
         raise ParameterError(
             f"map = {path!r}: {problem}; allowed: a file written by `thrustwasher map build`"

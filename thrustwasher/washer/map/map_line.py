@@ -62,7 +62,7 @@ class Line:
         )
         self.at.w.curve[L.ACCURACY] = max(1e-7, 2e-2 * task.plan.tolerance)  # of Newton's method
         self.at.start(ENTRY)
-        self.slope = -2.5  # of ln(contact load) over the film ratio, where it was last sought
+        self.slope = -2.5  # of ln(contact load) over the film ratio, where it was last required
 
     def take_over(self, task: LineTask, kept: list[Array]) -> None:
         """Go to another line, where a solution of this one was."""
@@ -82,7 +82,7 @@ class Line:
         return float(self.at.f.small[L.CONTACT])
 
     def to(self, ratio: float) -> None:
-        """Walk to a film ratio in steps that Newton's method likes."""
+        """Continue to a film ratio in steps that Newton's method likes."""
         while self.ratio != ratio:
             here = self.ratio
             down = max(LARGEST_STEP, 0.25 * (here - 2.5))
@@ -94,7 +94,7 @@ class Line:
                 return
 
     def to_contact(self, load: float, guess: float | None = None) -> float:
-        """Walk down to a contact load [N]; return the film ratio there (secant in ln(load))."""
+        """Continue down to a contact load [N]; return the film ratio there (secant in ln(load))."""
         if guess is None:
             while self.contact < load:
                 self.to(self.ratio - LARGEST_STEP)
@@ -266,7 +266,7 @@ def _where(task: LineTask) -> str:
 
 
 def packed(curve: Curve, more_terms: Sequence[int]) -> Array:
-    """Return head and coefficients of a line; the curves beside load and torque are cut."""
+    """Return head and coefficients of a line; the curves next to load and torque are cut."""
     parts: list[Array] = []
     sums = [fit_of(len(piece)) @ piece for piece in curve.pieces]  # (terms, N_CURVES + 2)
     for part, more in zip(sums, more_terms, strict=True):

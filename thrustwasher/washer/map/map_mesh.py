@@ -55,7 +55,7 @@ def change_of_mesh(plan: MapPlan, coarse: Grid, fine: Grid, solve: Solve) -> Cha
     def both(places: Iterable[Where]) -> Pairs:
         """Return the curves on both meshes."""
         listed = list(places)
-        rows = [[across(plan, where)] for where in listed]  # too far apart for one walk
+        rows = [[across(plan, where)] for where in listed]  # too far apart for one path
         lines = [[row[0] for row in solve(rows, grid)] for grid in (coarse, fine)]
         return dict(zip(listed, zip(*lines, strict=True), strict=True))
 

@@ -197,7 +197,7 @@ def _checked(name: str, pair: Any) -> tuple[float, float]:
 
 
 def least_of(name: str) -> float:
-    """Return the least value of an input that a map can cover."""
+    """Return the minimum value of an input that a map can cover."""
     signal = next(s for s in SPEC.inputs if s.name == name)
     return {"load": 1.0, "speed": 0.0, "tilt": 1e-5}.get(name, float(signal.low or 0.0))
 

@@ -22,7 +22,7 @@ from .map_line import nodes_of as ends_of
 from .map_plan import FIELD_FROM, PLACES, MapPlan, Place
 
 SHARE = 0.7  # of the tolerance: how far a map may be off its mesh
-LIGHT = 0.8  # of the least load: what carries less is of no interest
+LIGHT = 0.8  # of the minimum load: what carries less is of no interest
 TERMS_SHARE = 0.3  # of that: what the coefficients left out may come to
 LOOSER = 3.0  # the tolerance of temperatures and flows over that of the torque
 NODES = (10, 5, 5)  # solved along speed, tilt and oil temperature

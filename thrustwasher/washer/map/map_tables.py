@@ -19,9 +19,9 @@ def build_own(
     box: Mapping[str, tuple[float, float]],
     tolerance: float,
     workers: int,
-    progress: Any,
+    progress: object,
 ) -> None:
-    """Build the map of one's own washer and keep it in the user's cache; as ``make_map``.
+    """Build the map of a washer of your own and keep it in the user's cache; as ``make_map``.
 
     The box is cut at what a map can cover.
     """
@@ -38,10 +38,10 @@ def keep_own(params: WasherParams, make: Callable[[Path], Any]) -> None:
 
 
 def kept_maps() -> str:
-    """Return in words what is kept of one's own washers."""
+    """Return in words how many maps of washers of your own are kept."""
     own, most = map_file.own_folder(), map_file.MOST_KEPT
     kept = [path for path in map_file.map_paths() if path.is_relative_to(own)]
-    return f"{len(kept)} maps of one's own washers, of at most {most}, in {own}"
+    return f"{len(kept)} maps of washers of your own, of at most {most}, in {own}"
 
 
 TABLES = Tables(

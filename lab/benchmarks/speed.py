@@ -1,0 +1,175 @@
+"""What a washer solve costs: warm, cold, curve; where its time goes; what a newcomer waits for.
+
+python -m lab.benchmarks.speed [--start]
+
+``--start``: only whole processes by the wall clock, everything compiled and the FMUs built, and
+what Python adds to a solve. One thread; medians over repeats, minima in brackets. Run it on an idle
+machine.
+"""
+
+from __future__ import annotations
+
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+
+from thrustwasher import WasherParams, WasherResult, load_curve, solve_washer
+from thrustwasher.washer import solve
+from thrustwasher.washer.kernel_arguments import constants
+from thrustwasher.washer.kernels import gap, heat, layout, newton
+from thrustwasher.washer.kernels.constants import washer_model
+from thrustwasher.washer.kernels.continuation import cold_start
+from thrustwasher.washer.kernels.film import evaluate_film, film_solve
+from thrustwasher.washer.kernels.workspace import Point, fields_of, size_of_work, workspace_of
+
+PARAMS = WasherParams()
+POINTS = [
+    ("full film", 545.0, 300.0),
+    ("full film", 953.0, 300.0),
+    ("transition", 136.0, 320.0),
+    ("transition", 545.0, 700.0),
+    ("boundary", 136.0, 1361.0),
+    ("contact", 545.0, 1200.0),
+    ("contact", 1367.0, 1000.0),
+]
+
+FIRST = (
+    "from thrustwasher import *; import sys; "
+    "solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002); "
+    "sys.exit('numba' in sys.modules)"
+)
+SHIFT = ["-m", "thrustwasher", "shift"]
+PROCESSES = {
+    "bare interpreter": ["-c", "pass"],
+    "Python, numpy imported": ["-c", "import numpy"],
+    "import thrustwasher": ["-c", "import thrustwasher"],
+    "a first solve": ["-c", FIRST],
+    "thrustwasher shift": SHIFT,
+    "shift --fidelity auto:0.01 --json --no-report": [
+        *SHIFT,
+        "--fidelity",
+        "auto:0.01",
+        "--json",
+        "--no-report",
+    ],
+}
+
+
+def timed(work: Callable[[], object], repeats: int) -> tuple[float, float]:
+    """Return median and minimum seconds of a call."""
+    seconds = []
+    for _ in range(repeats):
+        start = time.perf_counter()
+        work()
+        seconds.append(time.perf_counter() - start)
+    return statistics.median(seconds), min(seconds)
+
+
+def neighbours(base: WasherResult) -> Callable[[], WasherResult]:
+    """Return a call that solves 1 % above or below ``base``, starting from it."""
+    signs = iter(np.random.default_rng(0).choice((-1.0, 1.0), 1000).tolist())
+
+    def solve() -> WasherResult:
+        load = base.load * (1.0 + 0.01 * next(signs))
+        return solve_washer(PARAMS, load=load, speed=base.speed, tilt=0.002, start=base)
+
+    return solve
+
+
+def solves() -> None:
+    """Print warm and cold solves point by point."""
+    print("| point | cold ms | warm us, load +-1 % | iterations |")
+    print("|---|---|---|---|")
+    warm_all, cold_all = [], []
+    for name, speed, load in POINTS:
+        cold_solve = partial(solve_washer, PARAMS, load=load, speed=speed, tilt=0.002)
+        base = cold_solve()
+        cold = timed(cold_solve, 15)
+        iterations = neighbours(base)().iterations
+        warm = timed(neighbours(base), 400)
+        warm_all.append(warm[0])
+        cold_all.append(cold[0])
+        print(
+            f"| {name}, {speed:g} rad/s, {load:g} N | {1e3 * cold[0]:.1f} ({1e3 * cold[1]:.1f}) "
+            f"| {1e6 * warm[0]:.0f} ({1e6 * warm[1]:.0f}) | {iterations} |"
+        )
+    print(
+        f"\nmedian of points: cold {1e3 * statistics.median(cold_all):.1f} ms, "
+        f"warm {1e6 * statistics.median(warm_all):.0f} us"
+    )
+
+
+def curve() -> None:
+    """Print the cost of whole load curves."""
+    for speed in (136.0, 545.0, 1367.0):
+        load_curve(PARAMS, speed=speed, tilt=0.002)
+        t = timed(partial(load_curve, PARAMS, speed=speed, tilt=0.002), 7)
+        print(f"load curve at {speed:g} rad/s: {t[0]:.3f} s ({t[1]:.3f})")
+
+
+def starts() -> None:
+    """Print what a newcomer waits for, and what Python adds to a solve."""
+    print("| what | median (minimum) |\n|---|---|")
+    with tempfile.TemporaryDirectory() as folder:
+        for name, words in PROCESSES.items():
+            run = partial(
+                subprocess.run,
+                [sys.executable, *words],
+                check=True,
+                cwd=folder,
+                capture_output=True,
+            )
+            run()
+            t = timed(run, 5)
+            print(f"| {name}, new process | {t[0]:.3g} ({t[1]:.3g}) s |", flush=True)
+    point = {"load": 300.0, "speed": 953.0, "tilt": 0.002}
+    start = solve_washer(PARAMS, **point)
+    ready, state = solve._prepared(PARAMS, "field", start.grid), start._state.copy()
+    ready.inp[:] = (*point.values(), 297.15, 0.0)
+    calls: dict[str, Callable[[], object]] = {
+        "solve_washer, fidelity map": lambda: solve_washer(PARAMS, fidelity="map", **point),
+        "solve_washer, field, warm": lambda: solve_washer(PARAMS, start=start, **point),
+        "of it the compiled step": lambda: ready.step(state, 0.0, 1.0),
+    }
+    found = [timed(call, 10_000) for call in calls.values()]
+    added = tuple(a - b for a, b in zip(found[1], found[2], strict=True))
+    names = [*calls, "what Python adds to a warm solve"]
+    for name, (median, least) in zip(names, [*found, added], strict=True):
+        print(f"| {name} | {1e6 * median:.3g} ({1e6 * least:.3g}) us |")
+
+
+def profile() -> None:
+    """Print microseconds of the parts of one warm iteration at 545 rad/s, 300 N."""
+    par = constants(PARAMS, (10, 32))
+    w = workspace_of(par, np.zeros(layout.N_HEAD + size_of_work(10, 32)))
+    m, f, q = washer_model(par), fields_of(w), w.q
+    pt = Point(300.0, 545.0, 0.002, 297.15)
+    cold_start(w, pt, 13.0)
+    newton.newton(w, pt, newton.LOAD, 300.0, -100.0, 1e-9, 40.0)
+    empty, _ = timed(lambda: newton.smooth_film(w), 2000)
+    parts: list[tuple[str, Callable[[], object]]] = [
+        ("gaps and contact", lambda: gap.evaluate_gaps(m, pt, q, f)),
+        ("viscosity", lambda: gap.evaluate_viscosity(m, pt, f)),
+        ("heat residual", lambda: heat.heat_residual(m, pt, f.temp, f)),
+        ("film conductances", lambda: evaluate_film(m, pt, q, f)),
+        ("heat, back substitution", lambda: heat.solve_heat(m, f.heat, f.dtemp, f)),
+        ("film, five right sides", lambda: film_solve(m, f.p, f)),
+        ("heat, factor (cold only)", lambda: heat.factor_heat(m, pt, f)),
+    ]
+    for name, work in parts:
+        work()
+        print(f"{name}: {1e6 * (timed(work, 2000)[0] - empty):.1f} us")
+
+
+if __name__ == "__main__":
+    if "--start" not in sys.argv:
+        solves()
+        curve()
+        profile()
+    starts()

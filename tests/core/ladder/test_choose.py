@@ -1,0 +1,214 @@
+"""A choice is the first level that holds by its table, or by the level above where there is
+none."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from synthetic import BOX, WHOLE, put, rung
+
+import thrustwasher
+from thrustwasher import GearMeshParams, ParameterError, SolveError, WasherParams
+from thrustwasher.ladder import choose as home
+from thrustwasher.ladder import error_table
+from thrustwasher.ladder.choose import choose, rungs_of
+from thrustwasher.ladder.compare_rungs import Comparison, points_of, rows_to_compare
+from thrustwasher.ladder.error_table import Axis
+from thrustwasher.model.registry import spec_of
+
+LADDER = (rung("map", 2e-2), rung("field", 5e-3), rung("fine", 4e-4))
+OWN = WasherParams(roughness=5.1e-7)
+
+
+@pytest.fixture(autouse=True)
+def given(tmp_path, monkeypatch):
+    """Return a function that puts levels in the place of the shipped tables."""
+
+    def give(*rungs, **options):
+        put(tmp_path, monkeypatch, *rungs, **options)
+
+    give(*LADDER)
+    yield give
+    error_table.forget()
+
+
+def taken(tol, box=BOX, **options):
+    return choose("washer", box, tol=tol, **options).fidelity
+
+
+def test_the_first_that_holds_is_taken_with_its_error_and_the_reasons():
+    found = [taken(tol) for tol in (0.0301, 0.0299, 0.0076, 0.0074, 6.1e-4)]
+    assert found == ["map", "field", "field", "fine", "fine"]
+    choice = choose("washer", BOX, tol=0.02, n_calls=1000)
+    assert choice.is_verified and choice.error == pytest.approx(7.5e-3)
+    assert choice.seconds == pytest.approx(0.2)
+    assert str(choice).splitlines() == [
+        "washer: field, friction_torque within 0.75 % (requested 2 %), 200 µs per call",
+        "  too coarse: map, 3 % in 2 µs",
+        "  would hold too: fine, 0.06 % in 2 ms",
+    ]
+
+
+def test_a_larger_tolerance_never_takes_a_dearer_rung(given):
+    """Errors need not fall from level to level: a map may err less than the mesh after it."""
+    given(rung("map", 6e-3), rung("field", 0.1), rung("fine", 5e-3))
+    order = ["map", "field", "fine"]
+    found = [order.index(taken(tol)) for tol in (7.6e-3, 9.1e-3, 0.05, 0.2)]
+    assert found == sorted(found, reverse=True) == [2, 0, 0, 0]
+
+
+def test_only_regions_that_the_box_touches_count(given):
+    given(rung("field", [[1e-3, 0.5], [0.5, 0.5]]), rung("fine", 1e-4))
+    light = {**BOX, "load": (30.0, 150.0), "speed": (-200.0, -100.0)}
+    assert taken(0.01, light) == "field"
+    assert taken(0.01, {**light, "speed": (-600.0, -100.0)}) == "fine"
+    assert taken(0.01, {**light, "load": (30.0, 250.0)}) == "fine"
+
+
+def test_nothing_holds_names_the_best():
+    with pytest.raises(SolveError) as refusal:
+        choose("washer", BOX, tol=1e-6)
+    assert str(refusal.value) == (
+        "washer: no fidelity level reaches 0.0001 % in friction_torque; the best is fine "
+        "with 0.06 %. Ask "
+        "for less, or name a fidelity level"
+    )
+
+
+def test_a_temperature_is_chosen_for_in_kelvin_and_safety_is_a_factor():
+    assert choose("washer", BOX, quantity="temperature", tol=0.2).error == pytest.approx(0.15)
+    assert "within 0.15 K (requested 0.2 K)" in str(
+        choose("washer", BOX, quantity="temperature", tol=0.2)
+    )
+    assert taken(0.02, safety=5.0) == "fine"
+    assert taken(0.5, among=["field", "fine"]) == "field"
+
+
+def test_beside_a_fold_its_own_error_is_told(given):
+    given(rung("field", 1e-3, beside_fold=0.02))
+    assert "within 5 % of a fold's load: 3 %" in str(choose("washer", BOX, tol=0.01))
+
+
+def test_a_stale_rung_is_passed_over_and_named(given):
+    given(rung("map", 1e-3, sources="0" * 64), rung("field", 5e-3))
+    choice = choose("washer", BOX, tol=0.01)
+    assert choice.fidelity == "field" and "not counted: map: the kernels have changed" in str(
+        choice
+    )
+
+
+def test_a_rung_whose_box_is_left_is_passed_over(given):
+    small = {**WHOLE, "load": Axis(20.0, 200.0, "N", "log")}
+    given(rung("map", 1e-3, box=small), rung("field", 5e-3))
+    assert taken(0.01) == "field"
+    assert taken(0.01, {**BOX, "load": (30.0, 200.0)}) == "map"
+
+
+# where no table speaks
+
+
+def compared(monkeypatch, differences):
+    """Let levels differ from those above by what is given; return what was asked."""
+    asked = []
+
+    def difference(self, one, above):
+        asked.append((one, above, len(self.points)))
+        return differences[one]
+
+    monkeypatch.setattr(Comparison, "difference", difference)
+    monkeypatch.setattr(home, "rungs_of", lambda *_: ["map", "field", "fine"])
+    return asked
+
+
+@pytest.mark.parametrize(
+    ("tol", "rung", "error"),
+    [(0.041, "map", 0.04), (0.021, "field", 0.02), (0.019, "fine", math.inf)],
+)
+def test_the_first_that_the_one_above_confirms_is_taken(monkeypatch, tol, rung, error):
+    asked = compared(monkeypatch, {"map": 0.02, "field": 0.01})
+    choice = choose("washer", BOX, tol=tol, params=OWN)
+    assert (choice.fidelity, choice.is_verified) == (rung, False)
+    assert choice.error == pytest.approx(error) and asked[0] == ("map", "field", 30)
+    assert "no table of errors speaks here" in choice.reasons[0]
+
+
+def test_a_single_point_is_solved_once_with_each_rung(monkeypatch):
+    point = {"load": 300.0, "speed": 545.0, "tilt": 2e-3, "oil_temperature": 300.0}
+    solved = []
+    value = Comparison._value
+    monkeypatch.setattr(
+        Comparison, "_value", lambda self, *at: solved.append(at) or value(self, *at)
+    )
+    choice = choose("washer", point, tol=0.05, params=OWN)
+    assert choice.fidelity == "field" and 0.0 < choice.error < 0.05
+    assert [rung for rung, _ in solved] == ["field", "fine"]
+    assert choose("washer", point, tol=0.05, params=OWN) == choice
+
+
+def test_a_box_that_leaves_the_table_is_compared(monkeypatch):
+    asked = compared(monkeypatch, {"map": 0.0})
+    choice = choose("washer", {**BOX, "load": (10.0, 1000.0)}, tol=0.02)
+    assert asked and not choice.is_verified
+
+
+def test_points_fill_a_box_and_are_the_same_each_time():
+    points = points_of(BOX)
+    assert len(points) == 30 and points == points_of(BOX)
+    for name, low, high in (("load", 30.0, 1000.0), ("speed", 100.0, 1000.0)):
+        values = sorted(p[name] for p in points)
+        assert (values[0], values[-1]) == (pytest.approx(low), pytest.approx(high))
+        assert max(b / a for a, b in pairwise(values)) < (high / low) ** 0.15
+    assert {p["tilt"] for p in points} == {2e-3}
+    assert points_of({"load": (3.0, 3.0)}) == [{"load": 3.0}]
+
+
+def test_rows_to_compare_hold_the_extremes_of_every_input():
+    rows = np.random.default_rng(1).random((500, 4))
+    some = rows_to_compare(rows)
+    assert 25 <= len(some) <= 30
+    assert (some.min(0) == rows.min(0)).all() and (some.max(0) == rows.max(0)).all()
+    assert len(rows_to_compare(rows[:3])) == 3
+
+
+def test_a_rung_that_differs_with_some_parameters_only_is_asked_then():
+    mesh = spec_of("gearmesh")
+    assert rungs_of(mesh, GearMeshParams()) == ["field"]
+    assert rungs_of(mesh, GearMeshParams.preset("paper")) == ["field", "fine"]
+    assert rungs_of(spec_of("washer"), WasherParams()) == ["map", "field", "fine"]
+    assert rungs_of(spec_of("washer"), OWN) == ["field", "fine"], "it has no map"
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"model": "gearbox"}, "'washer' or 'clutch' or 'gearmesh'"),
+        ({"box": {**BOX, "heat": 1.0}}, "'heat' is no input"),
+        ({"box": {"load": (1.0, 2.0)}}, "speed .* is missing"),
+        ({"box": {**BOX, "load": (5.0, 1.0)}}, "load = .* low <= high"),
+        ({"box": {**BOX, "load": "much"}}, "a number or"),
+        ({"box": {**BOX, "load": (1.0, 1e9)}}, "allowed: 0 .. 200000"),
+        ({"quantity": "noise"}, "'friction_torque' or 'temperature'|friction_torque or temp"),
+        ({"tol": 0.0}, "tol = 0.0, allowed: above 0"),
+        ({"tol": math.nan}, "tol = nan"),
+        ({"n_calls": 0}, "n_calls = 0, allowed: 1 or more"),
+        ({"safety": 0.5}, "safety = 0.5, allowed: 1 or more"),
+        ({"among": ["best"]}, "among: 'best', allowed: 'map'"),
+        ({"among": []}, "among: no fidelity level"),
+    ],
+)
+def test_what_is_wrong_is_named_with_what_is_allowed(changes, said):
+    given = {"model": "washer", "box": BOX, "tol": 0.01, **changes}
+    with pytest.raises(ParameterError, match=said):
+        thrustwasher.choose(given.pop("model"), given.pop("box"), **given)
+
+
+def test_at_a_point_the_error_is_that_which_the_solution_estimates():
+    """The fixture's tables promise 0.75 % in the box; what a finer mesh shows is far less."""
+    at = {"load": 300.0, "speed": 545.0, "tilt": 2e-3, "oil_temperature": 300.0}
+    choice = choose("washer", at, tol=0.01)
+    solved = thrustwasher.solve_washer(WasherParams(), **at, fidelity=choice.fidelity)
+    assert choice.error == solved.error_estimate and "at this point" in str(choice)
+    finest = thrustwasher.solve_washer(WasherParams(), **at, grid=(41, 128))
+    true = abs(solved.friction_torque / finest.friction_torque - 1.0)
+    assert true <= choice.error <= 20.0 * true

@@ -1,0 +1,150 @@
+"""What keeps the kernels fit for compilation ahead of time: read from their sources."""
+
+import ast
+import importlib.util
+import json
+
+import pytest
+from children import child
+from kernel_files import ROOT, kernel_files
+
+from thrustwasher.model.registry import compiled_packages
+
+FILES = kernel_files()
+ARRAY_METHODS = set("append astype copy dot fill max mean min ravel reshape sum T".split())
+FORBIDDEN = tuple(
+    getattr(ast, name)
+    for name in """Raise Try With List Dict Set ListComp DictComp SetComp GeneratorExp JoinedStr
+    Lambda Yield Global Import ImportFrom Assert MatMult""".split()
+)
+
+
+def kernels_of(path):
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.FunctionDef):
+            names = {d.id for d in node.decorator_list if isinstance(d, ast.Name)}
+            if names & {"kernel", "inlined"}:
+                yield node
+
+
+def body_nodes(function):
+    """Walk what is compiled: neither annotations nor the docstring."""
+    for statement in function.body:
+        yield from ast.walk(statement)
+
+
+def refused(function):
+    for node in body_nodes(function):
+        where = getattr(node, "lineno", 0)
+        if isinstance(node, FORBIDDEN):
+            yield where, type(node).__name__
+        elif isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+            if node.value.id == "np" and node.attr not in ("uintp", "log"):
+                yield where, f"np.{node.attr}"
+            elif node.value.id == "math" and node.attr == "gamma":
+                yield where, "math.gamma"
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            if node.func.id in ("print", "list", "dict", "set", "sorted", "sum", "open"):
+                yield where, node.func.id
+        elif isinstance(node, ast.While) and isinstance(node.test, ast.Constant):
+            yield where, "loop without an end"
+        elif isinstance(node, ast.Assign):
+            for target in node.targets:
+                if isinstance(target, ast.Subscript) and isinstance(target.slice, ast.Slice):
+                    yield where, "assignment to a slice"
+        if (
+            isinstance(node, ast.Call)
+            and isinstance(node.func, ast.Attribute)
+            and node.func.attr in ARRAY_METHODS
+        ):
+            yield where, f"method {node.func.attr}"
+
+
+def name_of(path):
+    return ".".join(path.relative_to(ROOT).with_suffix("").parts)
+
+
+# What has no kernel, but a table of a file that kernels hold.
+# Whose kernels are made of those of other models.
+MADE_OF = {
+    "thrustwasher.train.kernels": ("thrustwasher.gearmesh.kernels", "thrustwasher.losses.kernels")
+}
+READS_A_TABLE = ("thrustwasher.tribology.contact_table",)
+
+
+@pytest.mark.parametrize("path", FILES, ids=name_of)
+def test_imports_are_numbers_only(path):
+    """Numpy, numba and math, kernels of the same model, and those that all models share."""
+    package = name_of(path).rpartition(".")[0]
+    own = [home for home in compiled_packages() if package.startswith(home)]
+    own += [other for home in own for other in MADE_OF.get(home, ())]
+    shared = ("thrustwasher.numerics", *(["thrustwasher.tribology"] if own else []))
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.Import):
+            assert {a.name for a in node.names} <= {"math", "numpy", "numba"}
+        elif isinstance(node, ast.ImportFrom) and node.level:
+            found = importlib.util.resolve_name("." * node.level + (node.module or ""), package)
+            assert found.startswith((package, *own, *shared)), found
+        elif isinstance(node, ast.ImportFrom):
+            reads = ["pathlib"] if name_of(path) in READS_A_TABLE else []
+            assert node.module in ("typing", "numpy.typing", "numba", "__future__", *reads)
+
+
+@pytest.mark.parametrize("path", FILES, ids=name_of)
+def test_kernels_allocate_nothing_and_never_raise(path):
+    found = [(f.name, *hit) for f in kernels_of(path) for hit in refused(f)]
+    assert found == []
+
+
+def test_the_check_itself_sees_what_it_should():
+    bad = """
+@kernel
+def k(a: NDArray[np.float64]) -> None:
+    b = np.zeros(3)
+    a[0:3] = b
+    c = a.reshape(2, 2)
+    while True:
+        print([1])
+    raise ValueError
+"""
+    function = next(n for n in ast.walk(ast.parse(bad)) if isinstance(n, ast.FunctionDef))
+    kinds = {kind for _, kind in refused(function)}
+    assert kinds == {
+        "np.zeros",
+        "assignment to a slice",
+        "method reshape",
+        "loop without an end",
+        "print",
+        "List",
+        "Raise",
+    }
+
+
+PLAIN = """
+import json
+from thrustwasher import WasherParams, solve_washer
+from thrustwasher.tribology.flow_factors import mean_gap, flow_conductance
+from thrustwasher.tribology.viscosity import viscosity
+r = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002, grid=(5, 8), throw=False)
+b = solve_washer(WasherParams(heat_split=0.3), load=900.0, speed=136.0, tilt=0.002, grid=(5, 8),
+                 start=None, throw=False)
+m = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002, fidelity="map")
+print(json.dumps([
+    r.friction_torque, r.temperature, r.film_ratio, int(r.status), r.iterations, r.branch,
+    b.friction_torque, b.temperature, b.film_ratio, int(b.status), b.iterations, b.branch,
+    m.friction_torque, m.temperature, m.film_ratio, m.fidelity, m.branch,
+    *mean_gap(1e-6, 7e-7), *flow_conductance(1e-6, 7e-7), *viscosity(297.15, 6.31e-5, 3.545, 1.053),
+]))
+"""
+
+
+@pytest.mark.slow
+def test_kernels_run_as_plain_python():
+    """The same numbers without compilation, to the last few bits, on the smallest grid."""
+    answers = []
+    for disable in ("1", "0"):
+        done = child(PLAIN, check=True, NUMBA_DISABLE_JIT=disable)
+        answers.append(json.loads(done.stdout))
+    for plain, compiled in zip(*answers, strict=True):
+        assert plain == (compiled if isinstance(plain, str) else pytest.approx(compiled, rel=1e-8))
+    assert answers[0][3] == answers[0][9] == 0

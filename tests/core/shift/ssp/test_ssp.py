@@ -1,0 +1,170 @@
+"""A shift as an SSP package: valid, complete, and the same run under another master."""
+
+import re
+from pathlib import Path
+
+import pytest
+from scene_runs import instances as direct_instances
+from scene_runs import slow_without_jit
+from ssp_master import NS, components, connections, description, run, values
+
+from thrustwasher.errors import ParameterError
+from thrustwasher.fmu.running.direct_instance import DirectInstance
+from thrustwasher.native.files import zipped
+from thrustwasher.shift import cosimulate, load_scene
+from thrustwasher.shift.ssp.package import files
+from thrustwasher.shift.ssp.system_structure import plan, prepared, start_values
+
+SCENES = ("msl", "brake-test", "planetary-sun", "planetary", "judder")
+FIGURES = ("lock_time", "lock_speed", "clutch_heat", "brake_heat", "engine_speed")
+ENOUGH = {"msl": 2.3, "brake-test": 1.6}  # s: past lock-up
+
+
+def scene_of(name):
+    """Return a scene up to just after its lock-up."""
+    return load_scene(name).with_options(stop_time=ENOUGH.get(name))
+
+
+def planned(name, starts=None):
+    return plan(prepared(load_scene(name)), starts or {})
+
+
+def packed(system):
+    return zipped(files(system, tool="thrustwasher", date="2026-01-01T00:00:00Z"))
+
+
+def schema(name):
+    import fmpy.ssp
+    from lxml import etree
+
+    return etree.XMLSchema(file=str(Path(fmpy.ssp.__file__).parent / "schema" / name))
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("file", ["SystemStructure.ssd", "Parts.ssd"])
+def test_the_description_is_valid(name, file):
+    from lxml import etree
+
+    made = files(planned(name), tool="thrustwasher", date="2026-01-01T00:00:00Z")
+    root = etree.fromstring(made[file])
+    whole, inline = (schema(f"SystemStructure{n}.xsd") for n in ("Description", "ParameterValues"))
+    assert whole.validate(root), whole.error_log
+    sets = root.findall(".//ssv:ParameterSet", NS)
+    assert len(sets) == (len(planned(name).components) if file == "SystemStructure.ssd" else 0)
+    for found in sets:
+        alone = etree.fromstring(etree.tostring(found))
+        assert inline.validate(alone), inline.error_log
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_every_parameter_of_the_scene_stands_in_the_package(name):
+    scene = prepared(load_scene(name))
+    found = components(description(packed(planned(name))))
+    assert set(found) == {"command", *scene.parts}
+    for part, given in scene.parts.items():
+        told = values(found[part])
+        numbers = {k: v for k, v in given.parameters().items() if not isinstance(v, str)}
+        if part == "transmission":
+            numbers["torque_age"] = 0
+        assert {k: told[k] for k in numbers} == numbers
+        assert {s.name for s in given.spec.inputs} <= set(told)
+        if part != "transmission":
+            assert told["oil_temperature"] == scene.oil_temperature
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_defaults_are_for_late_values_and_those_written_for_fresh_ones(name):
+    system = planned(name)
+    found = components(description(packed(system)))
+    defaults = {p.name: p.parameters for p in system.components}
+    assert defaults["command"]["lead"] == system.scene.step
+    assert defaults["transmission"]["torque_age"] == 1
+    assert values(found["command"])["lead"] == values(found["transmission"])["torque_age"] == 0
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("file", ["SystemStructure.ssd", "Parts.ssd"])
+def test_connections_join_connectors_of_one_kind_and_unit(name, file):
+    root = description(packed(planned(name)), file)
+    system = root.find("ssd:System", NS)
+    places = {None: system, **components(root)}
+    found = {
+        (part, c.get("name")): (c.get("kind"), c[0].tag, c[0].get("unit"))
+        for part, element in places.items()
+        for c in element.findall("ssd:Connectors/ssd:Connector", NS)
+    }
+    fed = set()
+    for source, output, target, into in connections(root):
+        a, b = found[source, output], found[target, into]
+        assert a[1:] == b[1:] and a[0] == "output"
+        assert b[0] == ("input" if target else "output")
+        fed.add((target, into))
+    inputs = {key for key, (kind, *_) in found.items() if kind == "input"}
+    assert inputs <= fed and not any(name == "oil_temperature" for _, name in found)
+    units = {u.get("name") for u in root.findall("ssd:Units/ssc:Unit", NS)}
+    assert {unit for *_, unit in found.values() if unit} <= units
+    assert all(p.get("unit") in units for p in root.iter(f"{{{NS['ssv']}}}Real"))
+    # OMSimulator takes "part.connector" apart by its first word and stops at an enumeration.
+    border = {c.get("name") for c in system.findall("ssd:Connectors/ssd:Connector", NS)}
+    assert not border & set(places) and (border or file == "Parts.ssd")
+    assert not [e.tag for e in root.iter() if "Enumeration" in e.tag]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_defaults_of_the_parts_are_the_scenes(name):
+    """A master that ignores the values in the package runs the same scene."""
+    for part in planned(name).components:
+        with DirectInstance(part.spec) as plain:
+            given = DirectInstance(part.spec, parameters=part.parameters)
+            assert plain.get(list(part.parameters)) == given.get(list(part.parameters))
+            assert {s.name: s.start for s in part.spec.inputs} == part.starts
+
+
+def test_the_page_names_parts_step_and_delay():
+    page = files(planned("planetary-sun"), tool="thrustwasher 9", date="2026-01-01T00:00:00Z")
+    text = page["documentation/index.html"].decode()
+    for word in ("0.001 s", "torque_age", "WetClutch", "washer_temperature_max", "Parts.ssd"):
+        assert word in text
+    assert "http" not in text and "<script" not in text
+
+
+def test_the_package_has_the_same_bytes_for_the_same_scene_and_a_sequence_has_none():
+    assert packed(planned("msl")) == packed(planned("msl"))
+    with pytest.raises(ParameterError, match="one shift"):
+        planned("duty-cycle")
+
+
+@slow_without_jit
+@pytest.mark.parametrize("name", [pytest.param("msl", marks=pytest.mark.slow), "brake-test"])
+@pytest.mark.slow
+def test_a_master_that_passes_values_on_until_they_agree_runs_the_shift_of_this_package(name):
+    """As OMSimulator's fixed-step master: it takes the values in the package over, then reads every
+    output after it has set the inputs it depends on."""
+    scene = scene_of(name)
+    system = plan(prepared(scene), start_values(prepared(scene), direct_instances(scene)))
+    root = description(packed(system))
+    parts = {}
+    for p in system.components:
+        given = {k: v for k, v in values(components(root)[p.name]).items() if k in p.parameters}
+        parts[p.name] = DirectInstance(p.spec, parameters=given)
+    row = run(root, parts)
+    own = cosimulate(scene, direct_instances(scene)).signals
+    for figure in FIGURES:
+        key = f"transmission.{figure}"
+        assert row[key] == pytest.approx(own[key][-1], rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", ["mein gang", "Gang-ä", "a&b", "shift.v2", "1st", "変速"])
+def test_the_system_has_a_name_that_masters_take_and_the_title_keeps_the_words(name, tmp_path):
+    path = tmp_path / f"{name}.toml"
+    path.write_text('base = "msl"\ntitle = "My words"\n', "utf-8")
+    made = files(
+        plan(prepared(load_scene(path)), {}), tool="thrustwasher", date="2026-01-01T00:00Z"
+    )
+    from lxml import etree
+
+    for file in ("SystemStructure.ssd", "Parts.ssd"):
+        root = etree.fromstring(made[file])
+        assert re.fullmatch("[A-Za-z][A-Za-z0-9_]*", root.get("name"))
+        assert root.find("ssd:System", NS).get("name") == root.get("name")
+        assert root.get("description") == f"{name}: My words"

@@ -1,0 +1,60 @@
+"""Names of earlier versions work for one version, with a warning that names the new one."""
+
+import pickle
+
+import pytest
+
+import thrustwasher
+from thrustwasher import ClutchParams, ParameterError, load_part
+from thrustwasher.fmu.description.interface import interface
+from thrustwasher.model.registry import find_spec
+from thrustwasher.washer import follow
+
+NOW = "input_course is now input_profile"
+
+
+@pytest.mark.parametrize(
+    ("module", "old", "new"),
+    [
+        (thrustwasher, "WasherCourse", "WasherHistory"),
+        (follow, "WasherCourse", "WasherHistory"),
+        (follow, "CourseError", "HistoryError"),
+    ],
+)
+def test_a_class_by_its_former_name_is_the_same(module, old, new):
+    with pytest.warns(DeprecationWarning, match=f"{old} is now .*{new}"):
+        assert getattr(module, old) is getattr(module, new)
+    assert old not in dir(thrustwasher)
+
+
+def test_what_is_no_name_stays_an_attribute_error():
+    for module in (thrustwasher, follow):
+        with pytest.raises(AttributeError, match="WasherCurse"):
+            module.WasherCurse  # noqa: B018
+
+
+def test_the_part_before_a_failure_by_its_former_name():
+    problem = follow.HistoryError("text", "history")
+    with pytest.warns(DeprecationWarning, match=r"HistoryError\.history"):
+        assert problem.course == problem.history == "history"
+
+
+def test_a_parameter_by_its_former_name():
+    with pytest.warns(FutureWarning, match=NOW):
+        params = ClutchParams(input_course="linear")
+    assert params == ClutchParams(input_profile="linear")
+    assert params.input_course == "linear" and pickle.loads(pickle.dumps(params)) == params
+    with pytest.raises(ParameterError, match="one of the two"):
+        ClutchParams(input_course="held", input_profile="linear")
+
+
+def test_a_part_file_with_a_former_name(tmp_path):
+    path = tmp_path / "pack.toml"
+    path.write_text('model = "clutch"\nname = "Pack"\n[parameters]\ninput_course = "linear"\n')
+    with pytest.warns(FutureWarning, match=rf"pack\.toml.* {NOW}"):
+        assert load_part(path).params.input_profile == "linear"
+
+
+def test_the_fmu_has_the_new_name_alone():
+    names = [v.name for v in interface(find_spec("clutch")).variables]
+    assert "input_profile" in names and "input_course" not in names

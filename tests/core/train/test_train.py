@@ -1,0 +1,171 @@
+"""A gear train at a point: books that close, limits, chains of stages, coasting, self-locking."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from trains import SPUR, alike, no_losses_of_shafts
+
+from thrustwasher import ParameterError, SolveError, solve_gearmesh
+from thrustwasher.losses.kernels.loss_laws import bearing_drag, seal_drag, starved
+from thrustwasher.train.parameters import TrainParams, pair_of
+from thrustwasher.train.solve import solve_train
+
+SOURCES = ("mesh_loss", "bearing_loss", "seal_loss", "churning_loss")
+QUADRANTS = [(a * 120.0, b * 400.0) for a in (1, -1) for b in (1, -1)]
+
+
+@pytest.mark.parametrize("meshes", [1, 2, 3])
+@pytest.mark.parametrize(("torque", "speed"), [*QUADRANTS, (0.0, 300.0), (0.4, 300.0), (90.0, 0.0)])
+def test_power_in_is_power_out_and_losses(meshes, torque, speed):
+    r = solve_train(TrainParams(meshes=meshes), torque=torque, speed=speed)
+    power, out = torque * speed, r.output_torque * r.output_speed
+    most = max(abs(power), r.loss, 1e-9)
+    assert abs(power - out - sum(getattr(r, n) for n in SOURCES)) < 1e-14 * most
+    assert r.loss == pytest.approx(r.loss_torque * speed, rel=1e-11, abs=1e-12)
+    parts = sum(getattr(r, f"mesh_{i}_loss") for i in range(1, meshes + 1))
+    bearings = [f"shaft_{i}_bearing_{k}_loss" for i in range(1, meshes + 2) for k in (1, 2)]
+    assert parts == pytest.approx(r.mesh_loss, rel=1e-14)
+    assert sum(getattr(r, n) for n in bearings) == pytest.approx(r.bearing_loss, rel=1e-14)
+    assert min(getattr(r, n) for n in SOURCES) >= 0.0
+
+
+def test_coasting_loses_as_much_as_driving_at_the_same_load():
+    """Efficiency is what comes out over what goes in, whichever shaft drives."""
+    drive, coast = (solve_train(TrainParams(), torque=t, speed=400.0) for t in (120.0, -120.0))
+    assert drive.flow == "input to output" and coast.flow == "output to input"
+    assert drive.efficiency == drive.output_torque * drive.output_speed / (120.0 * 400.0)
+    assert coast.efficiency == 120.0 * 400.0 / -(coast.output_torque * coast.output_speed)
+    assert coast.loss == pytest.approx(drive.loss, rel=0.05)
+    both = solve_train(TrainParams(), torque=0.2, speed=400.0)
+    assert math.isnan(both.efficiency) and both.flow == "both shafts feed in"
+    rest = solve_train(TrainParams(), torque=50.0, speed=0.0)
+    assert math.isnan(rest.efficiency) and rest.flow == "at rest"
+
+
+def test_turned_both_ways_round_the_teeth_lose_the_same():
+    one, other = (solve_train(TrainParams(), torque=t, speed=4 * t) for t in (100.0, -100.0))
+    assert one.efficiency == pytest.approx(other.efficiency, abs=1e-3)  # by other bearing loads
+    assert one.mesh_loss == pytest.approx(other.mesh_loss, rel=1e-3)
+
+
+@pytest.mark.slow
+def test_the_loss_passes_through_no_torque_smoothly():
+    """Bounded slope: what teeth and bearings rub per torque; no jump at the change of flank."""
+    torques = np.linspace(-1.0, 1.0, 401)
+    loss = np.array([solve_train(TrainParams(), torque=t, speed=400.0).loss for t in torques])
+    slopes = np.diff(loss) / np.diff(torques)
+    assert abs(slopes).max() < 0.05 * 400.0
+    small = np.linspace(-1e-6, 1e-6, 3)
+    tiny = [solve_train(TrainParams(), torque=t, speed=400.0).loss for t in small]
+    assert tiny[0] == pytest.approx(tiny[2], rel=1e-6)
+
+
+def test_a_ratio_of_one_turns_torque_round():
+    pair = {**SPUR, "gear_ratio": 1.0, "pinion_teeth": 30}
+    frictionless = alike(1, **pair, friction_law="constant", constant_friction=0.0)
+    r = solve_train(no_losses_of_shafts(meshes=1, **frictionless), torque=80.0, speed=150.0)
+    assert (r.output_torque, r.output_speed) == (-80.0, -150.0)
+    assert r.efficiency == 1.0 and r.loss == 0.0
+
+
+def test_two_equal_stages_are_one_run_twice():
+    twice = no_losses_of_shafts(meshes=2, **alike(1, **SPUR), **alike(2, **SPUR))
+    once = no_losses_of_shafts(meshes=1, **alike(1, **SPUR))
+    both = solve_train(twice, torque=100.0, speed=300.0)
+    first = solve_train(once, torque=100.0, speed=300.0)
+    second = solve_train(once, torque=first.output_torque, speed=first.output_speed)
+    assert both.mesh_1_loss == first.loss
+    assert both.mesh_2_loss == pytest.approx(second.loss, rel=1e-13)
+    assert both.output_torque == pytest.approx(second.output_torque, rel=1e-13)
+    assert both.efficiency == pytest.approx(first.efficiency * second.efficiency, rel=1e-13)
+
+
+@pytest.mark.parametrize("mesh", [0, 1])
+def test_a_mesh_loses_what_its_own_model_says(mesh):
+    p = TrainParams()
+    r = solve_train(p, torque=120.0, speed=400.0)
+    pair, speed = pair_of(p, mesh), 400.0 / (1.0, 3.0)[mesh]
+    radius = 0.5 * pair.pinion_teeth * pair.normal_module / math.cos(pair.helix_angle)
+    torque = getattr(r, f"mesh_{mesh + 1}_tangential_force") * radius
+    own = solve_gearmesh(
+        replace(pair, thermal_mode="quasi_steady"),
+        power=torque * speed,
+        speed=speed,
+        oil_temperature=353.15,
+    )
+    assert getattr(r, f"mesh_{mesh + 1}_loss") == pytest.approx(own.friction_power, rel=1e-9)
+    for name in ("pitting", "root", "scuffing"):
+        found = getattr(r, f"mesh_{mesh + 1}_{name}_safety")
+        assert found == pytest.approx(getattr(own, f"{name}_safety"), rel=1e-9)
+    assert r.pitting_safety == min(r.mesh_1_pitting_safety, r.mesh_2_pitting_safety)
+
+
+def test_a_gear_that_drives_is_a_pinion_driven_backwards():
+    """The same pair seen from its other shaft: same losses, torques and speeds change places."""
+    same = {f"shaft_{i}_bearing_{k}_position": 0.1 * (k - 1) for i in (1, 2) for k in (1, 2)}
+    pair = {**alike(1, **SPUR), "meshes": 1, **same}
+    there = solve_train(no_losses_of_shafts(**pair), torque=100.0, speed=300.0)
+    back = solve_train(
+        no_losses_of_shafts(**pair, mesh_1_driver="gear"),
+        torque=-there.output_torque,
+        speed=there.output_speed,
+    )
+    assert back.output_speed == pytest.approx(300.0, rel=1e-14)
+    assert back.mesh_loss == pytest.approx(there.mesh_loss, rel=2e-2)  # friction of the other side
+    assert back.output_torque == pytest.approx(-100.0, rel=1e-3)
+    assert back.flow == "output to input"
+
+
+def test_bearings_and_seals_lose_what_the_laws_of_losses_say():
+    p = TrainParams()
+    r = solve_train(p, torque=120.0, speed=400.0, oil_temperature=333.15)
+    mu = p.viscosity_scale * math.exp(p.viscosity_b / (60.0 + p.viscosity_c))
+    nu = mu / p.oil_density
+    w = math.hypot(400.0, p.speed_smoothing)
+    starving = starved(p.starvation_constant, 3.1, 0.06, p.shaft_1_bearing_1_section)
+    drag, _, _ = bearing_drag(w, nu, r.shaft_1_bearing_1_load, 0.06, 2.0, 4e-4, starving)
+    assert r.shaft_1_bearing_1_loss == pytest.approx(drag * 400.0, rel=1e-9)
+    nu_40 = p.viscosity_scale * math.exp(p.viscosity_b / (40.0 + p.viscosity_c)) / p.oil_density
+    one, _ = seal_drag(333.15, nu_40, 0.035)
+    two, _ = seal_drag(333.15, nu_40, 0.045)
+    slow = 400.0 / (p.mesh_1_gear_ratio * p.mesh_2_gear_ratio)
+    assert r.seal_loss == pytest.approx(one * 400.0 + 2.0 * two * slow, rel=1e-9)
+
+
+RUBBING = {
+    f"shaft_1_bearing_{k}_{name}": value
+    for k in (1, 2)
+    for name, value in {"diameter": 1.5, "load_factor": 0.02, "viscous_factor": 0.0}.items()
+}
+
+
+def test_a_train_that_locks_itself_says_so():
+    """Bearings of 1.5 m rub with 1.2 times what turns the pinion: the output cannot drive."""
+    forth = solve_train(TrainParams(**RUBBING), torque=100.0, speed=50.0)
+    assert forth.flow == "input to output" and 0.3 < forth.efficiency < 0.6
+    with pytest.raises(SolveError, match="self-locking"):
+        solve_train(TrainParams(**RUBBING), torque=-100.0, speed=50.0)
+    back = solve_train(TrainParams(**RUBBING), torque=-100.0, speed=50.0, throw=False)
+    assert back.flow == "self-locking" and math.isnan(back.efficiency)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"shaft_2_bearing_2_position": 0.0}, "shaft_2_bearing_2_position = 0.0, allowed: apart"),
+        ({"meshes": 4}, "meshes = 4, allowed: 1 .. 3"),
+        ({"mesh_2_pinion_teeth": 5}, "mesh 2: pinion_teeth = 5, allowed: "),
+        ({"shaft_1_bearing_1_type": "plain"}, "allowed: 'ball'"),
+    ],
+)
+def test_what_is_wrong_is_named(changes, words):
+    with pytest.raises(ParameterError, match=words):
+        TrainParams(**changes)
+
+
+def test_what_is_not_there_has_no_value():
+    r = solve_train(TrainParams(meshes=1, mesh_1_root_limit=0.0), torque=50.0, speed=100.0)
+    assert r.mesh_2_loss is r.shaft_3_bearing_1_life is r.root_safety is None
+    assert r.mesh_1_loss > 0.0 and r.shaft_2_bearing_2_life > 0.0

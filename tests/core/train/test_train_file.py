@@ -1,0 +1,182 @@
+"""A scene ``[train]``: names, defaults, a chain of meshes, what is refused; what parts can do."""
+
+import json
+import math
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+from thrustwasher import ParameterError, load_part, load_scene, optimise, propagate, run_shift
+from thrustwasher.cli import main
+from thrustwasher.model.part_file import find_part, part_text, preset_part
+from thrustwasher.train.parameters import SPEC, TrainParams
+from thrustwasher.train.solve import solve_train
+from thrustwasher.train.train_file import load_train
+from thrustwasher.train.train_map import train_map
+
+SCENE = Path(__file__).parents[3] / "examples" / "ev-reducer.toml"
+TEXT = SCENE.read_text("utf-8")
+
+
+def written(folder, text):
+    path = folder / "mine.toml"
+    path.write_text(text, "utf-8")
+    return path
+
+
+def test_the_example_is_the_built_in_one_and_what_a_train_is_by_default():
+    mine, built_in = load_part(SCENE), preset_part(SPEC, "ev-reducer")
+    assert mine == built_in and mine.name == "EvReducer"
+    plain, oily = TrainParams(), ("oil_density", "viscosity_scale", "viscosity_b", "viscosity_c")
+    used = [f.name for f in fields(plain) if not f.name.startswith(("mesh_3", "shaft_4"))]
+    other = {n for n in used if getattr(mine.params, n) != getattr(plain, n)}
+    assert other == {*oily}  # rounded by default
+    for name in oily:
+        assert getattr(mine.params, name) == pytest.approx(getattr(plain, name), rel=1e-3)
+
+
+def test_as_a_part_file_it_gives_the_same_numbers(tmp_path):
+    mine = load_part(SCENE)
+    again = load_part(written(tmp_path, part_text(mine)))
+    assert again.params == mine.params and again.box == mine.box
+
+
+def test_shafts_are_a_chain_from_the_input_whatever_their_order(tmp_path):
+    turned = TEXT.replace("[train]\n", '[train]\ninput = "differential"\n')
+    found = load_train(written(tmp_path, turned))
+    assert found.shafts == ("differential", "middle", "rotor")
+    assert found.meshes == ("second", "first")
+    p = found.part.params
+    assert (p.mesh_1_driver, p.mesh_1_pinion_teeth, p.shaft_3_seals) == ("gear", 21, 1)
+    r = solve_train(p, torque=-1000.0, speed=50.0)
+    assert r.output_speed == pytest.approx(50.0 * 64 / 21 * 3.0) and r.flow == "output to input"
+
+
+def test_a_mesh_takes_a_preset_or_a_part_and_what_stands_beside(tmp_path):
+    lines = '[parameters]\nnormal_module = "2.5 mm"\npinion_teeth = 23\nface_width = "30 mm"\n'
+    (tmp_path / "pair.toml").write_text(f'model = "gearmesh"\nname = "Pair"\n{lines}')
+    own = TEXT.replace("pinion_teeth = 25\n", 'part = "pair.toml"\n').replace(
+        'normal_module = "2 mm"\n', ""
+    )
+    p = load_part(written(tmp_path, own)).params
+    assert (p.mesh_1_pinion_teeth, p.mesh_1_normal_module) == (23, 2.5e-3)
+    assert p.mesh_1_face_width == 0.032  # stands next to
+    planet = TEXT.replace("pinion_teeth = 25\n", 'preset = "planet"\n')
+    assert load_part(written(tmp_path, planet)).params.mesh_1_pinion_teeth == 18
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('gear = "middle"', 'gear = "midle"', "gear = 'midle', allowed: 'rotor' or 'middle'"),
+        ('gear = "differential"', 'gear = "rotor"', "a chain of meshes, without branches"),
+        ('gear = "middle"', 'gear = "rotor"', "pinion and gear are on the same shaft"),
+        ("[train.meshes.second]", "[train.meshes.rotor]", "'rotor' is a shaft and a mesh"),
+        ('hand = "right"', 'hand = "up"', "allowed: 'right' or 'left'"),
+        ('position = "85 mm"\n', "", "'position' or 'pinion_position' is missing"),
+        ("pinion_teeth = 25", "pinion_tooth = 25", "did you mean 'pinion_teeth'"),
+        ('type = "ball", position = "0 mm"', 'position = "0 mm"', "'type' is missing"),
+        ('position = "90 mm"', 'position = "0 mm"', "allowed: apart from"),
+        ("pinion_teeth = 21", "pinion_teeth = 5", "mesh 2: pinion_teeth = 5"),
+        ("[train]\n", "[train]\noil_volum = 3\n", "did you mean 'oil_volume'"),
+    ],
+)
+def test_what_is_wrong_is_named(old, new, words, tmp_path):
+    assert old in TEXT
+    with pytest.raises(ParameterError, match=words):
+        load_part(written(tmp_path, TEXT.replace(old, new, 1)))
+
+
+def test_three_bearings_are_refused(tmp_path):
+    line = next(x for x in TEXT.splitlines() if x.startswith("  { type"))
+    with pytest.raises(ParameterError, match="exactly two"):
+        load_part(written(tmp_path, TEXT.replace(line, f"{line}\n{line}", 1)))
+
+
+def test_a_map_has_the_names_of_the_scene():
+    found = train_map(load_train(SCENE), [-50.0, 50.0], [-300.0, 300.0], [313.15, 353.15])
+    c = found.columns
+    assert found.balance < 1e-14 and len(c["torque"]) == 8
+    assert c["mesh_loss"] == pytest.approx(c["first.loss"] + c["second.loss"], rel=1e-14)
+    assert c["bearing_life"] == pytest.approx(
+        [min(c[n][i] for n in c if n.endswith("_life") and "." in n) for i in range(8)]
+    )
+    assert found.flow[:4] == (
+        "input to output",
+        "output to input",
+        "output to input",
+        "input to output",
+    )
+    assert [text for lines in found.doubts for text in lines if text.startswith("first: load")]
+
+
+def test_the_command_draws_writes_and_tells(tmp_path, capsys):
+    out, plot = tmp_path / "map.csv", tmp_path / "map.png"
+    over = ["--over", "torque=-100:100:100", "--over", "speed=-300,0,300"]
+    over += ["--over", "oil_temperature=40degC,80degC"]
+    assert main(["efficiency", str(SCENE), *over, "--out", str(out), "--plot", str(plot)]) == 0
+    said = capsys.readouterr().out
+    for words in ("tooth friction of all meshes", "minimum bearing_life", ": rotor.bearing_1, at"):
+        assert words in said
+    assert out.read_text().splitlines()[0].startswith("torque [N.m],speed [rad/s],oil_temperature")
+    assert plot.stat().st_size > 10_000
+    assert main(["efficiency", "ev-reducer", *over[:4], "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert len(told["points"]) == 9 and told["balance"] < 1e-14
+    assert told["points"][0]["flow"] == "input to output"
+    assert main(["efficiency", "ev-reducer", "--gear", "first"]) == 2
+    assert "a gear train has one gear" in capsys.readouterr().err
+
+
+def test_a_train_that_locks_itself_has_a_word_in_the_map(tmp_path):
+    wide = TEXT.replace(
+        'diameter = "60 mm", section = 0.67', 'diameter = "1.5 m", f1 = 0.02, section = 0.67'
+    )
+    found = train_map(load_train(written(tmp_path, wide)), [-100.0], [50.0])
+    assert found.flow == ("self-locking",) and math.isnan(found.columns["efficiency"][0])
+    assert found.doubts[0][0].startswith("self-locking")
+
+
+@pytest.mark.slow
+def test_it_scatters_and_is_optimised_as_any_part():
+    found = propagate(str(SCENE), at={"torque": 150.0, "speed": 500.0}, runs=32, seed=1)
+    drawn = found.sample["efficiency"]
+    assert 0.98 < min(drawn) < max(drawn) < 0.99
+    best = optimise(
+        str(SCENE),
+        vary={"mesh_1_helix_angle": "15 deg:25 deg"},
+        minimise="loss",
+        limits=["mesh_1_pitting_safety>=1.2"],
+        at={"torque": 150.0, "speed": 500.0},
+    )
+    assert best.best.figures["loss"] < best.start["loss"]
+
+
+@pytest.mark.parametrize("load", [load_scene, run_shift])
+@pytest.mark.parametrize("named", ["ev-reducer", str(SCENE), "flat"])
+def test_a_shift_of_it_is_refused_with_the_commands_that_take_it(tmp_path, load, named):
+    if named == "flat":
+        named = str(written(tmp_path, 'model = "train"\nname = "Mine"\n'))
+    words = (
+        rf"scene = '{named}': is a gear train, without a shift: `thrustwasher efficiency {named}`"
+    )
+    with pytest.raises(ParameterError, match=words) as told:
+        load(named)
+    assert "\n" not in str(told.value) and "explore, sweep, scatter, optimise" in str(told.value)
+
+
+@pytest.mark.slow
+def test_the_built_in_one_goes_by_its_name_alone():
+    by_name = propagate("ev-reducer", at={"torque": 150.0, "speed": 500.0}, runs=8, seed=1)
+    by_file = propagate(str(SCENE), at={"torque": 150.0, "speed": 500.0}, runs=8, seed=1)
+    assert list(by_name.sample["loss"]) == list(by_file.sample["loss"])
+    assert find_part("ev-reducer") == preset_part(SPEC, "ev-reducer")
+
+
+def test_the_command_solves_a_point(capsys):
+    assert main(["train", "--torque", "150", "--speed", "500", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["efficiency"] == pytest.approx(0.98393, abs=1e-4)
+    assert told["mesh_3_loss"] is None and told["flow"] == "input to output"
+    assert find_part("train").params == TrainParams()

@@ -1,0 +1,164 @@
+"""A whole shift run by the page's scripts: the numbers of Python's loop, errors with names."""
+
+import base64
+import hashlib
+import json
+import re
+
+import numpy as np
+import pytest
+from pages import node
+from scene_pages import html, nominal, page_runs, python_figures, scene_file, told
+
+from thrustwasher import cli
+from thrustwasher.errors import ParameterError
+from thrustwasher.shift import load_scene
+from thrustwasher.studio.explore.scene_data import checked, started
+from thrustwasher.studio.explore.scene_page import scene_page
+
+SAME = 1e-9
+LARGEST = 2_500_000  # bytes of a page
+KISS = {"clutch_pressure": [[0.1, 0.0], [0.11, 6e4], [0.2, 6e4], [0.4, 3.2e5], [0.935, 7.2e5]]}
+
+
+def drawn_profiles(n):
+    """Return profiles of the default scene with all points moved, the same each time."""
+    rng, found = np.random.default_rng(5), []
+    for _ in range(n):
+        profiles = {}
+        for name, known in told("planetary")["profiles"].items():
+            t, x = np.array(known["points"]).T
+            t = t + np.r_[rng.uniform(0.0, 0.4, len(t) - 1) * np.diff(t), 0.0]
+            x = x * rng.uniform(0.9, 1.1, len(x))
+            profiles[name] = np.column_stack((t, x)).tolist()
+        found.append(profiles)
+    return found
+
+
+def assert_same(found, wanted, rel=SAME):
+    for name, value in wanted.items():
+        if value is None:
+            assert found.get(name) is None, name
+        else:
+            assert found[name] == pytest.approx(value, rel=rel, abs=1e-9), name
+
+
+@pytest.mark.slow
+@node
+def test_profiles_give_the_figures_of_pythons_loop(tmp_path):
+    every = drawn_profiles(3)
+    found = page_runs("planetary", [{"profiles": p, "washers": "map"} for p in every])
+    for profiles, one in zip(every, found, strict=True):
+        path = scene_file(tmp_path, "planetary", profiles)
+        assert_same(one["figures"], python_figures(path, ["washer=map"]))
+
+
+@node
+@pytest.mark.parametrize("name", ["planetary-downshift", "msl", "brake-test", "planetary-shuffle"])
+@pytest.mark.slow
+def test_built_in_scenes_give_the_figures_of_their_own_run(name):
+    (found,) = page_runs(name, [{"washers": ""}])
+    assert_same(found["figures"], started(nominal(name)))
+
+
+@node
+@pytest.mark.slow
+def test_recorded_washers_give_the_run_they_are_from():
+    (found,) = page_runs("planetary", [{"washers": "recorded"}])
+    assert_same(found["figures"], started(nominal("planetary")))
+
+
+@node
+@pytest.mark.slow
+def test_a_run_knows_nothing_of_those_before():
+    runs = [{"washers": "map"}, {"washers": "map", "profiles": KISS}, {"washers": "map", "draw": 3}]
+    first, _, _, again = page_runs("planetary", [*runs, {"washers": "map"}])
+    assert again == first
+
+
+@node
+def test_what_fails_names_part_time_and_reason():
+    backwards = {"clutch_pressure": [[0.2, 0.0], [0.1, 1e5]]}
+    beyond = {"engine_torque": [[0.0, 1e5]]}
+    order, speed = page_runs(
+        "planetary",
+        [{"washers": "map", "profiles": p} for p in (backwards, beyond)],
+    )
+    assert order["problem"].startswith("transmission: clutch_pressure")
+    assert re.match(r"\w+ at t = [\d.]+ s: ", speed["problem"])
+
+
+@pytest.mark.parametrize("name", ["planetary", "msl"])
+def test_a_page_is_small_and_takes_nothing_from_outside(name):
+    text = html(name)
+    assert len(text.encode()) <= LARGEST
+    policy = re.search(r'Content-Security-Policy" content="([^"]+)"', text)[1].replace("&#39;", "'")
+    assert policy.startswith("default-src 'none';") and "http" not in policy
+    for tag in ("script", "style"):
+        found = re.search(rf"(?s)<{tag}>(.*?)</{tag}>", text)
+        digest = base64.b64encode(hashlib.sha256(found[1].encode()).digest()).decode()
+        assert f"'sha256-{digest}'" in policy
+
+
+def test_the_page_has_the_figures_of_the_start_in_full():
+    text = html("planetary")
+    for name, value in started(nominal("planetary")).items():
+        assert f'<data id="{name}" value="{value!r}">' in text
+
+
+def test_profiles_are_those_of_the_file_and_its_factor_stands_beside_them(tmp_path):
+    path = tmp_path / "more.toml"
+    path.write_text('base = "planetary"\n[pressure.clutch]\nscale = 1.1\n', "utf-8")
+    scene = load_scene(str(path))
+    known = told("planetary")["profiles"]["clutch_pressure"]
+    from thrustwasher.studio.explore.scene_data import _profiles
+
+    own = _profiles(scene)["clutch_pressure"]
+    assert own["points"] == [tuple(p) for p in known["points"]] and own["factor"] == 1.1
+
+
+def test_a_scene_of_several_shifts_has_no_page():
+    with pytest.raises(ParameterError, match=r"duty-cycle': it has a \[sequence\]"):
+        scene_page(load_scene("duty-cycle"))
+
+
+def test_a_master_that_changes_inputs_has_no_page():
+    with pytest.raises(ParameterError, match=r"allowed in a page: 'gauss-seidel' or 'jacobi'"):
+        checked(load_scene("planetary").with_options(master="linearly-implicit"))
+
+
+@pytest.mark.slow
+def test_the_command_takes_scenes_models_and_files(tmp_path, capsys):
+    scene = scene_file(tmp_path, "msl", {})
+    part = tmp_path / "part.toml"
+    part.write_text('model = "clutch"\nname = "Mine"\n', "utf-8")
+    for target, title in (("msl", "Modelica Standard"), (str(scene), ""), (str(part), "Mine")):
+        out = tmp_path / "page.html"
+        assert cli.main(["explore", target, "--out", str(out)]) == 0
+        assert title in out.read_text("utf-8")
+        out.unlink()
+    assert capsys.readouterr().out.count("open it in a browser") == 3
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        (["planetry"], "did you mean 'planetary'?"),
+        (["nowhere.toml"], "cannot be read (No such file or directory)"),
+        (["msl", "--preset", "paper"], "--preset"),
+        (["msl", "--out", "page.txt"], "--out page.txt"),
+        (["duty-cycle"], "it has a [sequence]"),
+    ],
+)
+def test_wrong_targets_and_options_are_told_in_one_line(given, words, capsys):
+    assert cli.main(["explore", *given]) != 0
+    said = capsys.readouterr().err
+    assert words in said and "Traceback" not in said
+
+
+def test_draws_follow_the_profiles_and_change_the_parts():
+    rows, known = told("planetary")["scatter"]["rows"], told("planetary")["profiles"]
+    factors = [row["profiles"]["clutch_pressure"]["factor"] for row in rows]
+    assert min(factors) < 1.0 < max(factors) and len(known) == 3
+    assert all("clutch" in row["parts"] for row in rows)
+    assert json.dumps(rows)

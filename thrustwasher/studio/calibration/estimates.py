@@ -1,0 +1,270 @@
+"""A calibration as it comes out: numbers, sentences, plain data."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...model.registry import find_model
+from ...model.solutions import words_at_points
+from ...numerics.jit import Array
+from ...shown import Card, Line, Tabled, Words
+from ...storage.digests import finite
+from ...units import display_unit
+from .identifiability import Information, counted
+from .measured import Measured, output_units
+
+NARROW = 1e-8  # relative width below which the ends of an interval would need too many digits
+CURVED = 0.2  # of the width: ends of the two intervals further apart are worth a word
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """One fitted number with its uncertainty, SI units."""
+
+    name: str
+    unit: str
+    value: float
+    standard_error: float  # infinite where the points do not tell it
+    interval: tuple[float, float]
+    """Linearised, within the allowed range; that whole range if not identifiable."""
+    profile_interval: tuple[float, float] | None
+    """From the rise of the sum of squares, the other constants refitted; None if not computed."""
+    identifiable: bool
+    at_bound: str  # "lower", "upper" or "" (inside the allowed range)
+    reason: str
+    """Why it is not identifiable, or what stops it at a bound; "" if there is nothing to say."""
+
+
+class Series(NamedTuple):
+    """Measured and computed values of one output, to be drawn."""
+
+    name: str
+    unit: str
+    inputs: Mapping[str, tuple[str, Array]]  # unit and values
+    measured: Array
+    error: Array | None
+    computed: Array
+    half: Array  # half width of the confidence band; infinite where the points do not tell it
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Calibration(Tabled):
+    """Parameters fitted to measurements; ``str()`` of it is a summary in sentences."""
+
+    params: Any  # the part with the fitted values, to solve and for FMUs
+    points: Measured
+    fitted: Array  # (n,) computed outputs, in the order of ``points.value``
+    estimates: tuple[Estimate, ...]  # in the order of ``fit``
+    derived: tuple[Estimate, ...] = ()  # follow from the constants; often told where they are not
+    correlation: Array  # (constants, constants); NaN where a constant is not told
+    confounded: tuple[str, ...]
+    """Combinations of constants that the points cannot tell apart, a sentence each."""
+    singular_values: tuple[float, ...]
+    """Of the scaled derivatives over the scatter, falling; 0: nothing is known of a direction."""
+    residuals: Array  # (n,) measured less fitted value [SI unit of its output]
+    rms: float
+    """Of the residuals [SI]; it has a unit where one output is fitted, ``rms_of`` tells each."""
+    degrees_of_freedom: int
+    reduced_chi_square: float | None  # None without given errors
+    confidence: float
+    warnings: tuple[str, ...] = ()
+    """Sentences on points that the fit cannot follow, the gravest first; empty for a sound fit."""
+    _problem: Any = field(repr=False)  # the ModelProblem, which knows what is drawn and said
+    _best: Array = field(repr=False)
+    _learned: Information = field(repr=False)
+
+    @property
+    def taken(self) -> str:
+        """The inputs that the points do not have, and where their values come from."""
+        return str(self.points.plan.taken) if self._problem.by_rung else ""
+
+    def __getitem__(self, name: str) -> Estimate:
+        """Return the estimate of one constant."""
+        return next(e for e in (*self.estimates, *self.derived) if e.name == name)
+
+    def residuals_of(self, output: str) -> Array:
+        """Return measured less fitted values of one output [SI]."""
+        return self.residuals[self.points.of(output)]
+
+    def rms_of(self, output: str) -> float:
+        """Return the root mean square of an output's residuals [SI]."""
+        return float(np.sqrt(np.mean(self.residuals_of(output) ** 2)))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return what JSON can hold; None stands for infinite and for not known."""
+        points = self.points
+        same = ("degrees_of_freedom", "reduced_chi_square", "confidence")
+        return {
+            "model": points.plan.spec.key,
+            "fidelity": points.plan.fidelity,
+            "taken": self.taken,
+            "warnings": list(self.warnings),
+            "fitted": {e.name: e.value for e in self.estimates},
+            "estimates": [finite(asdict(e)) for e in self.estimates],
+            "correlation": finite(self.correlation.tolist()),
+            "residual_correlation": self._learned.correlation,
+            "confounded": list(self.confounded),
+            "singular_values": list(self.singular_values),
+            "residuals": self.residuals.tolist(),
+            "rms": {name: self.rms_of(name) for name in points.names},
+            **{name: getattr(self, name) for name in same},
+            "point": (points.row + 1).tolist(),
+            "output": list(points.output),
+            "measured": points.value.tolist(),
+            "computed": self.fitted.tolist(),
+            "error": None if points.error is None else points.error.tolist(),
+        }
+
+    def _columns(self) -> dict[str, Any]:
+        """Return a row for each measured value, with the inputs of its point."""
+        points = self.points
+        inputs = {s.name: points.input(s.name) for s in points.plan.spec.inputs}
+        values = {"measured": points.value, "computed": self.fitted, "residual": self.residuals}
+        error = {} if points.error is None else {"error": points.error}
+        return {"point": points.row + 1, **inputs, "output": list(points.output), **values, **error}
+
+    def _words(self) -> dict[str, Words]:
+        return words_at_points(find_model(self.points.plan.spec.key))
+
+    def _card(self) -> Card:
+        known, notes = self._words(), [_size_text(self), *self.remarks()]
+        lines = [
+            Line(e.name, _value_text(e), _told(e, known.get(e.name, Words()).help, self.confidence))
+            for e in (*self.estimates, *self.derived)
+        ]
+        return Card(f"calibration of the {self.points.plan.spec.key}", lines, notes, self.warnings)
+
+    def shown(self) -> list[Series]:
+        """Return the outputs to be drawn over their inputs."""
+        points, found = self.points, []
+        slopes = self._problem.slopes_of_curve(self._best)
+        half = np.array([self._learned.half_width_of(row) for row in slopes])
+        for name, unit in output_units(points.plan.spec).items():
+            if name in points.names:
+                at, known = points.of(name), points.error
+                error = None if known is None else known[at]
+                inputs = {n: (u, x[at]) for n, (u, x) in self._problem.drawn_over(name).items()}
+                values = (points.value[at], error, self.fitted[at], half[at])
+                found.append(Series(name, unit, inputs, *values))
+        return found
+
+    def remarks(self) -> list[str]:
+        """Return sentences on what else the points tell."""
+        return []
+
+    def __str__(self) -> str:
+        """Return the calibration in sentences and one table."""
+        problem, lines = self._problem, [f"WARNING. {text}" for text in self.warnings]
+        reasons = dict.fromkeys(e.reason for e in self.estimates if e.reason)
+        lines.append(_size_text(self))
+        if self.taken:
+            lines.append(f"{self.taken[0].upper()}{self.taken[1:]}.")
+        for text in self.confounded:
+            if " apart" in text and text not in " ".join(reasons):
+                lines.append(f"Together: {text}.")
+        if self.reduced_chi_square is not None:
+            lines.append(_chi_text(self, self.reduced_chi_square))
+        lines += [_row(e, self.confidence) for e in self.estimates]
+        if self.derived:
+            lines += ["Follow from these:", *(_row(e, self.confidence) for e in self.derived)]
+        for reason in reasons:
+            names = [e.name for e in self.estimates if e.reason == reason]
+            lines.append(f"{', '.join(names)}: {reason}.")
+        lines += [*filter(None, map(_curved, self.estimates)), *self.remarks()]
+        errors = problem.error_name if problem.known_errors else "the points' scatter"
+        doubt = (
+            f"; they suppose a {problem.law} that can follow the points" if self.warnings else ""
+        )
+        return "\n".join(
+            [*lines, f"Intervals: linearised covariance with {errors}{doubt}.", *_widened(self)]
+        )
+
+
+def _widened(found: Calibration) -> list[str]:
+    """Say by what factor the intervals are wider as residuals follow each other."""
+    learned = found._learned
+    if not learned.correlation:
+        return []
+    n, factor = len(found.residuals), learned.widened
+    return [
+        f"Neighbouring residuals have a correlation of {learned.correlation:.2f}: the intervals "
+        f"are {factor:.2g} times as wide, as if {n / factor**2:.0f} of {n} values counted."
+    ]
+
+
+def _size_text(found: Calibration) -> str:
+    """Say how many constants were fitted to what, and how well."""
+    points, units = found.points, output_units(found.points.plan.spec)
+    parts = ", ".join(f"{points.output.count(name)} {name}" for name in points.names)
+    rung = f", fidelity level {points.plan.fidelity}" if found._problem.by_rung else ""
+    rms = (f"{found.rms_of(n):.3g} {units[n]}".removesuffix(" 1") for n in points.names)
+    return (
+        f"{counted(len(found.estimates), 'constant')} fitted to "
+        f"{counted(len(points.value), found._problem.counted_as)} ({parts})"
+        f"{rung}, rms residual {', '.join(rms)}, "
+        f"{counted(found.degrees_of_freedom, 'degree')} of freedom."
+    )
+
+
+def _value_text(e: Estimate) -> str:
+    """Return value and standard error in the unit that a person reads."""
+    unit, size = display_unit(e.value, e.unit)
+    error = f" +- {e.standard_error / size:.2g}" if e.identifiable else ""
+    return f"{e.value / size:.5g}{error} {unit}".removesuffix(" 1")
+
+
+def _told(e: Estimate, help: str, confidence: float) -> str:
+    """Return what an estimate is, and what the points tell of it."""
+    unit, size = display_unit(e.value, e.unit)
+    low, high = (end / size for end in e.interval)
+    interval = f"{100 * confidence:g} %: {spanned(low, high)} {unit}".removesuffix(" 1")
+    return "; ".join(filter(None, (help, interval if e.identifiable else "", e.reason)))
+
+
+def spanned(low: float, high: float) -> str:
+    """Return an interval with enough digits to show its width; "a +- b" if it is very narrow."""
+    width, size = high - low, max(abs(low), abs(high))
+    if not width > NARROW * size:
+        return f"{0.5 * (low + high):.10g} +- {0.5 * width:.2g}"
+    digits = max(4, 2 - math.floor(math.log10(width / size)))
+    return f"{low:.{digits}g} .. {high:.{digits}g}"
+
+
+def _row(e: Estimate, confidence: float) -> str:
+    unit = "" if e.unit == "1" else f" {e.unit}"
+    row = f"  {e.name:18} {e.value:<10.5g}{unit:4}  "
+    if not e.identifiable:
+        return (
+            row
+            + (f"at its {e.at_bound} bound; " * bool(e.at_bound))
+            + "not determined by these points"
+        )
+    share = f"{100 * confidence:g} %: {spanned(*e.interval)}{unit}"
+    return f"{row}+- {e.standard_error:<9.2g}  {share}"
+
+
+def _chi_text(found: Calibration, reduced: float) -> str:
+    """Say whether the given errors explain the residuals."""
+    from scipy.stats import chi2
+
+    chance = float(chi2.sf(reduced * found.degrees_of_freedom, found.degrees_of_freedom))
+    name = found._problem.error_name
+    text = f"Reduced chi-square {reduced:.3g}: the residuals are "
+    if chance < 0.01:
+        return (
+            f"{text}larger than {name} allows; the {found._problem.law} does not fit, or the "
+            "errors are too small and so are the intervals."
+        )
+    if chance > 0.99:
+        return f"{text}smaller than {name} says; it may be too large."
+    return f"{text}as large as {name} says."
+
+
+def _curved(e: Estimate) -> str:
+    width, ends = e.interval[1] - e.interval[0], e.profile_interval or e.interval
+    if all(abs(a - b) <= CURVED * width for a, b in zip(e.interval, ends, strict=True)):
+        return ""
+    return f"{e.name}: the profile interval {spanned(*ends)} differs; trust it more."

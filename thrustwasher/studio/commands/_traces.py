@@ -1,0 +1,110 @@
+"""Recordings over time as the calibrate command takes them."""
+
+import argparse
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ...cli.common._output import note
+from ...cli.common._table import SHOWN, renaming
+from ...errors import ParameterError
+from ...units import parse_quantity
+
+if TYPE_CHECKING:
+    from ...model.spec import ModelSpec
+    from ...storage.tables.table import Table
+    from ..calibration.traces.recording import Traces
+
+OPTIONS = {
+    "--piston-area AREA": "of recordings with pressure: area that it acts on, e.g. '55 cm2'",
+    "--inertia J": "of recordings over time: inertia that the pack stops, as its slip sees it; "
+    "slip then follows from the balance of torques",
+    "--drag-torque TORQUE": "torque in addition to the pack's that slows the slip, with --inertia",
+    "--torque-at PLACE": "where torque was recorded: pack or hub, default pack",
+    "--inertia-between J": "inertia between the faces and the hub's sensor",
+}
+UNITS = {
+    "piston_area": "m2",
+    "inertia": "kg.m2",
+    "drag_torque": "N.m",
+    "inertia_between": "kg.m2",
+}
+
+
+def read_tables(paths: Sequence[str], names: Sequence[str]) -> tuple[list["Table"], bool]:
+    """Return the tables of files, and whether they are recordings over time.
+
+    ParameterError if some have a column ``time`` and others not, or if several have none.
+    """
+    from ...storage.tables.table_file import read_table
+    from ..calibration.traces.trace_file import is_trace
+
+    given = renaming(names)
+    tables = [read_table(path).renamed(given) for path in paths]
+    over_time = [is_trace(table) for table in tables]
+    if any(over_time) and not all(over_time):
+        trace, settled = paths[over_time.index(True)], paths[over_time.index(False)]
+        raise ParameterError(
+            f"{trace} has a column time and {settled} has none: a recording over time and settled "
+            "points cannot be fitted together, allowed: one kind"
+        )
+    if len(tables) > 1 and not any(over_time):
+        raise ParameterError(
+            f"{paths[0]}, {paths[1]}: have no column time; allowed: one file of settled points, or "
+            "recordings with a column time"
+        )
+    return tables, all(over_time)
+
+
+def read_recordings(tables: Sequence["Table"], kind: "Traces") -> dict[str, Any]:
+    """Return columns by the files' names, and say what was read and passed over."""
+    from ..calibration.traces.trace_file import columns_of
+
+    found = {}
+    for table in tables:
+        if table.path in found:
+            raise ParameterError(f"{table.path}: is given twice, allowed: once")
+        found[table.path], passed = columns_of(table, kind.columns, kind.measured)
+        if table.remarks:
+            note(f"{table.path}: read with {', '.join(table.remarks)}")
+        if passed:
+            more = f" and {len(passed) - SHOWN} more" if len(passed) > SHOWN else ""
+            note(
+                f"{table.path}: passed over, as no column that counts: "
+                f"{', '.join(passed[:SHOWN])}{more}"
+            )
+    return found
+
+
+def rig_options(arguments: argparse.Namespace) -> dict[str, Any]:
+    """Return what the command says of the test rig, SI units."""
+    found: dict[str, Any] = {}
+    for name, unit in UNITS.items():
+        text = getattr(arguments, name)
+        if text is not None:
+            found[name] = parse_quantity(text, unit, name)
+    if arguments.torque_at is not None:
+        found["torque_at"] = arguments.torque_at
+    return found
+
+
+def refuse_rig(arguments: argparse.Namespace) -> None:
+    """Raise ParameterError for an option of recordings next to settled points."""
+    for name in (*UNITS, "torque_at"):
+        if getattr(arguments, name) is not None:
+            option = f"--{name.replace('_', '-')}"
+            raise ParameterError(f"{option}: allowed: with recordings, which have a column time")
+
+
+def bounds_of(texts: Mapping[str, str], spec: "ModelSpec") -> dict[str, tuple[float, float]]:
+    """Return bounds by parameter of a model, from texts LOW:HIGH."""
+    from ...settings import find_place, places
+
+    found, known = {}, places(spec)
+    for name, text in texts.items():
+        ends = text.split(":")
+        if len(ends) != 2:
+            raise ParameterError(f"--bounds {name}={text}: allowed: NAME=LOW:HIGH")
+        place = find_place(name, known, spec)
+        low, high = (float(place.check(end)) for end in ends)
+        found[name] = low, high
+    return found

@@ -1,0 +1,72 @@
+"""The picture of a result, by its class: what ``plot()`` of results returns."""
+
+from collections.abc import Callable
+from typing import Any
+
+from matplotlib.figure import Figure
+
+from ...errors import ParameterError
+from ...shift.account.shift_record import record_of
+from .model_plots import FIGURES
+from .model_plots.clutch_plot import engagement_figure
+from .model_plots.efficiency_plot import efficiency_figure
+from .model_plots.fit_plot import calibration_figure
+from .model_plots.optimum_plot import optimum_figure
+from .model_plots.rig_plot import rig_figure
+from .model_plots.sweep_plot import sweep_figure
+from .model_plots.trace_plot import trace_figure
+from .model_plots.washer_plots import course_figure, curve_figure
+from .scatter.scatter_plots import study_figure
+from .scatter.study_page import main_figures
+from .shift.overview_plot import overview_figure
+from .shift.sequence_report import sequence_figure
+
+MOST_DISTRIBUTIONS = 6
+
+
+def _point_figure(result: Any) -> Figure:
+    """Return the picture of a result at an operating point, as ``--plot`` of its command draws."""
+    key, params, point = result.request()
+    inputs = {name: value for name, value in point.items() if name != "fidelity"}
+    return FIGURES[key](result, inputs, params)
+
+
+def _load_figure(curve: Any) -> Figure:
+    first = curve.points[0]
+    return curve_figure(curve, {n: getattr(first, n) for n in ("speed", "tilt", "oil_temperature")})
+
+
+def _study_figure(result: Any) -> Figure:
+    names = [name for name in main_figures(result, MOST_DISTRIBUTIONS) if name in result.sample]
+    if not names:
+        raise ParameterError(f"{result.target}: no figure of this study scatters: nothing to draw")
+    return study_figure(result, names)
+
+
+def _shift_figure(result: Any) -> Figure:
+    return overview_figure(record_of(result, result.scatter))
+
+
+# By the name of a class, so that drawing one result loads none of the others.
+FIGURE_OF: dict[str, Callable[[Any], Figure]] = {
+    "AtPoint": _point_figure,
+    "Calibration": calibration_figure,
+    "Comparison": rig_figure,
+    "EfficiencyMap": efficiency_figure,
+    "Engagement": engagement_figure,
+    "LoadCurve": _load_figure,
+    "Optimum": optimum_figure,
+    "ScatterResult": _study_figure,
+    "SequenceResult": sequence_figure,
+    "ShiftResult": _shift_figure,
+    "SweepTable": sweep_figure,
+    "TrainMap": efficiency_figure,
+    "TraceCalibration": trace_figure,
+    "WasherHistory": course_figure,
+}
+
+
+def figure_of(result: object) -> Figure:
+    """Return the picture of a result."""
+    kinds = (kind.__name__ for kind in type(result).__mro__)
+    return next(FIGURE_OF[kind] for kind in kinds if kind in FIGURE_OF)(result)

@@ -1,0 +1,263 @@
+"""Computed against measured: blind, in the band of the scatter, and after a fit."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+from scipy.stats import binomtest, qmc
+
+from ...errors import ParameterError, SolveError
+from ...model.part_file import PartFile
+from ...model.point import Point, point_of
+from ...model.registry import find_model
+from ...shift.scene.places import scene_places, scene_scatter
+from ...shift.scene.scene import Scene
+from ...shift.scene.variation import varied_scene
+from ...shift.steady_points import efficiency_map
+from ...shown import Card, Line, Tabled
+from .rig_file import KINDS, Rig
+
+Array = NDArray[np.float64]
+DRAWS, NOISE, SEED = 64, 256, 1
+BAND = (0.05, 0.95)
+READ = 0.05  # of a measured value: what it counts for in a fit without reading errors
+
+
+@dataclass(frozen=True)
+class Comparison(Tabled):
+    """Measured and computed values of a data set; ``judged``: those that the figures are of."""
+
+    rig: Rig
+    computed: Array
+    low: Array
+    """Lower end of the band: 5 % of scatter and reading error together."""
+    high: Array
+    judged: NDArray[np.bool_]
+    fitted: Mapping[str, float]
+    """Parameters that were fitted to the points that are not judged."""
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def deviations(self) -> Array:
+        """Computed over measured less 1, of the points judged."""
+        return (self.computed / self.rig.measured - 1.0)[self.judged]
+
+    @property
+    def inside(self) -> NDArray[np.bool_]:
+        """Which of the points judged lie in the band."""
+        m = self.rig.measured
+        return ((self.low <= m) & (m <= self.high))[self.judged]
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Interval of 95 % of the share inside (Clopper & Pearson)."""
+        found = binomtest(int(self.inside.sum()), len(self.inside)).proportion_ci()
+        return float(found.low), float(found.high)
+
+    def _columns(self) -> dict[str, Any]:
+        own = ("computed", "low", "high", "judged")
+        found = {"measured": self.rig.measured, **{name: getattr(self, name) for name in own}}
+        return {**self.rig.inputs, **found}
+
+    def _card(self) -> Card:
+        found = self.to_dict()
+        lines = [
+            Line("points", str(found["points"]), "that are judged"),
+            Line("kind", self.rig.kind, KINDS[self.rig.kind]),
+            Line("mean_deviation", f"{100.0 * found['mean_deviation']:+.3g} %", "with its sign"),
+            Line("largest_deviation", f"{100.0 * found['largest_deviation']:+.3g} %", ""),
+            Line("inside_band", f"{100.0 * found['inside_band']:.3g} %", "of the points"),
+            *(Line(name, f"{value:.4g}", "fitted") for name, value in self.fitted.items()),
+        ]
+        title = f"{self.rig.name}: computed against {len(self.computed)} measured values"
+        return Card(title, lines, (), self.warnings)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return what JSON has of it; deviations have their signs, as on the page."""
+        d = self.deviations
+        return {
+            "rig": self.rig.name,
+            "kind": self.rig.kind,
+            "points": int(self.judged.sum()),
+            "mean_deviation": float(np.mean(d)),
+            "largest_deviation": float(d[np.argmax(np.abs(d))]),
+            "mean_absolute_deviation": float(np.mean(np.abs(d))),
+            "inside_band": float(self.inside.mean()),
+            "inside_band_interval": self.interval,
+            "fitted": dict(self.fitted),
+            "measured": self.rig.measured.tolist(),
+            "computed": self.computed.tolist(),
+            "low": self.low.tolist(),
+            "high": self.high.tolist(),
+            "judged": self.judged.tolist(),
+        }
+
+
+def compare(
+    rig: Rig,
+    *,
+    fit: int = 0,
+    draws: int = DRAWS,
+    progress: Callable[[int, int], None] | None = None,
+) -> Comparison:
+    """Return computed against measured values.
+
+    Parameters
+    ----------
+    rig : as ``load_rig`` returns it
+    fit : number of parameters, the first of the data set's own list, that are fitted to every
+        second point in the order of ``vary``; 0: blind, nothing is fitted
+    draws : of the scatter, for the band
+    progress : called with draws done and in all
+
+    Raises
+    ------
+    ParameterError : ``fit`` is more than the measured data set lists, or leaves no point to judge
+    SolveError : a point has no solution
+    """
+    if not 0 <= fit <= len(rig.fit):
+        raise ParameterError(
+            f"fit = {fit}, allowed: 0 .. {len(rig.fit)}, the parameters that the measured "
+            f"data set lists"
+        )
+    judged = np.ones(len(rig.measured), bool)
+    fitted: dict[str, float] = {}
+    if fit:
+        order = np.argsort(rig.inputs[rig.vary], kind="stable")
+        judged[order[::2]] = False
+        if judged.sum() < 1 or (~judged).sum() < fit:
+            raise ParameterError(
+                f"fit = {fit}, allowed with {len(judged)} points: at most half of them"
+            )
+        fitted = _fitted(rig, rig.fit[:fit], ~judged)
+    computed = values_of(rig, fitted)
+    if not np.isfinite(computed).all():
+        row = int(np.flatnonzero(~np.isfinite(computed))[0])
+        raise SolveError(f"measured data set {rig.name}: point {row + 1} has no solution here")
+    low, high, warnings = _band(rig, fitted, computed, draws, progress)
+    warnings = tuple(filter(None, (_not_measured(rig), *warnings)))
+    return Comparison(rig, computed, low, high, judged, fitted, warnings)
+
+
+def values_of(rig: Rig, changes: Mapping[str, float]) -> Array:
+    """Return what is computed with changed parameters, a value per point; NaN without solution."""
+    if isinstance(rig.target, Scene):
+        return _of_scene(rig, rig.target, changes)
+    return _of_part(rig, rig.target, changes)
+
+
+def _of_part(rig: Rig, part: PartFile, changes: Mapping[str, object]) -> Array:
+    model, found = find_model(part.spec.key), []
+    try:
+        params, _ = part.varied(changes)
+    except ParameterError:
+        return np.full(len(rig.measured), np.nan)
+    for i in range(len(rig.measured)):
+        point = _point(rig, part, i).values
+        output = rig.outputs[i]
+        if output in model.fits.units and model.fits.computed:
+            whole = {**part.starts, **point}
+            value = model.fits.computed(params, whole, part.fidelity).get(output, np.nan)
+        else:
+            result = model.solve(params, **point, fidelity=part.fidelity, throw=False)
+            failed = result.status.is_failure
+            value = np.nan if failed else float(getattr(result, output))
+        found.append(value)
+    return np.array(found)
+
+
+def _point(rig: Rig, part: PartFile, i: int) -> Point:
+    """Return the inputs of a point; those without a column from the part's box or by default."""
+    return point_of(part, {name: float(column[i]) for name, column in rig.inputs.items()})
+
+
+def _not_measured(rig: Rig) -> str:
+    """Say which inputs have no column, and what was taken for them."""
+    if isinstance(rig.target, Scene):
+        return ""
+    taken = _point(rig, rig.target, 0).taken
+    return f"inputs without a column in points.csv: {taken}" if taken else ""
+
+
+def _of_scene(rig: Rig, scene: Scene, changes: Mapping[str, object]) -> Array:
+    try:
+        own = varied_scene(scene, changes) if changes else scene
+        found = np.full(len(rig.measured), np.nan)
+        for w in np.unique(rig.inputs["speed"]):
+            rows = np.flatnonzero(rig.inputs["speed"] == w)
+            torques = rig.inputs["torque"][rows]
+            order = np.argsort(torques, kind="stable")
+            columns = efficiency_map(own, torques, [w], gear=rig.gear).columns
+            found[rows[order]] = columns[rig.output]
+        return found
+    except (ParameterError, SolveError):
+        if not changes:
+            raise
+        return np.full(len(rig.measured), np.nan)
+
+
+def _band(
+    rig: Rig,
+    fitted: Mapping[str, float],
+    computed: Array,
+    draws: int,
+    progress: Callable[[int, int], None] | None,
+) -> tuple[Array, Array, tuple[str, ...]]:
+    """Return the ends of the band of scatter and reading error, and what is to be said of it.
+
+    What was fitted scatters no more; the conditions of the points do not scatter.
+    """
+    target = rig.target
+    if isinstance(target, Scene):
+        scatter, known = scene_scatter(target), set(scene_places(target)) - {"oil_temperature"}
+    else:
+        scatter = target.scattered()
+        known = {s.place.name for s in scatter.sources} - {s.name for s in target.spec.inputs}
+    kept = [s for s in scatter.sources if s.place.name in known - {*fitted}]
+    rng = np.random.default_rng(SEED)
+    rows = [computed]
+    if kept:
+        scatter = replace(scatter, sources=tuple(kept), pairs=())
+        u = qmc.Sobol(len(kept), seed=SEED).random(draws)
+        for i, draw in enumerate(scatter.values(u)):
+            rows.append(values_of(rig, {**draw, **fitted}))
+            if progress:
+                progress(i + 1, draws)
+    sample = np.array(rows[1:] or rows)
+    good = sample[np.isfinite(sample).all(axis=1)]
+    lost = len(sample) - len(good)
+    if not len(good):
+        good = computed[None]
+    noise = rng.standard_normal((NOISE, 1, len(computed))) * rig.error
+    low, high = np.quantile((good + noise).reshape(-1, len(computed)), BAND, axis=0)
+    words = [f"{lost} of {len(sample)} draws have no solution and are left out"] if lost else []
+    return low, high, tuple(words)
+
+
+def _fitted(rig: Rig, names: Sequence[str], used: NDArray[np.bool_]) -> dict[str, float]:
+    """Return the parameters that lie nearest to the measured values in least squares."""
+    target = rig.target
+    places = scene_places(target) if isinstance(target, Scene) else target.places()
+    for name in names:
+        if name not in places:
+            raise ParameterError(
+                f"measured data set {rig.name}: fit has {name!r}, which is no parameter here"
+            )
+    own = [places[name] for name in names]
+    start = np.array([float(p.nominal) for p in own])
+    scale = np.where(start != 0.0, np.abs(start), np.array([p.high - p.low for p in own]) * 0.1)
+    bounds = np.array([(p.low, p.high) for p in own]).T
+    weight = np.where(rig.error > 0.0, rig.error, READ * np.abs(rig.measured))
+
+    def off(x: Array) -> Array:
+        values = values_of(rig, dict(zip(names, (x * scale).tolist(), strict=True)))
+        gap = (values - rig.measured) / weight
+        return np.where(np.isfinite(gap), gap, 1e3)[used]
+
+    found = least_squares(
+        off, start / scale, bounds=(bounds[0] / scale, bounds[1] / scale), diff_step=1e-4
+    )
+    return dict(zip(names, (found.x * scale).tolist(), strict=True))

@@ -1,0 +1,200 @@
+"""A data set's folder: ``rig.toml`` (source, conditions), ``points.csv``, part or scene."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import ParameterError, suggestion
+from ...model.part_file import PartFile, find_part, load_part, preset_part
+from ...model.registry import find_model, spec_of
+from ...model.toml_tables import nothing_else, read_file
+from ...shift import load_scene
+from ...shift.scene.scene import Scene
+from ...shift.steady_points import COLUMNS, RANGES
+from ...storage.tables.table import numbers
+from ...storage.tables.table_file import read_table
+
+ORIGINS = ("table", "figure", "text", "fit")
+TEXTS = ("title", "source", "measured", "conditions", "rights", "read", "reason")
+KINDS = {
+    "measured": "measured, on what is modelled, and compared blind",
+    "other machine": "measured, on another machine than what is modelled",
+    "calculated": "calculated by those who published it",
+    "used": "measured, and used to choose a constant here",
+    "not said": "the measured data set does not say what it is",
+}
+OTHERS = ("kind", "part", "scene", "gear", "vary", "fit", "coefficients")
+ERROR = "_error"
+
+
+@dataclass(frozen=True)
+class Rig:
+    """What was measured, where it is published, and what stands for it here."""
+
+    folder: Path
+    texts: dict[str, str]
+    target: PartFile | Scene
+    gear: str
+    vary: str
+    """The input over which points are drawn and, for a fit, divided."""
+    fit: tuple[str, ...]
+    """Parameters worth a fit, the first before the others."""
+    output: str
+    """What was measured, in words if there is more than one of it."""
+    unit: str
+    outputs: tuple[str, ...]
+    """What was measured, of every point."""
+    units: tuple[str, ...]
+    inputs: dict[str, NDArray[np.float64]]
+    """Columns [SI], of one length."""
+    measured: NDArray[np.float64]
+    error: NDArray[np.float64]
+    """Standard deviation of the reading."""
+    origin: tuple[str, ...]
+    kind: str = "not said"
+    """One of ``KINDS``; only "measured" is a test of the model."""
+    input_units: tuple[str, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """Name of the folder."""
+        return self.folder.name
+
+    @property
+    def target_name(self) -> str:
+        """The model, or the scene."""
+        if isinstance(self.target, PartFile):
+            return self.target.spec.name
+        return f"scene {self.target.name}, {self.gear} gear"
+
+
+def load_rig(path: str | Path) -> Rig:
+    """Return the measured data set of a folder.
+
+    Parameters
+    ----------
+    path : of the folder with ``rig.toml``, ``points.csv`` and the part or scene that it names
+
+    Raises
+    ------
+    ParameterError : a file is missing or has something that is not allowed; the message says what
+    """
+    folder = Path(path)
+    where = f"measured data set {str(folder)!r}"
+    if not (folder / "rig.toml").is_file():
+        raise ParameterError(f"{where}: there is no rig.toml in it")
+    table = read_file("measured data set", folder / "rig.toml")
+    nothing_else(where, table, (*TEXTS, *OTHERS))
+    for key in TEXTS:
+        if not isinstance(table.get(key), str) or not table[key].strip():
+            raise ParameterError(f"{where}: {key} = {table.get(key)!r}, a text is required")
+    if ("part" in table) == ("scene" in table):
+        raise ParameterError(f"{where}: part or scene, allowed: the name of one of them")
+    kind = str(table.get("kind", "not said"))
+    if kind not in KINDS:
+        raise ParameterError(f"{where}: kind = {kind!r}, allowed: {', '.join(KINDS)}")
+    target: PartFile | Scene
+    if "part" in table:
+        target = _part(folder, str(table["part"]))
+        inputs = {s.name: s.unit for s in (*target.spec.inputs, *_own_inputs(target))}
+        outputs = _outputs(target)
+    else:
+        named = str(table["scene"])
+        target = load_scene(folder / named if named.endswith(".toml") else named)
+        inputs = {name: unit for name, (unit, *_) in RANGES.items()}
+        none = (*inputs, "warnings")
+        outputs = {n: unit for n, (unit, _) in COLUMNS.items() if n not in none}
+    columns, origin = _points(folder / "points.csv", inputs, outputs)
+    found = [name for name in columns if name in outputs]
+    if not found or (len(found) > 1 and not isinstance(target, PartFile)):
+        raise ParameterError(
+            f"{where}: points.csv has the measured columns {', '.join(found) or 'none'}, allowed: "
+            f"one of {', '.join(outputs)}"
+        )
+    rows = len(origin)
+    origin = origin * len(found)  # a point for every measured column of a line
+    vary = str(table.get("vary", next((n for n in columns if n in inputs), "")))
+    if vary not in columns or vary not in inputs:
+        raise ParameterError(f"{where}: vary = {vary!r}, allowed: an input that is a column")
+    most = table.get("coefficients", 0)
+    fitted = origin.count("fit")
+    if fitted > (most if isinstance(most, int) else 0):
+        raise ParameterError(
+            f"{where}: {fitted} points are of a published fit with coefficients = {most!r}, "
+            "allowed: at most as many points as the fit has coefficients"
+        )
+    several = len(found) > 1
+    return Rig(
+        folder=folder,
+        texts={key: " ".join(table[key].split()) for key in TEXTS},
+        target=target,
+        gear=str(table.get("gear", "first")),
+        vary=vary,
+        fit=tuple(table.get("fit", ())),
+        output=f"{len(found)} results" if several else found[0],
+        unit="SI" if several else outputs[found[0]],
+        outputs=tuple(name for name in found for _ in range(rows)),
+        units=tuple(outputs[name] for name in found for _ in range(rows)),
+        inputs={name: np.tile(columns[name], len(found)) for name in columns if name in inputs},
+        measured=np.concatenate([columns[name] for name in found]),
+        error=np.concatenate([columns.get(name + ERROR, np.zeros(rows)) for name in found]),
+        origin=origin,
+        kind=kind,
+        input_units=tuple(inputs[name] for name in columns if name in inputs),
+    )
+
+
+def _part(folder: Path, named: str) -> PartFile:
+    """Return the part of a file in the folder, of "MODEL" or of "MODEL PRESET"."""
+    if named.endswith(".toml"):
+        return load_part(folder / named)
+    model, _, preset = named.partition(" ")
+    spec = spec_of(find_model(model).key)
+    return preset_part(spec, preset) if preset else find_part(spec.key)
+
+
+def _own_inputs(part: PartFile) -> Sequence[Any]:
+    """Return the inputs that the model is asked by at a point, such as a gear's power."""
+    return find_model(part.spec.key).inputs()
+
+
+def _outputs(part: PartFile) -> dict[str, str]:
+    """Return what a part can be compared by: fields of its result, and loads of its folds."""
+    model = find_model(part.spec.key)
+    units = {s.name: s.unit for s in part.spec.outputs if s.kind == "real"}
+    more = {name: unit for name, (unit, _) in model.command.extra.items()} if model.command else {}
+    return units | {"loss_factor": "1"} | more | dict(model.fits.units)
+
+
+def _points(
+    path: Path, inputs: dict[str, str], outputs: dict[str, str]
+) -> tuple[dict[str, NDArray[np.float64]], tuple[str, ...]]:
+    """Return the columns [SI] and the origin of every point."""
+    if not path.is_file():
+        raise ParameterError(f"{path}: cannot be read, a CSV file is required")
+    table = read_table(path)
+    units = {**inputs, **outputs, **{n + ERROR: u for n, u in outputs.items()}}
+    columns: dict[str, NDArray[np.float64]] = {}
+    origin: tuple[str, ...] = ()
+    for column in table.columns:
+        name, difference = column.name, column.name.endswith(ERROR)
+        if name == "origin":
+            origin = tuple(column.cells)
+            continue
+        if name not in units:
+            hint = suggestion(name, units, "did you mean {}? ")
+            raise ParameterError(f"{path}: column {name!r} is not known; {hint}".rstrip("; "))
+        values = numbers(column, table, units[name], difference=difference)
+        if None in values:
+            line = table.lines[values.index(None)]
+            raise ParameterError(f"{path}, line {line}: {name} is missing")
+        columns[name] = np.array(values, float)
+    wrong = [text for text in origin if text not in ORIGINS]
+    if wrong or not origin:
+        said = f"{wrong[0]!r}" if wrong else "missing"
+        raise ParameterError(f"{path}: origin {said}, allowed: {', '.join(ORIGINS)}")
+    return columns, origin

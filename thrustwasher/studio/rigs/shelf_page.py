@@ -1,0 +1,137 @@
+"""The page of all measured data sets: what agrees, what does not, and why it may be so."""
+
+import textwrap
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ...model.toml_tables import read_file
+from .rig_comparison import Comparison
+from .rig_file import Rig
+
+DEFAULTS = "inputs without a column in points.csv: taken by default"
+WIDTH = 150
+NARROW = 0.01  # of the computed value: no band narrower than this is shown
+HEAD = """# Measured
+
+Published numbers against the models. **Measured** data sets test a model: measured on the machine
+that is modelled. The others are only **compared**: another machine, a calculation, or numbers that
+chose a constant.
+
+Nothing is fitted first; what is not published is at the part's default. Deviation: computed over
+published, less 1. Band: 5 to 95 % of the scatter (uncertainty) of inputs and reading error, not
+shown if narrower than 1 %; "inside" counts the points in it. Conditions, reading of the numbers
+and rights are in `examples/measured/*/rig.toml`.
+
+`thrustwasher compare examples/measured --page docs/measured.md` writes this page.
+"""
+OWN = """## Your own measured data set
+
+Make a folder with `rig.toml` and `points.csv`, then compare, or fit first:
+
+```sh
+thrustwasher compare examples/measured/gearpie-c14
+thrustwasher compare examples/measured/jackson-green-2006 --fit 1
+```
+
+`rig.toml` has
+
+- texts `title`, `source`, `measured`, `conditions`, `rights`, `read` (how the numbers were read),
+  `reason` (of a deviation);
+- `part = "my-part.toml"`, or `scene = "my-scene.toml"` with `gear`;
+- `kind` (measured, other machine, calculated, used), `vary` (input over which points are drawn),
+  `fit` (parameters, the first first), `coefficients` of a published fit.
+
+`points.csv` has a line per point: inputs, one measured output (of a part several),
+`<output>_error` (standard deviation), `origin` (table, figure, text, fit).
+
+`--fit N` fits the first N parameters to every second point and evaluates the others. At most as
+many points of a published fit count as it has coefficients.
+"""
+
+
+def shelf_page(blind: Sequence[Comparison], fits: Sequence[Comparison], wanted: Path) -> str:
+    """Return the page as Markdown; ``wanted``: the list of what is not available."""
+    lines = [HEAD]
+    for title, ours in (("Measured", True), ("Compared", False)):
+        chosen = [c for c in blind if (c.rig.kind == "measured") == ours]
+        later = [c for c in fits if (c.rig.kind == "measured") == ours]
+        lines += [f"## {title}", "", _counted(chosen), "", *_table([*chosen, *later]), ""]
+    lines.pop()
+    for c in blind:
+        texts = c.rig.texts
+        text = (
+            f"**{texts['title']}.** {texts['measured'].rstrip('.')}. Source: {texts['source']}. "
+            f"Likely reason: {texts['reason']}"
+        )
+        lines += ["", f"## {c.rig.name}", "", textwrap.fill(text, WIDTH), "", *_points(c)]
+        lines += [f"\n{text.replace(DEFAULTS, 'Default')}." for text in c.warnings]
+    lines += [
+        "",
+        "## Wanted",
+        "",
+        "Numbers that are not available; contributions are welcome.",
+        "",
+    ]
+    table = read_file("wanted", wanted) if wanted.is_file() else {}
+    lines += [f"- {row['source']}: {row['what']}" for row in table.get("wanted", [])]
+    return "\n".join([*lines, "", OWN])
+
+
+def _points(c: Comparison) -> list[str]:
+    """Return what all points share in a line, the rest in a table."""
+    rig = c.rig
+    columns = dict(zip(rig.inputs, rig.input_units, strict=True))
+    shared = {name: x[0] for name, x in rig.inputs.items() if np.ptp(x) == 0.0}
+    at = [f"{name} {x:.5g} {columns[name]}" for name, x in shared.items()]
+    own = [name for name in columns if name not in shared]
+    how = "published" if rig.kind == "calculated" else "measured"
+    if len(rig.measured) == 1:
+        line = f"{rig.output} {rig.measured[0]:.4g}{_unit(rig, 0)} {how}, {c.computed[0]:.4g} "
+        return [f"At {', '.join(at)}: {line}computed (band {c.low[0]:.4g} .. {c.high[0]:.4g})."]
+    several = len({*rig.outputs}) > 1
+    wide = c.high - c.low > NARROW * np.abs(c.computed)
+    title = f"{'Results' if several else rig.output} {how}; computed{'; band' if any(wide) else ''}"
+    lines = [f"{title}{', at ' if at else ''}{', '.join(at)}:", ""]
+    for i in range(len(rig.measured)):
+        point = [f"{name} {rig.inputs[name][i]:.5g} {columns[name]}" for name in own]
+        point += [f"{rig.outputs[i]}{_unit(rig, i)}"] if several else []
+        value = f"{rig.measured[i]:.4g}{'' if several else _unit(rig, i)}; {c.computed[i]:.4g}"
+        origin = f"; {rig.origin[i]}" if len({*rig.origin}) > 1 else ""
+        band = f"; {c.low[i]:.4g} .. {c.high[i]:.4g}" if wide[i] else ""
+        lines.append(f"- {', '.join(point)}: {value}{band}{origin}")
+    return lines
+
+
+def _unit(rig: Rig, i: int) -> str:
+    unit = rig.units[i]
+    if unit == "1":
+        return ""
+    return f" [{unit}]" if len({*rig.outputs}) > 1 else f" {unit}"
+
+
+def _counted(rigs: Sequence[Comparison]) -> str:
+    points, inside = sum(len(c.deviations) for c in rigs), sum(int(c.inside.sum()) for c in rigs)
+    words = [
+        f"{n} {what}{'' if n == 1 else 's'}"
+        for n, what in ((len(rigs), "data set"), (points, "point"))
+    ]
+    return f"{', '.join(words)}, {inside} of them inside the band."
+
+
+def _table(rigs: Sequence[Comparison]) -> list[str]:
+    lines = [
+        "| data set | result | kind | mean deviation | largest | inside |",
+        "|---|---|---|---|---|---|",
+    ]
+    for c in rigs:
+        numbers = c.to_dict()
+        how = f", after a fit of {', '.join(c.fitted)}" if c.fitted else ""
+        lines.append(
+            f"| [{c.rig.name}](#{c.rig.name}){how} | {c.rig.output} of {c.rig.target_name} "
+            f"| {c.rig.kind} | {100.0 * numbers['mean_deviation']:+.1f} % "
+            f"| {100.0 * numbers['largest_deviation']:+.1f} % "
+            f"| {int(c.inside.sum())} of {numbers['points']} |"
+        )
+    return lines

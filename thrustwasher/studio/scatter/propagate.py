@@ -1,0 +1,250 @@
+"""A whole study: from a part, a scene or a function to what is known of its figures."""
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ...errors import ParameterError, SolveError, suggestion
+from ...model.part_file import PartFile, find_part, holds_part, scene_parts
+from ...model.point import point_of
+from ...model.registry import find_model, models_with_points
+from ...model.scatter import Scatter
+from ...settings import find_place, places
+from ...storage.journal import Journal
+from ...storage.whole_files import new_folder, whole_folder
+from ..jobs.runner import Progress, check_workers
+from .design import LEAST_RUNS, MOST_RUNS, ROWS, ROWS_OF_PART, make_design, rounded_runs
+from .evaluation import Runs
+from .function_target import function_target
+from .result import SAMPLE, ScatterResult, write_columns
+from .study import Study
+from .target import Target
+
+if TYPE_CHECKING:
+    from ...shift.scene.scene import Scene
+
+JOURNAL = "scatter.journal"
+RUNS = {"part": 1024, "scene": 256, "function": 1024}
+REACHED = ("below", "above")
+INDICES = (False, True, "all")
+
+
+def propagate(
+    target: "str | Path | PartFile | Scene | Callable[..., Any]",
+    *,
+    scatter: Mapping[str, object] | None = None,
+    runs: int | None = None,
+    seed: int = 1,
+    outputs: Sequence[str] | None = None,
+    indices: bool | str = True,
+    reached: str = "below",
+    at: Mapping[str, object] | None = None,
+    workers: int | None = None,
+    cluster: str | None = None,
+    out: str | Path | None = None,
+    progress: Progress | None = None,
+    finish: Callable[[ScatterResult], None] | None = None,
+) -> ScatterResult:
+    """Return what the scatter of inputs makes of the figures of a part, a scene or a function.
+
+    Parameters
+    ----------
+    target : a part (``load_part``), a scene (``load_scene``), the path of such a file, the name of
+        a model or a built-in scene; or a function that takes numbers by name and returns a number
+        or a mapping of numbers
+    scatter : instead of the target's own, as a table ``[scatter]``: {"roughness": "10 %"}; a
+        function has none of its own: {"x": {"normal": 0.1, "nominal": 2.0}}
+    runs : base points, 8 .. 131072; rounded up to a power of two; default 1024, of a scene 256
+    seed : of the design, 0 .. 2^32 - 1; the same seed gives the same numbers
+    outputs : names of the figures and signals to keep; None: all
+    indices : Sobol' indices too, which take runs x (1 + groups of sources) more; "all": of figures
+        that are costly as well
+    reached : where several solutions exist, the branch: "below", as loaded up from light load, or
+        "above"
+    at : inputs of a part, as numbers [SI] or "1.2 kN"; others are at its box or their defaults
+    workers : processes on this machine; None: as many as there are cores where that pays, 1: none
+    cluster : address of a Dask scheduler, e.g. "tcp://10.0.0.1:8786", instead
+    out : folder for ``sample.csv``, ``figures.csv``, ``series.csv``; a journal lies there until the
+        study is done, and the same call goes on from it
+    progress : called as progress(runs done, runs in all)
+    finish : called with the result while the journal is still there, for your own files: if
+        that fails, the same call goes on with all runs done
+
+    Raises
+    ------
+    ParameterError : wrong argument, nothing scatters, or ``out`` has a journal of another study
+    SolveError : no base run has a solution
+    EnvironmentProblem : a package is missing, the cluster does not answer, workers keep dying
+
+    Notes
+    -----
+    Method: see ``design`` and ``estimates``. The result depends neither on the workers nor on a
+    stop in between.
+
+    Examples
+    --------
+    >>> def area(width=2.0, height=1.0):
+    ...     return width * height
+    >>> result = propagate(area, scatter={"width": "10 %", "height": "5 %"}, runs=256)
+    >>> band = result.figures["value"]
+    >>> round(band.nominal, 1), round(band.quantiles[0.95], 1), len(result.sample["value"])
+    (2.0, 2.4, 256)
+    >>> round(band.indices["width"].total, 1)
+    0.8
+    """
+    began = time.perf_counter()
+    check_workers(workers, cluster)
+    if indices not in INDICES:
+        raise ParameterError(f"indices = {indices!r}, allowed: True, False, 'all'")
+    if reached not in REACHED:
+        raise ParameterError(f"reached = {reached!r}, allowed: {' or '.join(REACHED)}")
+    folder = None if out is None else _folder(out)
+    if runs is not None:
+        rounded_runs(runs)  # before the target is made, which may take a while
+    found = target_of(target, scatter=scatter, outputs=outputs, reached=reached, at=at)
+    study, warnings = study_of(found, runs=runs, seed=seed, indices=indices)
+    journal, finished = None, False
+    try:
+        if folder is not None:
+            settings = {"runs": study.design.n, "seed": seed, "indices": indices}
+            with new_folder(folder):
+                journal = Journal(folder / JOURNAL, study.identity(**settings), "scatter")
+        numbers, codes = study.run(journal, workers=workers, cluster=cluster, progress=progress)
+        drawn = Runs(study, numbers, codes)
+        if (drawn.base_codes > 0).all():
+            if folder is not None:
+                with whole_folder(folder) as draft:
+                    write_columns(draft / SAMPLE, drawn.sample(), drawn.units)
+            finished = True  # the sample has all there is
+            n, why = study.design.n, next(iter(drawn.failed))
+            raise SolveError(
+                f"none of the {n} base runs has a solution, mostly: {why}; check the nominal "
+                "values, or narrow the scatter"
+            )
+        result = drawn.result(reached=reached, seed=seed, warnings=warnings)
+        result = replace(result, wall_time=time.perf_counter() - began)
+        if folder is not None:
+            result.write(folder)
+        if finish is not None:
+            finish(result)
+        finished = True
+    finally:
+        if journal:
+            journal.close(finished=finished)
+    return result
+
+
+def study_of(
+    target: Target, *, runs: int | None = None, seed: int = 1, indices: bool | str = True
+) -> tuple[Study, tuple[str, ...]]:
+    """Return the study of a target, and what is to be known of it before it starts."""
+    wanted = RUNS[target.kind] if runs is None else runs
+    n = rounded_runs(wanted)
+    warnings = list(target.warnings)
+    warnings += [f"runs = {wanted}: rounded up to {n}, a power of two"] if n != wanted else []
+    costly = indices == "all" and bool(target.costly)
+    scatter = target.scatter
+    groups = [
+        group
+        for group in (scatter.groups if indices else ())
+        if costly or any(target.touches(scatter.names[i]) for i in group)
+    ]
+    rows = ROWS_OF_PART if target.kind == "part" else ROWS
+    design = make_design(n, len(scatter.sources), groups, seed, rows)
+    return Study(target, design, costly=costly), tuple(warnings)
+
+
+def target_of(
+    target: Any,
+    *,
+    scatter: Mapping[str, Any] | None = None,
+    outputs: Sequence[str] | None = None,
+    reached: str = "below",
+    at: Mapping[str, object] | None = None,
+) -> Target:
+    """Return a part, a scene or a function as a target; ParameterError if nothing scatters."""
+    if callable(target):
+        if at:
+            raise ParameterError("at: is of a part's inputs; give a function its defaults")
+        return function_target(target, scatter, outputs)
+    if isinstance(target, str | Path):
+        target = part_or_scene(str(target))
+    if isinstance(target, PartFile):
+        from .part_target import part_target
+
+        inputs = inputs_of(target, at or {})
+        drawn = target.scattered(scatter, inputs)
+        _refuse_nothing(drawn, "part file", 'load = "5 %"')
+        of_part: Target = part_target(target, drawn, inputs, reached, outputs)
+        return of_part
+    if at:
+        raise ParameterError("at: is of a part's inputs; a scene has its own")
+    from ...shift.scene.places import scene_scatter
+    from .scene_target import scene_target
+
+    drawn = scene_scatter(target, scatter)
+    _refuse_nothing(drawn, "scene", 'oil_temperature = "3 K"')
+    of_scene: Target = scene_target(target, drawn, outputs)
+    return of_scene
+
+
+def inputs_of(part: PartFile, at: Mapping[str, object]) -> dict[str, float]:
+    """Return the values [SI] of the model's inputs: those given, others at box or default."""
+    known = {n: p for n, p in places(part.spec).items() if p.is_input}
+    given = {name: float(find_place(name, known, part.spec).check(x)) for name, x in at.items()}
+    return find_model(part.spec.key).place(point_of(part, given).values)
+
+
+def _refuse_nothing(scatter: Scatter, what: str, example: str) -> None:
+    if not scatter.sources:
+        raise ParameterError(
+            f"nothing scatters: add [scatter] to the {what}, such as {example}; in Python "
+            "scatter = {name: law, ...}" + "".join(f" ({text})" for text in scatter.warnings)
+        )
+
+
+def part_or_scene(name: str) -> Any:
+    """Return the part or scene of a name or a file; ParameterError if there is none."""
+    parts = [*models_with_points(), *scene_parts()]
+    if name in parts or (name.endswith(".toml") and holds_part(name)):
+        return find_part(name)
+    from ...shift import builtin_scenes, load_scene
+
+    if name.endswith(".toml") or name in builtin_scenes():
+        return load_scene(name)
+    known = [*parts, *builtin_scenes()]
+    hint = suggestion(name, known, "; did you mean {!r}?")
+    raise ParameterError(
+        f"target = {name!r}, allowed: a file (.toml) of a part or a scene, {', '.join(known)}{hint}"
+    )
+
+
+def _folder(out: str | Path) -> Path:
+    if not str(out).strip():
+        raise ParameterError(f"out = {out!r}: the name of a folder is required")
+    folder = Path(out)
+    if folder.exists() and not folder.is_dir():
+        raise ParameterError(f"out = {str(out)!r}: is a file, a folder is required")
+    return folder
+
+
+def runs_of_study(where: str, scene: "Scene", runs: Any) -> int:
+    """Return the base points of a scene's study; ParameterError, from ``where``, if none can be."""
+    from ...shift.scene.places import scene_scatter
+
+    if scene.sequence:
+        raise ParameterError(f"{where}: of one shift, allowed: a scene without [sequence]")
+    try:
+        number = rounded_runs(runs)
+    except ParameterError:
+        raise ParameterError(
+            f"{where}: allowed: a whole number {LEAST_RUNS} .. {MOST_RUNS}, best a power of two"
+        ) from None
+    if not scene_scatter(scene).sources:
+        raise ParameterError(
+            f"{where}: nothing scatters in {scene.name}: add [scatter] to the scene, such as "
+            'oil_temperature = "3 K"'
+        )
+    return number

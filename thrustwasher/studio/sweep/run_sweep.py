@@ -1,0 +1,154 @@
+"""Solve a whole sweep: in this process, on all cores, or on a cluster."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...model.part_file import PartFile
+from ...processes import refuse_import_by_worker
+from ...storage.journal import Journal
+from ..jobs.rows import Rows
+from ..jobs.runner import Progress, Runner, Work, check_workers
+from .solve_rows import Task, check_rung, output_signals, solve_task
+from .sweep_plan import Plan, make_plan
+from .sweep_table import SweepTable, check_output, make_table, pieces, write_table
+
+TASK_POINTS = 4096
+
+
+def run_sweep(
+    model: str | PartFile,
+    over: Mapping[str, object] | None = None,
+    *,
+    at: Mapping[str, object] | None = None,
+    points: Mapping[str, object] | None = None,
+    params: object = None,
+    fidelity: str | None = None,
+    out: str | Path | None = None,
+    workers: int | None = None,
+    cluster: str | None = None,
+    progress: Progress | None = None,
+    keep: bool = True,
+) -> SweepTable:
+    """Return the outputs of a model over all combinations of some inputs and parameters.
+
+    Parameters
+    ----------
+    model : "washer", "clutch" (slipping for ever) or "gearmesh", or a part (``load_part``)
+    over : values by name of an input or parameter (``gearmesh`` takes ``power`` for ``load`` too):
+        numbers, or a text such as "50:1850:50", "20:1850:x40", "24 degC, 80 degC"
+    at : one value by name for what is held; the rest is at the model's defaults, moved into the
+        part's box
+    points : instead of ``over``, columns of one length by name: every row is a point
+    params : parameter object to start from
+    fidelity : level of the model, or "auto:0.01": the cheapest one whose torque the verification
+        tables verify to 1 % over all points
+    out : file to write, .csv or .parquet; a journal lies next to it until the sweep is done, and
+        the same call goes on from there
+    workers : processes on this machine; None: as many as there are cores where that pays, 1: none
+    cluster : address of a Dask scheduler, e.g. "tcp://10.0.0.1:8786", instead
+    progress : called as progress(points done, points in all)
+    keep : False: with ``out``, the columns are there alone, and memory does not grow with them
+
+    Returns
+    -------
+    SweepTable
+        The rows do not depend on the workers. A failed point is a row with its status and NaN.
+
+    Raises
+    ------
+    ParameterError : wrong argument, or ``out`` has a journal of another sweep
+    SolveError : with auto, no level is verified to the tolerance
+    EnvironmentProblem : a package is missing, the cluster does not answer, workers keep dying
+
+    Notes
+    -----
+    Inputs run faster than parameters, and of each the one named first runs fastest. The rows along
+    the fastest input are one line: it begins without memory and is walked with warm starts, so
+    that a line up in load follows the film branch to its fold, and one down the contact branch. In
+    ``points`` every row stands alone unless a column ``line`` gives rows the same number.
+
+    Examples
+    --------
+    >>> table = run_sweep("clutch", {"load": "1 kN:3 kN:1 kN"}, at={"speed": 10.0})
+    >>> table["friction_torque"].round(2).tolist(), table["status"].tolist()
+    ([36.26, 68.76, 98.05], ['OK', 'OK', 'OK'])
+    """
+    refuse_import_by_worker()
+    check_workers(workers, cluster)
+    target = None if out is None else check_output(out)
+    plan = make_plan(model, over or {}, at or {}, points, params, fidelity)
+    if len(plan.params) == 1:
+        check_rung(plan.spec, plan.fidelity, plan.params[0])
+    real, whole = output_signals(plan.spec)
+    n = plan.n_rows if keep or not target else 0
+    kept = np.full((n, len(real)), np.nan), np.zeros((n, len(whole)), np.int32)
+    journal = Journal(journal_of(target), plan.identity) if target else None
+    finished = False
+    try:
+        rows = Rows(
+            n=plan.n_rows, numbers=kept[0], flags=kept[1], journal=journal, progress=progress
+        )
+        with Runner(workers=workers, cluster=cluster) as runner:
+            runner.run(_Lines(plan, rows).work())
+        table = make_table(plan, *kept)
+        if target and journal:
+            blocks = journal.blocks(len(real), len(whole))
+            counts, found = write_table(pieces(plan, blocks), target)
+            table = table if n else replace(table, columns={}, counts=counts, beyond=found)
+        finished = True
+    finally:
+        if journal:
+            journal.close(finished=finished)
+    return table
+
+
+def journal_of(out: Path) -> Path:
+    """Return the journal that lies next to an output while its sweep is not done."""
+    return out.with_name(out.name + ".journal")
+
+
+@dataclass(frozen=True)
+class _Lines:
+    """The lines of a plan, and which of their rows are done."""
+
+    plan: Plan
+    rows: Rows
+
+    def work(self) -> Work[Task, tuple[NDArray[np.float64], NDArray[np.int32]]]:
+        """Return what is left to do."""
+        return Work(
+            solve=solve_task,
+            open_jobs=self._tasks,
+            take=lambda task, found: self.rows.take(task.first_row, *found),
+            size=lambda task: len(task.inputs),
+            left=lambda: self.rows.left,
+            most=len(self.plan.params_of),
+        )
+
+    def _tasks(self, n: int) -> Iterator[Task]:
+        """Give the lines that are not done, some at a time: enough work to be worth the way."""
+        plan = self.plan
+        size = min(TASK_POINTS, max(1, plan.n_rows // (32 * n)))
+        starts = plan.starts.tolist()
+        open_lines = np.flatnonzero(~self.rows.done[plan.starts[:-1]]).tolist()
+        group: list[int] = []
+        for line in open_lines:
+            begins = starts[group[0]] if group else 0
+            if group and (line != group[-1] + 1 or starts[line + 1] - begins > size):
+                yield self._task(group[0], group[-1] + 1)
+                group = []
+            group.append(line)
+        if group:
+            yield self._task(group[0], group[-1] + 1)
+
+    def _task(self, a: int, b: int) -> Task:
+        """Return the task of lines ``a .. b - 1``."""
+        plan = self.plan
+        starts = plan.starts[a : b + 1]
+        lines, rows = tuple((starts - starts[0]).tolist()), plan.inputs[starts[0] : starts[-1]]
+        params = tuple(plan.params[i] for i in plan.params_of[a:b])
+        return Task(plan.spec.key, plan.fidelity, int(starts[0]), rows, lines, params)

@@ -1,0 +1,125 @@
+"""Solve lines of operating points; this is what runs in the workers.
+
+A line starts without memory and is walked row by row: each point is solved warm from the one
+before it. Where several solutions exist the path stays on its branch while that exists, as a
+loaded washer does: going up in load the film is kept to its fold, coming down again it is
+regained at the other one. A point that fails leaves the memory as it was.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from threading import get_ident
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import FIRST_FAILURE, ParameterError, Status
+from ...model.prepare import fill_table, filled, wants_table
+from ...model.registry import find_model, kernel_of, spec_of
+from ...model.spec import ModelSpec, Signal
+from ...native.load import bound
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.int32]
+
+
+@dataclass(frozen=True)
+class Task:
+    """Some consecutive lines, complete with all that a worker needs to know."""
+
+    model: str
+    fidelity: str
+    first_row: int
+    inputs: Array  # (n, n_inputs)
+    starts: tuple[int, ...]  # of the lines, from 0, and the end
+    params: tuple[Any, ...]  # of each line; None: broken rule
+
+
+def output_signals(spec: ModelSpec) -> tuple[tuple[Signal, ...], tuple[Signal, ...]]:
+    """Return the real outputs of a row, and the whole-number ones with the status last."""
+    left_out = find_model(spec.key).sweep.not_shown
+    real = tuple(s for s in spec.outputs if s.kind == "real" and s.name not in left_out)
+    whole = [s for s in spec.outputs if s.kind != "real"]
+    whole.sort(key=lambda s: s.name == "status")
+    return real, tuple(whole)
+
+
+def solve_task(task: Task) -> tuple[Array, Flags]:
+    """Return the real and the whole-number outputs of the rows; NaN where a row failed."""
+    spec = spec_of(task.model)
+    real, whole = output_signals(spec)
+    numbers = np.empty((len(task.inputs), len(real)))
+    flags = np.zeros((len(task.inputs), len(whole)), np.int32)
+    walk = find_model(spec.key).sweep.walk or _walk_kernel
+    for a, b, params in zip(task.starts[:-1], task.starts[1:], task.params, strict=True):
+        if params is None:
+            flags[a:b, -1] = Status.BAD_INPUT
+        else:
+            try:
+                walk(spec, params, task.fidelity, task.inputs[a:b], numbers[a:b], flags[a:b])
+                absent = spec.absent(params)
+                numbers[a:b, [i for i, s in enumerate(real) if s.name in absent]] = np.nan
+            except ParameterError:  # parameters that only the kernel's constants refuse
+                flags[a:b, -1] = Status.BAD_INPUT
+    numbers[flags[:, -1] >= FIRST_FAILURE] = np.nan
+    return numbers, flags
+
+
+def _walk_kernel(
+    spec: ModelSpec, params: object, fidelity: str, inputs: Array, numbers: Array, flags: Flags
+) -> None:
+    """Fill the rows of one line by steps of the model's kernel."""
+    kernel = kernel_of(spec)
+    state = np.zeros(kernel.NSTATE)
+    par = _constants(spec.key, fidelity, params)
+    work = _work(spec, fidelity, params, par)
+    out, iout = np.empty(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
+    real, whole = _places(spec)
+    step = bound(kernel.step, par=par, state=state, work=work, out=out, iout=iout)
+    for point, row, flag in zip(inputs, numbers, flags, strict=True):
+        status = step(point, 0.0, 1.0)
+        row[:], flag[:] = out[real], iout[whole]
+        if status >= FIRST_FAILURE:
+            flag[-1] = status
+
+
+def _places(spec: ModelSpec) -> tuple[list[int], list[int]]:
+    """Return where in the kernel's ``out`` and ``iout`` the columns of a row stand."""
+    every = (
+        [s for s in spec.outputs if s.kind == "real"],
+        [s for s in spec.outputs if s.kind != "real"],
+    )
+    real, whole = output_signals(spec)
+    return [every[0].index(s) for s in real], [every[1].index(s) for s in whole]
+
+
+@lru_cache(maxsize=64)
+def _constants(model: str, fidelity: str, params: object) -> Array:
+    """Return the kernel's ``par``; many lines share their parameters."""
+    spec = spec_of(model)
+    kernel = kernel_of(spec)
+    par: Array = filled(spec, params, fidelity, kernel.NPAR, kernel.derive)
+    return par
+
+
+def _work(spec: ModelSpec, fidelity: str, params: object, par: Array) -> Array:
+    """Return this thread's work array of a kernel; ParameterError: the level's table is missing."""
+    table = (fidelity, params) if wants_table(spec, par) else (None, None)
+    return _filled_work(spec.key, *table, get_ident())
+
+
+@lru_cache(maxsize=16)
+def _filled_work(model: str, fidelity: str | None, params: object, _thread: int) -> Array:
+    """Return a work array; the kernel writes to it: no two threads have the same."""
+    spec = spec_of(model)
+    work: Array = np.zeros(kernel_of(spec).NWORK)
+    if fidelity is not None:
+        fill_table(spec, params, _constants(model, fidelity, params), work)
+    return work
+
+
+def check_rung(spec: ModelSpec, fidelity: str, params: object) -> None:
+    """Raise ParameterError if a level lacks what it needs for the first parameters of a sweep."""
+    if not find_model(spec.key).sweep.walk and params is not None:
+        _work(spec, fidelity, params, _constants(spec.key, fidelity, params))

@@ -1,0 +1,243 @@
+"""The rows of a sweep as columns, and as a file."""
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from itertools import chain
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import FIRST_FAILURE, EnvironmentProblem, ParameterError, Status
+from ...model.registry import find_model
+from ...model.solutions import without_idle, words_at_points
+from ...model.spec import NAMED
+from ...shown import Card, Tabled, Words, column_lines, plain_dict
+from ...storage.journal import Block
+from ...storage.whole_files import whole_file
+from ..jobs.cluster import INSTALL
+from .row_doubts import Beyond, beyond, joined
+from .solve_rows import output_signals
+from .sweep_plan import Plan
+
+SUFFIXES = (".csv", ".parquet")
+CHUNK = 50_000  # rows made into text, or a group of Parquet, at a time
+
+
+@dataclass(frozen=True)
+class SweepTable(Tabled):
+    """All points of a sweep: inputs, varied parameters, outputs, status; SI units.
+
+    ``columns`` maps names to arrays in the order of the rows, as ``pandas.DataFrame`` takes them.
+    ``choice`` says why the level ``fidelity`` was chosen, if it was not requested by name.
+    Outputs of a failed point are NaN, "" or False; ``status`` says why;
+    ``counts`` are the points by status. ``taken`` names the inputs that were not given and where
+    their values come from, ``outside`` those of which points lie outside the part's box,
+    ``beyond`` the outputs that are beyond what a part bears, ``model`` the key of what was solved.
+    """
+
+    columns: dict[str, NDArray[Any]]
+    units: dict[str, str]
+    fidelity: str = ""
+    choice: str = ""
+    counts: Mapping[str, int] = field(default_factory=dict)
+    taken: str = ""
+    outside: tuple[str, ...] = ()
+    beyond: tuple[Beyond, ...] = ()
+    model: str = ""
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What a reader must not miss: points outside the part's box, and those with an advice."""
+        limits = (found.text(len(self)) for found in self.beyond)
+        hot = max((found.rows for found in self.beyond if found.sign > 0.0), default=0)
+        known = {
+            "OK",
+            *(["HOT"] if hot >= self.counts.get("HOT", 0) else []),
+        }  # told with the worst
+        advised = (
+            f"{n} of {len(self)} points {name}: {Status[name].advice}"
+            for name, n in sorted(self.counts.items())
+            if name not in known
+        )
+        return (*self.outside, *advised, *limits)
+
+    def __len__(self) -> int:
+        return sum(self.counts.values())
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        return self.columns[name]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return columns with their units and what is to be known of them, as JSON can hold it."""
+        own = ("model", "fidelity", "choice", "columns", "units", "counts", "taken", "warnings")
+        return plain_dict({name: getattr(self, name) for name in own})
+
+    def outputs(self) -> list[str]:
+        """Return the names of the model's outputs among the columns."""
+        known = {s.name for s in find_model(self.model).spec.outputs} if self.model else set()
+        return [name for name in self.columns if name in known]
+
+    def axes(self) -> list[str]:
+        """Return the names of the other columns that are not the same in all rows."""
+        own = {*self.outputs(), "status"}
+        others = [name for name in self.columns if name not in own]
+        return [name for name in others if len(set(self.columns[name].tolist())) > 1]
+
+    def _columns(self) -> dict[str, NDArray[Any]]:
+        return self.columns
+
+    def _words(self) -> dict[str, Words]:
+        known = words_at_points(find_model(self.model)) if self.model else {}
+        return {n: known.get(n, Words())._replace(unit=unit) for n, unit in self.units.items()}
+
+    def _card(self) -> Card:
+        title = f"{len(self)} points of {self.model or 'a sweep'}, {self.fidelity}"
+        notes = [f"{text[0].upper()}{text[1:]}." for text in (self.choice, self.taken) if text]
+        spec = find_model(self.model).spec if self.model else None
+        columns = without_idle(spec, self.columns) if spec else self.columns
+        return Card(title, column_lines(columns, self._words()), notes, self.warnings)
+
+    @property
+    def failures(self) -> dict[str, int]:
+        """How many points failed with which status."""
+        failed = {s.name for s in Status if s.is_failure}
+        return {name: n for name, n in sorted(self.counts.items()) if name in failed}
+
+
+def make_table(
+    plan: Plan, numbers: NDArray[np.float64], flags: NDArray[np.int32], first: int = 0
+) -> SweepTable:
+    """Return the table of outputs as ``solve_task`` gives them, of the plan's rows from one on."""
+    real, whole = output_signals(plan.spec)
+    rows = slice(first, first + len(flags))
+    columns, units = {name: column[rows] for name, column in plan.shown.items()}, dict(plan.units)
+    for i, signal in enumerate(real):
+        columns[signal.name], units[signal.name] = numbers[:, i], signal.unit
+    failed = flags[:, -1] >= FIRST_FAILURE
+    for i, signal in enumerate(whole[:-1]):
+        column = flags[:, i]
+        if signal.type in NAMED:
+            names = np.array(["", *NAMED[signal.type]], object)
+            columns[signal.name] = names[np.where(failed, 0, column)]
+        else:
+            columns[signal.name] = (column != 0) & ~failed
+    names = np.full(max(Status) + 1, "", object)
+    for status in Status:
+        names[status] = status.name
+    columns["status"] = names[flags[:, -1]]
+    counts = {Status(i).name: n for i, n in enumerate(np.bincount(flags[:, -1]).tolist()) if n}
+    more = plan.taken, plan.warnings, tuple(beyond(plan.spec, columns)), plan.spec.key
+    return SweepTable(columns, units, plan.fidelity, plan.choice, counts, *more)
+
+
+def pieces(plan: Plan, blocks: Iterable[Block]) -> Iterator[SweepTable]:
+    """Yield the table of consecutive blocks of rows in pieces."""
+    waiting: list[Block] = []
+    for block in blocks:
+        waiting.append(block)
+        first, end = waiting[0][0], block[0] + len(block[2])
+        if end - first >= CHUNK or end == plan.n_rows:
+            numbers, flags = (np.concatenate(part) for part in list(zip(*waiting, strict=True))[1:])
+            yield make_table(plan, numbers, flags, first)
+            waiting = []
+
+
+def check_output(path: str | Path) -> Path:
+    """Return the path if the table can be written there; said before any work is done."""
+    target = Path(path)
+    if target.suffix.lower() not in SUFFIXES:
+        raise ParameterError(f"out = {str(path)!r}, allowed: a name ending in .csv or .parquet")
+    if target.is_dir():
+        raise ParameterError(f"out = {str(path)!r}: is a folder, the name of a file is required")
+    if target.suffix.lower() == ".parquet":
+        _pyarrow()
+    return target
+
+
+def write_table(
+    tables: Iterator[SweepTable], path: Path
+) -> tuple[Counter[str], tuple[Beyond, ...]]:
+    """Write CSV or Parquet, as the name ends, from pieces of a table, whole or not at all.
+
+    Return the points by status, and what is beyond its bound.
+    """
+    counts, first, found = Counter[str](), next(tables), list[Beyond]()
+    with whole_file(path) as draft, ExitStack() as stack:
+        if is_parquet := path.suffix.lower() == ".parquet":
+            group = _batch(first)
+            writer = stack.enter_context(_pyarrow()[1].ParquetWriter(draft, group.schema))
+        else:
+            stream = stack.enter_context(draft.open("w", encoding="utf-8", newline=""))
+        for table in chain([first], tables):
+            counts.update(table.counts)
+            found = joined([*found, *table.beyond])
+            if is_parquet:
+                writer.write_table(_batch(table).cast(group.schema))
+            else:
+                write_csv(table, stream, head=table is first)
+    return counts, tuple(found)
+
+
+def write_csv(table: SweepTable, stream: IO[str], *, head: bool = True) -> None:
+    """Write the table as CSV: units in the head, numbers in full, empty where a point failed."""
+    heads = [
+        f"{name} [{table.units[name]}]" if table.units.get(name, "1") != "1" else name
+        for name in table.columns
+    ]
+    if head:
+        stream.write(",".join(heads) + "\n")
+    n = len(table)
+    for a in range(0, n, CHUNK):
+        texts = [_texts(column[a : a + CHUNK]) for column in table.columns.values()]
+        stream.write("\n".join(map(",".join, zip(*texts, strict=True))) + "\n")
+
+
+def _texts(column: NDArray[Any]) -> Sequence[str]:
+    """Return the cells of a column; equal numbers, as on a grid, are made into text once."""
+    if column.dtype.kind == "b":
+        return ["true" if value else "false" for value in column.tolist()]
+    if column.dtype.kind != "f":
+        return [str(value) for value in column.tolist()]
+    bits, where = np.unique(column.view(np.int64), return_inverse=True)
+    if len(bits) > len(column) // 2:
+        texts = list(map(repr, column.tolist()))
+        return [text if text != "nan" else "" for text in texts] if "nan" in texts else texts
+    cells = ["" if text == "nan" else text for text in map(repr, bits.view(np.float64).tolist())]
+    found: list[str] = np.array(cells, object)[where].tolist()
+    return found
+
+
+def _batch(table: SweepTable) -> Any:
+    """Return a table of pyarrow with units in the columns' metadata; failed numbers are null."""
+    pa, _ = _pyarrow()
+    fields, arrays = [], []
+    bad = np.isin(table["status"], [s.name for s in Status if s.is_failure])
+    for title, column in table.columns.items():
+        if column.dtype == object:
+            array = pa.array(column.tolist())
+            if pa.types.is_string(array.type):
+                array = array.dictionary_encode()
+        elif column.dtype == bool:
+            array = pa.array(np.ascontiguousarray(column), mask=bad)
+        else:  # NaN, from a failed point, becomes null
+            array = pa.array(np.ascontiguousarray(column), from_pandas=True)
+        unit = table.units.get(title, "")
+        fields.append(pa.field(title, array.type, metadata={"unit": unit} if unit else None))
+        arrays.append(array)
+    return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
+
+
+def _pyarrow() -> tuple[Any, Any]:
+    """Return pyarrow and its Parquet part, or say how to get them."""
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError:
+        raise EnvironmentProblem(
+            f"a Parquet file needs the package pyarrow: {INSTALL}; or choose a name ending in .csv"
+        ) from None
+    return pyarrow, pyarrow.parquet

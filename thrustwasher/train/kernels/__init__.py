@@ -1,0 +1,19 @@
+"""Compiled code of the gear train.
+
+================  ========================================================================
+``layout``        places in the arrays
+``tooth_forces``  forces of teeth in space, what two bearings make of them by statics
+``bearing_life``  equivalent load and basic rating life of a rolling bearing
+``chain``         torques from shaft to shaft until losses and forces agree
+``step``          one co-simulation step: it remembers the bodies of the meshes
+================  ========================================================================
+"""
+
+# What Python calls: module of the library -> functions, by their module.
+CALLED = {
+    "thrustwasher.train.kernels.step": (
+        "thrustwasher.train.kernels.bearing_life: equivalent_load rating_life",
+        "thrustwasher.train.kernels.step: derive step",
+        "thrustwasher.train.kernels.tooth_forces: support",
+    ),
+}

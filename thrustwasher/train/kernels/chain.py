@@ -1,0 +1,177 @@
+# mypy: disable-error-code="no-any-return"
+"""Torques from shaft to shaft, until the losses and the forces that make them agree."""
+
+import math
+
+import numpy as np
+
+from ...gearmesh.kernels import layout as G
+from ...gearmesh.kernels.mesh_point import viscosity_at
+from ...gearmesh.kernels.step import step as mesh_step
+from ...losses.kernels.loss_laws import bearing_drag, churning_drag, seal_drag
+from ...numerics.jit import Array, Ints, kernel
+from ...numerics.status import MAX_ITERATIONS, OK
+from . import layout as L
+from .bearing_life import equivalent_load
+from .tooth_forces import bear, fill_force
+
+SWEEPS, PLAIN, EASED, SETTLED = 600, 12, 0.3, 1e-14  # PLAIN: sweeps before they are eased
+
+
+@kernel
+def shaft_loss(work: Array, shaft: int) -> float:
+    """Return the torque against a shaft [N m], sign of its speed."""
+    total = 0.0
+    for k in range(L.LOSSES):
+        total += work[np.uintp(L.W_LOSS + shaft * L.LOSSES + k)]
+    return total
+
+
+@kernel
+def march(
+    par: Array, inp: Array, state: Array, work: Array, iout: Ints, t: float, dt: float
+) -> int:
+    """Fill torques, speeds and the pairs' outputs from input to output; return the worst status.
+
+    The losses of the shafts are as in ``work``.
+    """
+    torque, speed, worst = inp[L.I_TORQUE], inp[L.I_SPEED], OK
+    meshes = int(par[L.P_MESHES])
+    given = work[L.W_INP : L.W_INP + G.NINP]
+    for i in range(meshes):
+        work[np.uintp(L.W_SPEED + i)] = speed
+        torque -= shaft_loss(work, i)
+        work[np.uintp(L.W_TORQUE + i)] = torque
+        ratio = par[np.uintp(L.D_MESH + i * L.E_ROW + L.E_RATIO)]
+        driver = par[np.uintp(L.P_MESH + i * L.MESH_ROW + L.A_DRIVER)]
+        slower = -1.0 if driver == L.PINION else ratio  # driver's torque over the pinion's
+        turn = 1.0 if driver == L.PINION else -1.0 / ratio  # pinion's speed over the driver's
+        given[G.I_LOAD] = torque if driver == L.PINION else -torque * slower
+        given[G.I_SPEED], given[G.I_OIL] = speed * turn, inp[L.I_OIL]
+        out = work[L.W_OUT + i * G.NOUT : L.W_OUT + (i + 1) * G.NOUT]
+        status = mesh_step(
+            par[L.D_PAIR + i * G.NPAR : L.D_PAIR + (i + 1) * G.NPAR],
+            given,
+            state[i * G.NSTATE : (i + 1) * G.NSTATE],
+            work[L.W_PAIR : L.W_PAIR + G.NWORK],
+            out,
+            iout[i * G.NIOUT : (i + 1) * G.NIOUT],
+            t,
+            dt,
+        )
+        worst = max(worst, status)
+        rubbing = out[G.F_TORQUE] * turn
+        work[np.uintp(L.W_FRICTION + i)] = rubbing
+        torque, speed = -(torque - rubbing) * ratio, -speed / ratio
+    work[np.uintp(L.W_SPEED + meshes)] = speed
+    work[L.W_END] = torque - shaft_loss(work, meshes)
+    return worst
+
+
+@kernel
+def fill_loads(par: Array, work: Array) -> None:
+    """Fill tooth forces and the forces of all bearings."""
+    meshes = int(par[L.P_MESHES])
+    for i in range(meshes):
+        force = work[L.W_FORCE + 3 * i : L.W_FORCE + 3 * i + 3]
+        fill_force(par, i, work[np.uintp(L.W_TORQUE + i)], force)
+    for i in range(meshes + 1):
+        bear(par, meshes, i, work)
+
+
+@kernel
+def fill_losses(par: Array, oil: float, work: Array, share: float) -> float:
+    """Move the loss torques by ``share`` towards those of the forces; return the largest move."""
+    meshes, moved = int(par[L.P_MESHES]), 0.0
+    pair = par[L.D_PAIR : L.D_PAIR + G.NPAR]
+    nu, smooth = viscosity_at(pair, oil) / pair[G.P_OIL_DENSITY], pair[G.P_SPEED_SMOOTHING]
+    for i in range(meshes + 1):
+        speed, own = work[np.uintp(L.W_SPEED + i)], L.P_SHAFT + i * L.SHAFT_ROW
+        turning, sign = math.hypot(speed, smooth), math.tanh(speed / smooth)
+        at = L.W_LOSS + i * L.LOSSES
+        for k in range(L.LOSSES):
+            if k < L.ENDS:
+                size = bearing_torque(par, i, k, turning, nu, work)
+            elif k == L.ENDS:
+                drag, _ = seal_drag(oil, par[L.D_NU_40], par[np.uintp(own + L.B_SEAL_DIAMETER)])
+                size = par[np.uintp(own + L.B_SEALS)] * drag
+            else:
+                size = churning_torque(par, meshes, i, turning, nu)
+            change = share * (size * sign - work[np.uintp(at + k)])
+            work[np.uintp(at + k)] += change
+            moved = max(moved, abs(change))
+    return moved
+
+
+@kernel
+def bearing_torque(
+    par: Array, shaft: int, end: int, turning: float, nu: float, work: Array
+) -> float:
+    """Return the size of the torque of a bearing [N m] under its equivalent load."""
+    row = L.P_SHAFT + shaft * L.SHAFT_ROW + L.B_BEARING + end * L.BEARING_ROW
+    at = L.W_BEARING + 2 * (L.ENDS * shaft + end)
+    load = equivalent_load(
+        work[np.uintp(at)],
+        work[np.uintp(at + 1)],
+        par[np.uintp(row + L.C_X)],
+        par[np.uintp(row + L.C_Y)],
+    )
+    drag, _, _ = bearing_drag(
+        turning,
+        nu,
+        load,
+        par[np.uintp(row + L.C_DIAMETER)],
+        par[np.uintp(row + L.C_VISCOUS)],
+        par[np.uintp(row + L.C_LOAD)],
+        par[np.uintp(L.D_STARVED + L.ENDS * shaft + end)],
+    )
+    return drag
+
+
+@kernel
+def churning_torque(par: Array, meshes: int, shaft: int, turning: float, nu: float) -> float:
+    """Return the size of the torque of a shaft's gears that dip into the oil [N m]."""
+    total = 0.0
+    for mesh in range(max(shaft - 1, 0), min(shaft + 1, meshes)):
+        drives = mesh == shaft
+        gear = 0 if drives == (par[np.uintp(L.P_MESH + mesh * L.MESH_ROW)] == L.PINION) else 1
+        at = L.D_MESH + mesh * L.E_ROW + L.E_GEARS + gear * L.GEAR_ROW
+        slow, fast = par[np.uintp(at)], par[np.uintp(at + 1)]
+        drag, _, _ = churning_drag(
+            turning, nu, slow, fast, par[np.uintp(at + 2)], par[np.uintp(at + 3)]
+        )
+        total += drag
+    return total
+
+
+@kernel
+def solve_chain(
+    par: Array, inp: Array, state: Array, work: Array, iout: Ints, t: float, dt: float
+) -> int:
+    """Fill ``work`` with torques, forces and losses that agree; return 0 or a failure.
+
+    The state moves on by ``dt``. Losses grow with a small share of the forces, so that a few sweeps
+    settle them. Where the output drives and they grow faster than what it brings, the chain locks
+    itself and nothing settles; where the input drives they settle anyway, eased.
+    """
+    for k in range(L.SHAFTS * L.LOSSES):
+        work[np.uintp(L.W_LOSS + k)] = 0.0
+    settled, drives = False, inp[L.I_TORQUE] * inp[L.I_SPEED] > 0.0
+    for n in range(SWEEPS):
+        status = march(par, inp, state, work, iout, t, 0.0)
+        if status >= 10:
+            return status
+        fill_loads(par, work)
+        share = EASED if n >= PLAIN and drives else 1.0
+        moved = fill_losses(par, inp[L.I_OIL], work, share)
+        size = abs(inp[L.I_TORQUE])
+        for i in range(int(par[L.P_MESHES])):
+            size = max(size, abs(work[np.uintp(L.W_TORQUE + i)]))
+        settled = moved <= SETTLED * (1.0 + size)
+        if settled:
+            break
+    if not settled:
+        return MAX_ITERATIONS
+    status = march(par, inp, state, work, iout, t, dt)
+    fill_loads(par, work)
+    return status

@@ -1,0 +1,219 @@
+# mypy: disable-error-code="no-any-return"
+"""One co-simulation step of the gear train: it remembers the bodies of the meshes."""
+
+import math
+
+import numpy as np
+
+from ...gearmesh.kernels import layout as G
+from ...gearmesh.kernels.mesh_point import viscosity_at
+from ...gearmesh.kernels.step import broken_rule as broken_pair
+from ...gearmesh.kernels.step import derive as derive_pair
+from ...gearmesh.kernels.working_pair import section
+from ...losses.kernels.loss_laws import churning_constants, starved
+from ...numerics.arrays import are_finite
+from ...numerics.jit import Array, Ints, kernel
+from ...numerics.status import BAD_INPUT, NOT_FINITE, OK, OUTSIDE_VERIFIED
+from . import layout as L
+from .bearing_life import equivalent_load, rating_life
+from .chain import solve_chain
+
+N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
+NOUT, NIOUT = L.NOUT, L.NIOUT
+HOLDS_NOT = 3.0  # the number of `holding = off`
+K_Z = (3.1, 4.4, 5.1, 6.0)  # of the types of bearings: SKF's constant of starvation
+COLDEST, HOTTEST = 253.15, 423.15  # K, between which the laws are meant
+AT_40 = 313.15  # K
+
+
+@kernel
+def fill_pair(par: Array, mesh: int) -> None:
+    """Fill the parameters of a pair's own array."""
+    own, at = L.P_MESH + mesh * L.MESH_ROW + L.A_PAIR, L.D_PAIR + mesh * G.NPAR
+    for k in range(L.N_OWN):
+        par[np.uintp(at + L.OWN[k])] = par[np.uintp(own + k)]
+    for k in range(L.N_SHARED):
+        par[np.uintp(at + L.SHARED[k])] = par[np.uintp(L.P_SHARED + k)]
+    for k in range(L.N_FIXED):
+        par[np.uintp(at + L.FIXED[k])] = 0.0
+    par[np.uintp(at + G.P_HOLDING)] = HOLDS_NOT
+    par[np.uintp(at + G.P_FIDELITY)] = float(G.FIELD)
+
+
+@kernel
+def derive_mesh(par: Array, mesh: int) -> None:
+    """Fill radii, forces per torque and churning of a mesh, after its pair."""
+    own, at = L.P_MESH + mesh * L.MESH_ROW, L.D_MESH + mesh * L.E_ROW
+    pair = par[L.D_PAIR + mesh * G.NPAR : L.D_PAIR + (mesh + 1) * G.NPAR]
+    ratio, distance = pair[G.P_GEAR_RATIO], pair[G.D_CENTRE]
+    pinion = distance / (ratio + 1.0)
+    drives = par[np.uintp(own + L.A_DRIVER)] == L.PINION
+    par[np.uintp(at + L.E_RATIO)] = ratio if drives else 1.0 / ratio
+    par[np.uintp(at + L.E_DRIVER)] = pinion if drives else distance - pinion
+    par[np.uintp(at + L.E_DRIVEN)] = distance - pinion if drives else pinion
+    par[np.uintp(at + L.E_RADIAL)] = math.tan(pair[G.D_ANGLE])
+    # base circles share a helix: tan b at the working circle is tan b of it times r_w/r
+    reference = section(pair)[1] / (ratio + 1.0)
+    slope = math.tan(pair[G.P_HELIX_ANGLE]) * pinion / reference
+    right = (par[np.uintp(own + L.A_HAND)] == L.RIGHT) == drives
+    par[np.uintp(at + L.E_AXIAL)] = slope if right else -slope
+    for gear in range(2):
+        radius = pinion if gear == 0 else distance - pinion
+        width, row = pair[G.P_FACE_WIDTH], at + L.E_GEARS + gear * L.GEAR_ROW
+        depth = par[np.uintp(own + L.A_PINION_IMMERSION + gear)]
+        par[np.uintp(row)], par[np.uintp(row + 1)] = churning_constants(
+            2.0 * radius, width, depth, par[L.P_OIL_VOLUME], pair[G.P_OIL_DENSITY]
+        )
+        par[np.uintp(row + 2)] = radius * width
+        par[np.uintp(row + 3)] = (radius * radius * width) ** (1.0 / 3.0)
+
+
+@kernel
+def derive(par: Array) -> int:
+    """Fill the constants behind the parameters; return 0, or the status of a failure."""
+    for i in range(int(par[L.P_MESHES])):
+        fill_pair(par, i)
+        pair = par[L.D_PAIR + i * G.NPAR : L.D_PAIR + (i + 1) * G.NPAR]
+        if broken_pair(pair) > 0:
+            return BAD_INPUT
+        status = derive_pair(pair)
+        if status >= 10:
+            return status
+        derive_mesh(par, i)
+    pair = par[L.D_PAIR : L.D_PAIR + G.NPAR]
+    par[L.D_NU_40] = viscosity_at(pair, AT_40) / pair[G.P_OIL_DENSITY]
+    for i in range(L.SHAFTS * L.ENDS):
+        row = L.P_SHAFT + i // L.ENDS * L.SHAFT_ROW + L.B_BEARING + i % L.ENDS * L.BEARING_ROW
+        par[np.uintp(L.D_STARVED + i)] = starved(
+            par[L.P_STARVATION],
+            K_Z[int(par[np.uintp(row + L.C_KIND)]) - 1],
+            par[np.uintp(row + L.C_DIAMETER)],
+            par[np.uintp(row + L.C_SECTION)],
+        )
+    return OK if are_finite(par[L.N_PARAM : L.D_PAIR]) else NOT_FINITE
+
+
+@kernel
+def broken_rule(par: Array) -> int:
+    """Return the number, from 1, of the shaft whose bearings lie at one place, or 0."""
+    for i in range(int(par[L.P_MESHES]) + 1):
+        row = L.P_SHAFT + i * L.SHAFT_ROW + L.B_BEARING + L.C_POSITION
+        if not abs(par[np.uintp(row)] - par[np.uintp(row + L.BEARING_ROW)]) >= 1e-4:
+            return i + 1
+    return 0
+
+
+@kernel
+def fill_meshes(par: Array, work: Array, out: Array) -> None:
+    """Fill what is told of each mesh, their losses and least safeties."""
+    for i in range(L.MESHES):
+        row = L.O_MESH + i * L.M_ROW
+        if i >= int(par[L.P_MESHES]):
+            for k in range(L.M_ROW):
+                out[np.uintp(row + k)] = L.NONE
+            continue
+        pair, force = L.W_OUT + i * G.NOUT, L.W_FORCE + 3 * i
+        loss = work[np.uintp(L.W_FRICTION + i)] * work[np.uintp(L.W_SPEED + i)]
+        tangential = abs(work[np.uintp(L.W_TORQUE + i)])
+        tangential /= par[np.uintp(L.D_MESH + i * L.E_ROW + L.E_DRIVER)]
+        radial = tangential * par[np.uintp(L.D_MESH + i * L.E_ROW + L.E_RADIAL)]
+        drives = par[np.uintp(L.P_MESH + i * L.MESH_ROW + L.A_DRIVER)] == L.PINION
+        axial = work[np.uintp(force)]
+        out[np.uintp(row + L.M_LOSS)] = loss
+        out[np.uintp(row + L.M_BULK)] = work[np.uintp(pair + G.F_BULK)]
+        out[np.uintp(row + L.M_TANGENTIAL)] = tangential
+        out[np.uintp(row + L.M_RADIAL)] = radial
+        out[np.uintp(row + L.M_AXIAL)] = axial if drives else -axial
+        out[np.uintp(row + L.M_PITTING)] = work[np.uintp(pair + G.F_PITTING_SAFETY)]
+        out[np.uintp(row + L.M_ROOT)] = work[np.uintp(pair + G.F_ROOT_SAFETY)]
+        out[np.uintp(row + L.M_SCUFFING)] = work[np.uintp(pair + G.F_SCUFFING_SAFETY)]
+        out[L.O_MESH_LOSS] += loss
+        out[L.O_HEAT] += work[np.uintp(pair + G.F_OIL_HEAT)]
+        for k in range(3):
+            safety = out[np.uintp(row + L.M_PITTING + k)]
+            out[np.uintp(L.O_PITTING + k)] = min(out[np.uintp(L.O_PITTING + k)], safety)
+
+
+@kernel
+def fill_bearings(par: Array, work: Array, out: Array) -> None:
+    """Fill what is told of each bearing, and losses of bearings, seals and churning."""
+    for i in range(L.SHAFTS * L.ENDS):
+        shaft, end, row = i // L.ENDS, i % L.ENDS, L.O_BEARING + i * L.R_ROW
+        if shaft > int(par[L.P_MESHES]):
+            for k in range(L.R_ROW):
+                out[np.uintp(row + k)] = L.NONE
+            continue
+        given = L.P_SHAFT + shaft * L.SHAFT_ROW + L.B_BEARING + end * L.BEARING_ROW
+        speed, at = work[np.uintp(L.W_SPEED + shaft)], L.W_BEARING + 2 * i
+        radial, axial = work[np.uintp(at)], work[np.uintp(at + 1)]
+        load = equivalent_load(
+            radial, axial, par[np.uintp(given + L.C_X)], par[np.uintp(given + L.C_Y)]
+        )
+        loss = work[np.uintp(L.W_LOSS + shaft * L.LOSSES + end)] * speed
+        kind = int(par[np.uintp(given + L.C_KIND)])
+        life = rating_life(par[np.uintp(given + L.C_CAPACITY)], load, speed, kind)
+        out[np.uintp(row + L.R_RADIAL)], out[np.uintp(row + L.R_AXIAL)] = radial, axial
+        out[np.uintp(row + L.R_LOAD)], out[np.uintp(row + L.R_LOSS)] = load, loss
+        out[np.uintp(row + L.R_LIFE)] = life
+        out[L.O_LIFE] = min(out[L.O_LIFE], life)
+        out[L.O_BEARING_LOSS] += loss
+        if end == 0:
+            seal = L.W_LOSS + shaft * L.LOSSES + L.ENDS
+            out[L.O_SEAL_LOSS] += work[np.uintp(seal)] * speed
+            out[L.O_CHURNING_LOSS] += work[np.uintp(seal + 1)] * speed
+
+
+@kernel
+def efficiency(given: float, left: float) -> float:
+    """Return what comes out over what goes in, of powers [W] in and out; -1 if nothing does."""
+    if given > 0.0 and left > 0.0:
+        return left / given
+    if given < 0.0 and left < 0.0:
+        return given / left
+    return L.NONE
+
+
+@kernel
+def step(
+    par: Array, inp: Array, state: Array, work: Array, out: Array, iout: Ints, t: float, dt: float
+) -> int:
+    """Fill the outputs at the present torque, speed and oil, held from t to t + dt.
+
+    Returns 0 or the status of a failure; advice stands in ``iout`` only.
+    """
+    oil, meshes = inp[L.I_OIL], int(par[L.P_MESHES])
+    if not (are_finite(inp) and oil > 0.0 and math.isfinite(dt) and dt >= 0.0):
+        iout[L.IO_STATUS] = BAD_INPUT
+        return BAD_INPUT
+    for i in range(L.MESHES):
+        iout[np.uintp(i * G.NIOUT + G.IO_REGIME)] = G.FILM
+        iout[np.uintp(i * G.NIOUT + G.IO_STATUS)] = OK
+    status = solve_chain(par, inp, state, work, iout, t, dt)
+    for k in range(L.NOUT):
+        out[np.uintp(k)] = 0.0
+    out[L.O_PITTING] = out[L.O_ROOT] = out[L.O_SCUFFING] = G.NO_LIMIT
+    out[L.O_LIFE] = 1e12
+    fill_meshes(par, work, out)
+    fill_bearings(par, work, out)
+    left, speed = work[L.W_END], work[np.uintp(L.W_SPEED + meshes)]
+    ratio = 1.0
+    for i in range(meshes):
+        ratio *= -par[np.uintp(L.D_MESH + i * L.E_ROW + L.E_RATIO)]
+    out[L.O_LOSS_TORQUE] = inp[L.I_TORQUE] - left / ratio
+    out[L.O_OUTPUT_TORQUE], out[L.O_OUTPUT_SPEED] = left, speed
+    rest = out[L.O_BEARING_LOSS] + out[L.O_SEAL_LOSS] + out[L.O_CHURNING_LOSS]
+    out[L.O_LOSS] = out[L.O_MESH_LOSS] + rest
+    out[L.O_EFFICIENCY] = efficiency(inp[L.I_TORQUE] * inp[L.I_SPEED], left * speed)
+    out[L.O_HEAT] += rest
+    out[L.O_ENERGY] = state[L.S_ENERGY] + out[L.O_HEAT] * dt
+    if status == OK:
+        for i in range(meshes):
+            status = max(status, iout[np.uintp(i * G.NIOUT + G.IO_STATUS)])
+        if not COLDEST <= oil <= HOTTEST:
+            status = max(status, OUTSIDE_VERIFIED)
+    if not are_finite(out):
+        status = NOT_FINITE
+    elif dt > 0.0 and status < 10:
+        state[L.S_ENERGY] = out[L.O_ENERGY]
+    iout[L.IO_STATUS] = status
+    return status if status >= 10 else 0

@@ -1,0 +1,75 @@
+# mypy: disable-error-code="no-any-return"
+"""Forces of teeth in space, and what the two bearings of a shaft make of them by statics.
+
+x runs along all shafts, y and z across. A torque or speed is positive about +x. On the driver, at
+the end of its working radius r along the unit vector e of the centre line, with t = x cross e:
+
+    F = -T/r t - |T|/r tan(a_wt) e + s T/r tan(b) x        s = 1 for a right hand of the driver
+
+and the opposite on the driven gear (Newton's third law); friction is a couple beside them.
+"""
+
+import math
+
+import numpy as np
+
+from ...numerics.jit import Array, kernel
+from . import layout as L
+
+
+@kernel
+def fill_force(par: Array, mesh: int, torque: float, force: Array) -> None:
+    """Fill the force (x, y, z) [N] on the driver of a mesh, which takes up ``torque`` [N m]."""
+    at, own = L.D_MESH + mesh * L.E_ROW, L.P_MESH + mesh * L.MESH_ROW
+    angle = par[np.uintp(own + L.A_ANGLE)]
+    cosine, sine = math.cos(angle), math.sin(angle)
+    tangential = torque / par[np.uintp(at + L.E_DRIVER)]
+    radial = abs(tangential) * par[np.uintp(at + L.E_RADIAL)]
+    force[0] = tangential * par[np.uintp(at + L.E_AXIAL)]
+    force[1] = tangential * sine - radial * cosine
+    force[2] = -tangential * cosine - radial * sine
+
+
+@kernel
+def support(
+    force: Array, arm: float, angle: float, place: float, ends: tuple[float, float]
+) -> tuple[float, float, float, float]:
+    """Return what a force on a shaft makes of its bearings: y and z of the first, of the second.
+
+    ``force``: (x, y, z) [N], acting at ``place`` [m] along the shaft, ``arm`` [m] from its axis in
+    the direction ``angle`` [rad] from y; ``ends``: places of the bearings. Forces and moments about
+    the first bearing vanish.
+    """
+    across, up = arm * math.cos(angle), arm * math.sin(angle)
+    apart, along = ends[1] - ends[0], place - ends[0]
+    second_y = (across * force[0] - along * force[1]) / apart
+    second_z = (up * force[0] - along * force[2]) / apart
+    return -force[1] - second_y, -force[2] - second_z, second_y, second_z
+
+
+@kernel
+def bear(par: Array, meshes: int, shaft: int, work: Array) -> None:
+    """Fill radial and axial force [N] of both bearings of a shaft."""
+    own = L.P_SHAFT + shaft * L.SHAFT_ROW
+    first = par[np.uintp(own + L.B_BEARING + L.C_POSITION)]
+    second = par[np.uintp(own + L.B_BEARING + L.BEARING_ROW + L.C_POSITION)]
+    y1, z1, y2, z2, axial = 0.0, 0.0, 0.0, 0.0, 0.0
+    force = work[L.W_SCRATCH : L.W_SCRATCH + 3]
+    for mesh in range(max(shaft - 1, 0), min(shaft + 1, meshes)):
+        at, of_mesh = L.D_MESH + mesh * L.E_ROW, L.P_MESH + mesh * L.MESH_ROW
+        drives = mesh == shaft
+        sign = 1.0 if drives else -1.0
+        arm = par[np.uintp(at + L.E_DRIVER)] if drives else -par[np.uintp(at + L.E_DRIVEN)]
+        is_pinion = drives == (par[np.uintp(of_mesh + L.A_DRIVER)] == L.PINION)
+        place = par[np.uintp(of_mesh + (L.A_PINION_POSITION if is_pinion else L.A_GEAR_POSITION))]
+        for k in range(3):
+            force[k] = sign * work[np.uintp(L.W_FORCE + 3 * mesh + k)]
+        a, b, c, d = support(force, arm, par[np.uintp(of_mesh + L.A_ANGLE)], place, (first, second))
+        y1, z1, y2, z2, axial = y1 + a, z1 + b, y2 + c, z2 + d, axial + force[0]
+    takes = int(par[np.uintp(own + L.B_AXIAL)]) - 1
+    if takes == L.PUSHED - 1:  # the one that lies where the shaft is pushed to
+        takes = 1 if (axial > 0.0) == (second > first) else 0
+    at = L.W_BEARING + 2 * L.ENDS * shaft
+    work[np.uintp(at)], work[np.uintp(at + 1)] = math.hypot(y1, z1), 0.0
+    work[np.uintp(at + 2)], work[np.uintp(at + 3)] = math.hypot(y2, z2), 0.0
+    work[np.uintp(at + 2 * takes + 1)] = abs(axial)

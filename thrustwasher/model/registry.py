@@ -7,6 +7,7 @@ before it is requested.
 
 from collections.abc import Iterable, Mapping
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 from ..errors import ParameterError, suggestion
@@ -73,6 +74,7 @@ def _unknown(name: str, why: str = "") -> ParameterError:
     models = [_model_in(home) for home in (MODELS | HELPERS).values()]
     known = ", ".join(m.name for m in models)
     hint = suggestion(name, [n for m in models for n in (m.key, m.name)], "; did you mean {!r}?")
+    why = why or (" (a folder)" if Path(name).is_dir() else "")
     return ParameterError(f"model = {name!r}{why}, allowed: {known}{hint}")
 
 

@@ -141,7 +141,7 @@ class Journal:
         return InUseError(
             self.path,
             f"{self.path}: another run is writing this {self.work}, or nothing can be locked "
-            "here; wait for it, or choose another output",
+            "here; wait for it, stop it, or choose another output",
         )
 
     def entries(self) -> Iterator[tuple[int, bytes]]:

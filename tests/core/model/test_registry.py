@@ -27,6 +27,7 @@ def test_a_model_is_found_by_any_of_its_names(name):
         (":SPEC", "Empty module name"),
         (".json:SPEC", "package"),
         ("json:loads", "no ModelSpec"),
+        ("/", r"\(a folder\)"),
     ],
 )
 def test_what_is_no_model_is_refused_with_those_there_are(name, why):

@@ -1,6 +1,7 @@
 """Where tests keep what is built for them, and which warnings are theirs."""
 
 import os
+import shutil
 from pathlib import Path
 
 import pytest
@@ -27,6 +28,8 @@ from thrustwasher.errors import EnvironmentProblem  # noqa: E402
 settings.register_profile("fixed", derandomize=True, deadline=None)  # no timed tests
 settings.load_profile("fixed")
 
+PASSED = pytest.StashKey[bool]()
+
 # pytest looks for doctests in conftest.py too, and knows one module of that name at a time
 collect_ignore_glob = ["*conftest.py"]
 
@@ -47,11 +50,25 @@ def browser():
         yield found
 
 
+@pytest.fixture
+def tmp_path(tmp_path, request):
+    """Empty the folder of a test that passed: those of all tests together fill a small disk.
+
+    The folder itself stays, so that no later test has one of the same name.
+    """
+    yield tmp_path
+    if request.node.stash.get(PASSED, False):
+        shutil.rmtree(tmp_path, ignore_errors=True)
+        tmp_path.mkdir(exist_ok=True)
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_call(item):
     """Skip a test that came upon something that the machine lacks; in CI it fails."""
     try:
-        return (yield)
+        found = yield
+        item.stash[PASSED] = True
+        return found
     except EnvironmentProblem as problem:
         if needed.IN_CI or not any(words in str(problem) for words in needed.LACKS):
             raise

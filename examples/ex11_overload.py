@@ -14,11 +14,11 @@ def main() -> list[float]:
     washer, lost = WasherParams(thermal_mode="transient"), []
     for share in (1.05, 1.2, 1.5):
         load = np.where(TIME > 0.0, share * fold, 0.8 * fold)
-        course = follow_washer(washer, time=TIME, load=load, **AT)
-        lost.append(float(course.time[np.argmax(course.distress)]))
+        history = follow_washer(washer, time=TIME, load=load, **AT)
+        lost.append(float(history.time[np.argmax(history.distress)]))
         print(
             f"{share * fold:5.0f} N: lost after {lost[-1]:5.2f} s, "
-            f"{course.temperature[-1] - 273.15:.0f} degC after {TIME[-1]:.0f} s"
+            f"{history.temperature[-1] - 273.15:.0f} degC after {TIME[-1]:.0f} s"
         )
     return lost
 

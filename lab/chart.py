@@ -80,7 +80,7 @@ def _measured(quick: bool) -> dict[str, Any]:
     from lab.charts.chart_page import same_everywhere
     from lab.charts.work_precision import work_precision
     from lab.macro_steps import study
-    from thrustwasher.model.registry import models_with_cards
+    from thrustwasher.model.registry import models_with_error_tables
 
     began = time.perf_counter()
     record = surroundings(f"python -m lab.chart{' --quick' if quick else ''}")
@@ -88,7 +88,7 @@ def _measured(quick: bool) -> dict[str, Any]:
     load, cores = record["machine"]["load"], record["machine"]["cores"]
     if load is not None and load > 0.5 * cores:
         _output.note(f"the machine is busy (load {load} on {cores} cores): ratios may be compared")
-    for model in models_with_cards():
+    for model in models_with_error_tables():
         record["models"][model] = work_precision(model, quick=quick, progress=_say)
     record["macro_steps"] = study(quick=quick, progress=_say)
     record |= {n: same_everywhere()[n] for n in ("corrections", "stability", "limits")}

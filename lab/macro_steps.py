@@ -45,15 +45,15 @@ class Way:
     master: str
     coupling: str = "capacity"
     extrapolation: bool = True
-    rung: str = "field"
+    level: str = "field"
 
     @property
     def name(self) -> str:
         """What the line is called."""
         what = "capacity, extrapolated" if self.extrapolation else "capacity, held"
         what = "friction torque" if self.coupling == "torque" else what
-        rung = "" if self.rung == "field" else f", packs {self.rung}"
-        return f"{self.master}, {what}{rung}"
+        level = "" if self.level == "field" else f", packs {self.level}"
+        return f"{self.master}, {what}{level}"
 
 
 WAYS = (
@@ -64,8 +64,8 @@ WAYS = (
     Way("gauss-seidel", "torque"),
     Way("jacobi", "torque"),
     Way("linearly-implicit", "torque"),
-    Way("gauss-seidel", rung="stribeck"),
-    Way("gauss-seidel", rung="closed"),
+    Way("gauss-seidel", level="stribeck"),
+    Way("gauss-seidel", level="closed"),
 )
 
 
@@ -79,7 +79,7 @@ def scene_of(way: Way, step: float) -> Scene:
     )
     parts["transmission"] = replace(gearbox, params=params)
     for pack in PACKS:
-        parts[pack] = replace(parts[pack], fidelity=way.rung)
+        parts[pack] = replace(parts[pack], fidelity=way.level)
     return replace(scene, parts=parts)
 
 

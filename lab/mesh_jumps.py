@@ -111,8 +111,8 @@ def pairs() -> dict[str, tuple[GearMeshParams, str]]:
         "paper, law iso": GearMeshParams.preset("iso"),
         "paper, literal": GearMeshParams.preset("literal"),
     }
-    rungs = {name: (params, "field") for name, params in found.items()}
-    return {**rungs, "paper, every place": (found["paper"], "fine")}
+    levels = {name: (params, "field") for name, params in found.items()}
+    return {**levels, "paper, every place": (found["paper"], "fine")}
 
 
 REAL = {f.name: f for f in fields(GearMeshParams) if f.metadata["kind"] == "real"}
@@ -138,9 +138,9 @@ class Asked:
     """A pair as the kernels take it, to be asked with one quantity changed."""
 
     def __init__(self, name: str) -> None:
-        params, self.rung = pairs()[name]
+        params, self.level = pairs()[name]
         self.params = params
-        self.base = prepare(params, self.rung)
+        self.base = prepare(params, self.level)
         self.work, self.state, self.count = np.zeros(k.NWORK), np.zeros(k.NSTATE), 0.0
 
     def numbers(self, quantity: str, value: float) -> Numbers | None:

@@ -11,16 +11,16 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from thrustwasher.ladder.choose import rungs_of
+from thrustwasher.ladder.choose import levels_of
 from thrustwasher.ladder.error_table import (
     VERIFY,
     ErrorTable,
     forget,
-    fresh_rungs,
+    fresh_levels,
     read_tables,
     write_tables,
 )
-from thrustwasher.model.registry import models_with_cards
+from thrustwasher.model.registry import models_with_error_tables
 from thrustwasher.storage.digests import DATA
 from thrustwasher.studio.verification.cases import POINTS, Case, cases
 from thrustwasher.studio.verification.measure_errors import Show, measured
@@ -31,17 +31,19 @@ HELP = "measure the fidelity levels against the reference and write the tables"
 def main(argv: Sequence[str] | None = None) -> int:
     """Measure what is requested; return 0."""
     parser = argparse.ArgumentParser(VERIFY, description=HELP)
-    parser.add_argument("model", nargs="?", choices=list(models_with_cards()), help="default: all")
+    parser.add_argument(
+        "model", nargs="?", choices=list(models_with_error_tables()), help="default: all"
+    )
     parser.add_argument("--set", metavar="NAME", help="parameter set; default: those not fresh")
     parser.add_argument("--points", type=int, metavar="N", default=POINTS, help="default: 500")
-    parser.add_argument("--out", type=Path, default=DATA / "cards", metavar="DIR")
+    parser.add_argument("--out", type=Path, default=DATA / "error_tables", metavar="DIR")
     options = parser.parse_args(argv)
-    for model in [options.model] if options.model else list(models_with_cards()):
+    for model in [options.model] if options.model else list(models_with_error_tables()):
         path = options.out / f"{model}.json"
         known = {t.name: t for t in read_tables(path)} if path.exists() else {}
         for case in cases(model):
-            rungs = rungs_of(case.spec, case.params)
-            stale = set(rungs) - set(fresh_rungs(model, case.params))
+            levels = levels_of(case.spec, case.params)
+            stale = set(levels) - set(fresh_levels(model, case.params))
             if case.name == options.set or (options.set is None and stale):
                 known[case.name] = measured(case, options.points, _shown(case))
                 write_tables(list(known.values()), path)
@@ -66,7 +68,7 @@ def _summary(table: ErrorTable) -> str:
     worst = [
         f"{r.fidelity} {c.name or ''}: {r.worst_anywhere('friction_torque', c):.3g} at "
         f"{c.points} points"
-        for r in table.rungs
+        for r in table.levels
         for c in r.charts
     ]
     return f"{table.model} {table.name}: largest error of the torque: {', '.join(worst)}"

@@ -16,7 +16,7 @@ from thrustwasher.units import format_quantity, parse_quantity
 STEPS, MINUTES, SEED = 100_000, 1.0, 1  # by default
 HELP = "time the steps of the FMUs one by one here: mean, rare and longest, and what bounds them"
 OPTIONS = {
-    "--fidelity RUNG": "this fidelity level alone; default all fidelity levels of the models",
+    "--fidelity LEVEL": "this fidelity level alone; default all fidelity levels of the models",
     "--alone": "the FMU of that fidelity level alone (washer map): without the solver",
     "--steps N": f"steps of each of three walks, default {STEPS}; 10000000 for a table to keep",
     "--minutes X": f"longest time of a walk, which then has fewer steps, default {MINUTES:g}",
@@ -66,9 +66,9 @@ def run(arguments: argparse.Namespace) -> int:
         raise ParameterError(f"--minutes {arguments.minutes}, allowed: more than 0")
     if arguments.settings and len(specs) != 1:
         raise ParameterError("--set: for one model, e.g. python -m lab.worst clutch --set ...")
-    chosen = [(spec, rung) for spec in specs for rung in _rungs(spec, arguments.fidelity)]
+    chosen = [(spec, level) for spec in specs for level in _levels(spec, arguments.fidelity)]
     if not chosen:
-        known = ", ".join(dict.fromkeys(rung for spec in specs for rung in spec.rungs))
+        known = ", ".join(dict.fromkeys(level for spec in specs for level in spec.levels))
         raise ParameterError(
             f"--fidelity {arguments.fidelity}: no such fidelity level, allowed: {known}"
         )
@@ -80,15 +80,15 @@ def run(arguments: argparse.Namespace) -> int:
     found = []
     with TemporaryDirectory() as folder:
         if arguments.alone:
-            of_one = [find_model(spec.key).of_one_rung(spec, rung) for spec, rung in chosen]
-            built = [_alone(spec, rung, Path(folder)) for spec, rung in chosen]
-            chosen = [(spec, rung) for spec, (_, rung) in zip(of_one, chosen, strict=True)]
+            of_one = [find_model(spec.key).of_one_level(spec, level) for spec, level in chosen]
+            built = [_alone(spec, level, Path(folder)) for spec, level in chosen]
+            chosen = [(spec, level) for spec, (_, level) in zip(of_one, chosen, strict=True)]
         else:
             paths = fmu_paths([spec.name for spec in specs], "native")
             built = [paths[spec.name] for spec, _ in chosen]
-        for (spec, rung), path in zip(chosen, built, strict=True):
-            show = _output.time_left(f"{spec.key} {rung}")
-            found.append(measure(spec, path, rung, settings=settings, progress=show, **how))
+        for (spec, level), path in zip(chosen, built, strict=True):
+            show = _output.time_left(f"{spec.key} {level}")
+            found.append(measure(spec, path, level, settings=settings, progress=show, **how))
     records = [_record(one) for one in found]
     targets.write(COLUMNS, {name: [record[name] for record in records] for name in COLUMNS})
     if arguments.json:
@@ -99,17 +99,17 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _alone(spec: Any, rung: str, folder: Path) -> Path:
+def _alone(spec: Any, level: str, folder: Path) -> Path:
     """Build the FMU of one level of a model for this machine."""
     from thrustwasher.fmu.build import build
 
-    (path,) = build([spec.name], out=folder, local=True, fidelity=rung, note=_output.note)
+    (path,) = build([spec.name], out=folder, local=True, fidelity=level, note=_output.note)
     return path
 
 
-def _rungs(spec: Any, asked: str | None) -> list[str]:
+def _levels(spec: Any, asked: str | None) -> list[str]:
     """Return the levels of a model that are requested."""
-    return [rung for rung in spec.rungs if asked in (None, rung)]
+    return [level for level in spec.levels if asked in (None, level)]
 
 
 def _whole(text: str, name: str) -> int:

@@ -25,7 +25,7 @@ def sample(label, cost, error, **other):
     where = {
         "family": "fidelity levels",
         "label": label,
-        "knob": "rung",
+        "knob": "level",
         "value": label,
         "cases": "0",
     }

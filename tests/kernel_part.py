@@ -9,11 +9,11 @@ from thrustwasher.model.registry import find_spec, kernel_of
 class Part:
     """A part at a level, from nothing; ``work`` starts as NaN, since it may hold anything."""
 
-    def __init__(self, model, rung, params=None, **changes):
+    def __init__(self, model, level, params=None, **changes):
         self.spec = find_spec(model)
         self.k = k = kernel_of(self.spec)
         self.params = params or self.spec.params(**changes)
-        self.par = filled(self.spec, self.params, rung, k.NPAR, k.derive).copy()
+        self.par = filled(self.spec, self.params, level, k.NPAR, k.derive).copy()
         self.state, self.work = np.zeros(k.NSTATE), np.full(k.NWORK, np.nan)
         fill_table(self.spec, self.params, self.par, self.work)
         self.out, self.iout = np.full(k.NOUT, np.nan), np.full(k.NIOUT, -7, np.int32)

@@ -72,9 +72,9 @@ def shift(name, *, parts=None, **options):
             del changed[part]
         else:
             given = dict(values)
-            rung = given.pop("fidelity", changed[part].fidelity)
+            level = given.pop("fidelity", changed[part].fidelity)
             params = replace(changed[part].params, **given)
-            changed[part] = replace(changed[part], params=params, fidelity=rung)
+            changed[part] = replace(changed[part], params=params, fidelity=level)
     scene = replace(scene, parts=changed)
     return cosimulate(scene, instances(scene))
 

@@ -6,7 +6,7 @@ from thrustwasher.ladder.error_table import (
     Chart,
     Division,
     ErrorTable,
-    RungErrors,
+    LevelErrors,
     sources_of,
 )
 from thrustwasher.storage.digests import params_digest
@@ -51,12 +51,12 @@ def film_ratios(*worst):
     )
 
 
-def rung(
+def level(
     fidelity="field", worst=5e-3, *more, box=None, beside_fold=0.0, sources=None, files=(), **charts
 ):
     """Return a level of the washer: one chart of ``worst``, or several by name."""
     found = charts or {"": worst}
-    return RungErrors(
+    return LevelErrors(
         fidelity,
         sources or sources_of("washer", fidelity),
         files,
@@ -69,7 +69,7 @@ def rung(
     )
 
 
-def table(*rungs, params=None, name="default"):
+def table(*levels, params=None, name="default"):
     """Return a table of the washer."""
     return ErrorTable(
         "washer",
@@ -80,14 +80,14 @@ def table(*rungs, params=None, name="default"):
         "0.4.0",
         "a cpu, 2 cores",
         ("two grids extrapolated",),
-        rungs,
+        levels,
     )
 
 
-def put(folder, monkeypatch, *rungs, **options):
+def put(folder, monkeypatch, *levels, **options):
     """Put a table of the washer in the place of all others; return its file."""
     path = folder / "washer.json"
-    home.write_tables([table(*rungs, **options)], path)
+    home.write_tables([table(*levels, **options)], path)
     monkeypatch.setattr(home, "table_folders", lambda: [folder])
     home.forget()
     return path

@@ -9,7 +9,7 @@ DEMAND = ((0.0, 253.0), (0.42, 253.0), (0.46, 188.0), (0.79, 188.0), (0.83, 250.
 
 
 def along(points, x):
-    """Return the value of a course of points at ``x``, held beyond its ends."""
+    """Return the value of a profile of points at ``x``, held beyond its ends."""
     i = min(max(bisect_right(points, (x, float("inf"))), 1), len(points) - 1)
     (a, ya), (b, yb) = points[i - 1], points[i]
     return ya + (yb - ya) * min(max((x - a) / (b - a), 0.0), 1.0)

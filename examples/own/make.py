@@ -91,7 +91,7 @@ def recordings(rng: np.random.Generator) -> None:
     )
 
 
-def courses(rng: np.random.Generator) -> None:
+def profiles(rng: np.random.Generator) -> None:
     """Log a shift, and forces of a vehicle that coasts down."""
     time = np.arange(0.0, 1.4, 4e-3)
     rise = [[0.1, 0.11, 0.2, 0.4, 0.79, 0.9, 0.97], [0.0, 0.4, 0.4, 3.36, 3.55, 4.2, 7.2]]
@@ -112,7 +112,7 @@ def main() -> None:
     points(rng)
     friction(rng)
     recordings(rng)
-    courses(rng)
+    profiles(rng)
 
 
 if __name__ == "__main__":

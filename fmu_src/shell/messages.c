@@ -86,8 +86,8 @@ static void add_range(Text *t, const Variable *v, double low, double high) {
 
 /* What is said of a number of a fidelity that is gone, or NULL. */
 static const char *gone(const Variable *v, double number) {
-    for (int i = 0; v->store == STORE_PAR && v->slot == RUNG && i < N_GONE_RUNGS; i++) {
-        if (GONE_RUNGS[i].number == number) return GONE_RUNGS[i].name;
+    for (int i = 0; v->store == STORE_PAR && v->slot == LEVEL && i < N_GONE_LEVELS; i++) {
+        if (GONE_LEVELS[i].number == number) return GONE_LEVELS[i].name;
     }
     return NULL;
 }
@@ -220,10 +220,10 @@ static int tell_ranges(Instance *m) {
 
 /* Warn once when the solution begins to need care. */
 void tell_advice(Instance *m) {
-    for (int i = 0; m->warned < 0 && i < N_GONE_RUNGS; i++) {
-        if (GONE_RUNGS[i].number != m->now.par[RUNG]) continue;
+    for (int i = 0; m->warned < 0 && i < N_GONE_LEVELS; i++) {
+        if (GONE_LEVELS[i].number != m->now.par[LEVEL]) continue;
         Text text = begun(m, m->now.time);
-        add(&text, " s: %s", GONE_RUNGS[i].name);
+        add(&text, " s: %s", GONE_LEVELS[i].name);
         tell(&m->log, WARNING, LOG_WARNING, &text);
     }
     int unverified = tell_ranges(m);

@@ -157,7 +157,7 @@ def compiled(folder: Path) -> Path:
 def soak(
     program: Path,
     model: str,
-    rung: str,
+    level: str,
     n: int,
     jumps: float,
     box: dict[str, tuple[float, float]],
@@ -170,7 +170,7 @@ def soak(
     ins = [v for v in found if v.causality == "input"]
     outs = [v for v in found if v.causality == "output" and v.type == "Real"]
     names, places = [v.name for v in ins], [v.name for v in outs]
-    chosen = {"fidelity": list(spec.fidelities).index(rung) + 1} if rung else {}
+    chosen = {"fidelity": list(spec.fidelities).index(level) + 1} if level else {}
     words: list[object] = [-1, -1]
     if "friction_torque" in places:
         # Random speeds are no driveline: friction that holds one would drive at times.
@@ -202,7 +202,7 @@ def soak(
         env={},
     )
     row = Row(
-        f"{spec.name} {rung}, steps with random inputs".replace(" ,", ","),
+        f"{spec.name} {level}, steps with random inputs".replace(" ,", ","),
         seconds=time.perf_counter() - began,
     )
     if done.returncode:
@@ -268,7 +268,7 @@ def fmu_of(model: str, kind: str, folder: Path) -> Path:
 
 def walks(folder: Path, scale: float, seed: int) -> Iterator[Row]:
     """Yield wild masters on FMUs of both targets and versions, and on random parameters."""
-    for model, rung, n in (
+    for model, level, n in (
         ("clutch", "", 3000),
         ("gearmesh", "", 6000),
         ("transmission", "", 6000),
@@ -279,7 +279,7 @@ def walks(folder: Path, scale: float, seed: int) -> Iterator[Row]:
         for kind in KINDS:
             if model == "washer" and kind == "native-fmi3":
                 continue  # the same library but for the names of its functions
-            given = {"fidelity": rung} if rung else {}
+            given = {"fidelity": level} if level else {}
             with Instance(fmu_of(model, kind, folder), parameters=given) as instance:
                 walk = calls.Walk(spec, instance)
 
@@ -288,7 +288,7 @@ def walks(folder: Path, scale: float, seed: int) -> Iterator[Row]:
                     walk.move(rng)
                     return next(k for k in walk.counts if walk.counts[k] > before[k])
 
-                name = f"{spec.name} {rung}".strip()
+                name = f"{spec.name} {level}".strip()
                 yield campaign(
                     f"{name}, {kind}: set, step, roll back, reset at random",
                     move,
@@ -489,8 +489,8 @@ def all_rows(scale: float, seed: int) -> Iterator[Row]:
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
         program = compiled(folder)
-        for model, rung, n, jumps, box in SOAK:
-            yield soak(program, model, rung, round(scale * n), jumps, box, seed)
+        for model, level, n, jumps, box in SOAK:
+            yield soak(program, model, level, round(scale * n), jumps, box, seed)
         for model, n in CALLS:
             yield campaign(
                 f"{find_spec(model).name}, random parameters, point and fidelity level",

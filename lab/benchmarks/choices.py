@@ -19,8 +19,8 @@ import numpy as np
 
 from thrustwasher import Choice, SolveError, choose
 from thrustwasher.errors import ParameterError
-from thrustwasher.ladder.choose import rungs_of
-from thrustwasher.ladder.error_table import Interval, fresh_rungs
+from thrustwasher.ladder.choose import levels_of
+from thrustwasher.ladder.error_table import Interval, fresh_levels
 from thrustwasher.model.part_file import preset_params
 from thrustwasher.model.registry import spec_of
 from thrustwasher.studio.verification.cases import Case, cases, own_case
@@ -48,11 +48,11 @@ class Points(NamedTuple):
     known: list[ReferencePoint]
     errors: dict[str, list[float]]
 
-    def worst(self, rung: str, box: dict[str, Interval]) -> float:
+    def worst(self, level: str, box: dict[str, Interval]) -> float:
         """Return a level's largest error at the points in a box."""
         inside = (
             e
-            for t, e in zip(self.known, self.errors[rung], strict=True)
+            for t, e in zip(self.known, self.errors[level], strict=True)
             if all(low <= t.point[name] <= high for name, (low, high) in box.items())
         )
         return max(inside, default=0.0)
@@ -68,15 +68,15 @@ def points_of(case: Case, n: int, charts: Iterable[str] | None = None) -> Points
     ]
     floors = {c: floor_of([t for t in known if t.chart == c]) for c in {t.chart for t in known}}
     errors = {
-        rung: [error_at(case, rung, t, floors[t.chart]) for t in known]
-        for rung in rungs_of(case.spec, case.params)
+        level: [error_at(case, level, t, floors[t.chart]) for t in known]
+        for level in levels_of(case.spec, case.params)
     }
     return Points(case, known, errors)
 
 
-def error_at(case: Case, rung: str, known: ReferencePoint, floor: float) -> float:
+def error_at(case: Case, level: str, known: ReferencePoint, floor: float) -> float:
     """Return a level's error at a point as tables measure it."""
-    found = answer(case.spec.key, case.params, rung, known)
+    found = answer(case.spec.key, case.params, level, known)
     if found.verdict != OK:
         return math.inf
     return deviation(QUANTITY, known, found.values[QUANTITY], floor)
@@ -116,7 +116,7 @@ class Outcome(NamedTuple):
     """
 
     group: str
-    rung: str | None
+    level: str | None
     promised: bool
     error: float
     in_order: bool
@@ -126,14 +126,14 @@ def ask(points: Points, rng: np.random.Generator) -> Outcome:
     """Make one random request and judge the answer."""
     case, box = points.case, random_box(points, rng)
     tol = float(np.exp(rng.uniform(*np.log(TOLERANCES))))
-    rungs = [*points.errors, None]
+    levels = [*points.errors, None]
     choice, strict = (_chosen(case, box, t) for t in (tol, 0.5 * tol))
     taken, stricter = (c and c.fidelity for c in (choice, strict))
     error = 0.0 if taken is None else points.worst(taken, box) / tol
     promised = choice is not None and math.isfinite(choice.error)
-    known = "table" if fresh_rungs(case.spec.key, case.params) else "no table"
+    known = "table" if fresh_levels(case.spec.key, case.params) else "no table"
     group = f"{case.spec.key}, {known}"
-    order = rungs.index(taken) <= rungs.index(stricter)
+    order = levels.index(taken) <= levels.index(stricter)
     return Outcome(group, taken, promised, error, order)
 
 
@@ -157,16 +157,16 @@ def report(outcomes: list[Outcome]) -> None:
         promised = [o for o in mine if o.promised]
         kept = sum(o.error <= 1.0 for o in promised)
         worst = max((o.error for o in promised), default=0.0)
-        taken = {r: sum(o.rung == r for o in mine) for r in dict.fromkeys(o.rung for o in mine)}
+        taken = {r: sum(o.level == r for o in mine) for r in dict.fromkeys(o.level for o in mine)}
         last, refused = (
-            sum(o.rung is not None and not o.promised for o in mine),
-            sum(o.rung is None for o in mine),
+            sum(o.level is not None and not o.promised for o in mine),
+            sum(o.level is None for o in mine),
         )
-        rungs = ", ".join(f"{r} {n}" for r, n in taken.items() if r)
+        levels = ", ".join(f"{r} {n}" for r, n in taken.items() if r)
         order = sum(o.in_order for o in mine)
         print(
             f"| {group} | {len(mine)} | {len(promised)} | {kept} | {worst:.2g} | {last} "
-            f"| {refused} | {order} | {rungs} |"
+            f"| {refused} | {order} | {levels} |"
         )
 
 

@@ -7,7 +7,7 @@ transmission: the default shift without washer and mesh, stepped by masters as i
 `parallel` steps all parts with the outputs of the last point, `in turn` the packs first. Their
 rates are differences of the last two points; the transmission in turn gets the packs' capacities at
 both ends of its step. `held`: `input_profile` of the packs is held, as it starts in the FMUs, and
-the transmission does not extrapolate capacities; `extrapolated`: it does, with a linear course, as
+the transmission does not extrapolate capacities; `extrapolated`: it does, with a linear profile, as
 in `thrustwasher shift`. Errors are relative to a run with rates at a much shorter step; times count
 from the first pressure, 0.1 s. The order is the slope of log(error) over log(step), fitted to all
 steps: where pressure and engine torque have a corner inside a step single errors scatter.
@@ -41,9 +41,9 @@ def slip(t: float) -> float:
     return 60.0 + 90.0 * math.cos(0.5 * math.pi * t / ALONE)
 
 
-def alone(rung: str, step: float, moving: bool) -> Figures:
-    """Step a clutch through its course; ``step`` [s]."""
-    unit = DirectInstance(clutch.SPEC, parameters={"fidelity": rung})
+def alone(level: str, step: float, moving: bool) -> Figures:
+    """Step a clutch through its profile; ``step`` [s]."""
+    unit = DirectInstance(clutch.SPEC, parameters={"fidelity": level})
     unit.initialize(0.0, {"load": load(0.0), "speed": slip(0.0), "oil_temperature": 350.0})
     for i in range(round(ALONE / step)):
         t, end = i * step, (i + 1) * step
@@ -69,8 +69,8 @@ class Chain:
         self.parts = {}
         for name in CHAIN:
             part = scene.parts[name]
-            course = {"input_profile": "linear" if extrapolates and not moving else "held"}
-            more = own if name == "transmission" else course
+            profile = {"input_profile": "linear" if extrapolates and not moving else "held"}
+            more = own if name == "transmission" else profile
             self.parts[name] = DirectInstance(part.spec, parameters=part.parameters() | more)
         self.links = [k for k in wired(scene.parts) if k.source in CHAIN and k.target in CHAIN]
         self.step, self.in_turn, self.moving, self.n = step, in_turn, moving, 0
@@ -149,12 +149,12 @@ def show(
 def main(steps: Sequence[float]) -> None:
     """Print both parts."""
     print(f"errors at {', '.join(f'{ms:g}' for ms in steps)} ms")
-    for rung in ("stribeck", "field"):
-        print(f"clutch alone, {rung}")
-        true = alone(rung, 2e-5, True)
+    for level in ("stribeck", "field"):
+        print(f"clutch alone, {level}")
+        true = alone(level, 2e-5, True)
         for moving in (False, True):
             words = "with rates" if moving else "held"
-            show(words, steps, lambda h, r=rung, m=moving: alone(r, h, m), true)  # type: ignore[misc]
+            show(words, steps, lambda h, r=level, m=moving: alone(r, h, m), true)  # type: ignore[misc]
     print("pack and transmission")
     true = Chain(5e-5, True, True, True)()
     print("  " + ", ".join(f"{name} {value:.6g}" for name, value in true.items()))

@@ -47,7 +47,7 @@ SLOW = {
 }
 MORE = (
     "tests/core/model/test_rules.py",
-    "tests/core/model/test_rungs_in_short.py",
+    "tests/core/model/test_levels_in_short.py",
     "tests/core/model/test_status_numbers.py",
 )
 LIMIT, LAST_WORDS = 40, 10  # s

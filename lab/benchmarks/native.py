@@ -52,7 +52,7 @@ def timed(program: Path, made: Path, spec: ModelSpec, n: int) -> tuple[float, fl
     """Return seconds to instantiate and initialize, seconds a step, and how often it failed."""
     found = interface(spec).variables
     starts = [v.start or 0.0 for v in found if v.causality == "input"]
-    point = spec.course[1][1:] if spec.course else starts  # a point of the reference run
+    point = spec.profile[1][1:] if spec.profile else starts  # a point of the reference run
     inputs = [v.reference for v in found if v.causality == "input"]
     outputs = [v.reference for v in found if v.causality == "output" and v.type == "Real"]
     words = [len(inputs), *(x for pair in zip(inputs, point, strict=True) for x in pair)]

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from thrustwasher import optimise
-from thrustwasher.studio.optimisation.crew import Crew
 from thrustwasher.studio.optimisation.front import unbeaten
 from thrustwasher.studio.optimisation.whole_search import designs_of
+from thrustwasher.studio.optimisation.worker_pool import WorkerPool
 
 CURVE = {
     "target": "washer",
@@ -53,8 +53,8 @@ def random_designs(found: Any, asked: dict[str, Any], n: int) -> np.ndarray:
     problem, random = found.problem, np.random.default_rng(7)
     rows = [problem.row(u) for u in random.random((n, len(problem.variables)))]
     began = time.perf_counter()
-    with Crew(designs, problem, planned=n) as crew:
-        values = crew.figures(rows, problem.figures)
+    with WorkerPool(designs, problem, planned=n) as pool:
+        values = pool.figures(rows, problem.figures)
     sound = np.isfinite(values).all(1) & (problem.excess(values) <= 0.0).all(1)
     print(
         f"  {n} random designs in {time.perf_counter() - began:.0f} s, {sound.sum()} of them sound"

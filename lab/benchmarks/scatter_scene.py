@@ -113,7 +113,7 @@ def plain(name: str, file: Path, runs: int, workers: int) -> None:
                 time=target.time,
                 nominal=target.nominal(),
                 seconds=spent + time.perf_counter() - begin,
-                note=f"{workers} workers; fidelity levels: {target.identity['rungs']}; "
+                note=f"{workers} workers; fidelity levels: {target.identity['levels']}; "
                 f"washers in the loop",
             )
             print(f"{done} of {runs}", flush=True)

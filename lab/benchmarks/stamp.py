@@ -17,8 +17,10 @@ from thrustwasher.storage.digests import DATA
 
 def stamped(table: ErrorTable) -> ErrorTable:
     """Return a table tied to today's kernels."""
-    rungs = [replace(r, sources=sources_of(table.model, r.fidelity, r.files)) for r in table.rungs]
-    return replace(table, rungs=tuple(rungs))
+    levels = [
+        replace(r, sources=sources_of(table.model, r.fidelity, r.files)) for r in table.levels
+    ]
+    return replace(table, levels=tuple(levels))
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -27,7 +29,7 @@ def main(arguments: Sequence[str]) -> int:
         print("usage: python -m lab.benchmarks.stamp [FOLDER]", file=sys.stderr)
         return 2
     changed, known = 0, 0
-    for path in sorted((Path(arguments[0]) if arguments else DATA / "cards").glob("*.json")):
+    for path in sorted((Path(arguments[0]) if arguments else DATA / "error_tables").glob("*.json")):
         old = read_tables(path)
         new = [stamped(table) for table in old]
         write_tables(new, path)

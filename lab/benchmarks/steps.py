@@ -3,7 +3,7 @@
 python -m lab.benchmarks.steps
 
 One process, one thread. "kernel": microseconds of the compiled step itself, from a compiled loop
-over a whole course of inputs; "call": with the call from Python. Medians over repeats, minima in
+over a whole profile of inputs; "call": with the call from Python. Medians over repeats, minima in
 brackets. Substeps and iterations need no machine.
 """
 
@@ -26,48 +26,48 @@ H = 1e-3
 
 
 def runner(model: str) -> Callable[..., int]:
-    """Return a compiled loop over the rows of a course."""
+    """Return a compiled loop over the rows of a profile."""
     step = kernel_of(find_spec(model)).step
 
     @numba.njit
     def run(
-        par: Array, course: Array, state: Array, work: Array, out: Array, iout: Array, h: float
+        par: Array, profile: Array, state: Array, work: Array, out: Array, iout: Array, h: float
     ) -> int:
         worst = 0
-        for i in range(len(course)):
-            worst = max(worst, step(par, course[i], state, work, out, iout, i * h, h))
+        for i in range(len(profile)):
+            worst = max(worst, step(par, profile[i], state, work, out, iout, i * h, h))
         return worst
 
     return run  # type: ignore[no-any-return]
 
 
 def measure(
-    name: str, run: Callable[..., int], spec: str, course: Array, parameters: dict[str, object]
+    name: str, run: Callable[..., int], spec: str, profile: Array, parameters: dict[str, object]
 ) -> None:
-    """Print a row: kernel and call time of one course, worst step, substeps."""
+    """Print a row: kernel and call time of one profile, worst step, substeps."""
     with DirectInstance(find_spec(spec), parameters=parameters) as direct:
-        direct.initialize(inputs=dict(zip(direct.input_names, course[0].tolist(), strict=True)))
+        direct.initialize(inputs=dict(zip(direct.input_names, profile[0].tolist(), strict=True)))
         core = direct.core
         fresh = core.state.copy()
-        arrays = (core.par, course, core.state, core.work, core.out, core.iout)
+        arrays = (core.par, profile, core.state, core.work, core.out, core.iout)
         assert run(*arrays, H) == 0
         kernel, call = [], []
         for _ in range(25):
             core.state[:] = fresh
             begin = time.perf_counter()
             run(*arrays, H)
-            kernel.append((time.perf_counter() - begin) / len(course))
+            kernel.append((time.perf_counter() - begin) / len(profile))
         step = kernel_of(find_spec(spec)).step
         substeps = []
         for _ in range(9):
             core.state[:] = fresh
             begin = time.perf_counter()
-            for i, row in enumerate(course):
+            for i, row in enumerate(profile):
                 step(core.par, row, core.state, core.work, core.out, core.iout, i * H, H)
-            call.append((time.perf_counter() - begin) / len(course))
+            call.append((time.perf_counter() - begin) / len(profile))
         if spec == "WetClutch":
             core.state[:] = fresh
-            for i, row in enumerate(course):
+            for i, row in enumerate(profile):
                 step(core.par, row, core.state, core.work, core.out, core.iout, i * H, H)
                 substeps.append(core.work[layout.W_SUBSTEPS])
         count = f"{np.mean(substeps):.2f} ({max(substeps):.0f})" if substeps else "-"
@@ -84,7 +84,7 @@ def engagement() -> Array:
     return np.column_stack([load, 350.0 * (1.0 - t / 0.4), np.full_like(t, 297.15), 0.0 * t])
 
 
-def mesh_course() -> Array:
+def mesh_profile() -> Array:
     """Return torque, speed, oil temperature of a planet through an upshift."""
     t = np.linspace(0.0, 1.0, 400)
     return np.column_stack([22.5 * (1.2 - t), 400.0 * (1.0 - t) + 1.0, np.full_like(t, 297.15)])
@@ -105,14 +105,14 @@ def main() -> None:
         ("clutch field, impermeable lining", engagement(), {"permeability": 0.0}),
     ]
     cases += [(f"clutch {f}", engagement(), {"fidelity": f}) for f in ("fine", "stribeck")]
-    for name, course, parameters in cases:
-        measure(name, run, "WetClutch", course, parameters)
+    for name, profile, parameters in cases:
+        measure(name, run, "WetClutch", profile, parameters)
     run = runner("GearMesh")
     for name, parameters in (
         ("gear mesh field", {}),
         ("gear mesh, viscosity at the inlet", {"viscosity_at": "inlet"}),
     ):
-        measure(name, run, "GearMesh", mesh_course(), dict(parameters))
+        measure(name, run, "GearMesh", mesh_profile(), dict(parameters))
 
 
 if __name__ == "__main__":

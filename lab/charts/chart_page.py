@@ -28,11 +28,11 @@ WORDS = {
 }
 LABELS = {"ok": "ok", "slow": "slow", "says": "reported", "LIES": "**wrong**", "-": "-"}
 SCRIPTS = ("chart.css", "chart.js")
-OF_PACKS = "--fidelity clutch={rung} --fidelity brake={rung}"
+OF_PACKS = "--fidelity clutch={level} --fidelity brake={level}"
 OPTIONS = {  # of commands, by what changes along a series
-    "rung": "--fidelity {value}",
+    "level": "--fidelity {value}",
     "grid": "--grid {value}",
-    "step": '--fidelity {rung} --step "{value}"',
+    "step": '--fidelity {level} --step "{value}"',
     "macro step": f'--step "{{value}}" {OF_PACKS}',
 }
 HOW = (
@@ -80,8 +80,8 @@ def _stability_section(groups: Sequence[Mapping[str, Any]]) -> Section:
 def _points(study: Mapping[str, Any], model: str) -> dict[str, list[list[str]]]:
     """Return the words of every mark in a study's drawing: way, errors, worst case, command."""
     found: dict[str, list[list[str]]] = {}
-    rungs = find_spec(model).rungs if "cases" in study else {}
-    per = "a call" if rungs else "a simulated second"
+    levels = find_spec(model).levels if "cases" in study else {}
+    per = "a call" if levels else "a simulated second"
     for q in study["quantities"]:
         for s in study["samples"]:
             errors = s["errors"].get(q["name"], {})
@@ -95,8 +95,8 @@ def _points(study: Mapping[str, Any], model: str) -> dict[str, list[list[str]]]:
                     f"worst case: {study.get('scene', errors['case'])}",
                     *command_lines(study, model, s, errors["case"]),
                 ]
-                if s["knob"] == "rung":
-                    words.insert(1, f"{s['value']}: {rungs.get(s['value'], '')}")
+                if s["knob"] == "level":
+                    words.insert(1, f"{s['value']}: {levels.get(s['value'], '')}")
                 found.setdefault(mark_of(q["name"], s["family"]), []).append(words)
     return found
 
@@ -108,12 +108,12 @@ def command_lines(
     given = table_beside(__file__, "cases.toml")[model]
     case = next((c for c in study.get("cases", ()) if c["name"] == worst), None)
     way = next((w for w in WAYS if w.name == sample["family"]), None)
-    values = {"rung": sample["label"].partition(",")[0], "value": sample["value"]}
+    values = {"level": sample["label"].partition(",")[0], "value": sample["value"]}
     if case and not sample["is_rival"]:
         values |= dict(zip((s.name for s in find_spec(model).inputs), case["point"], strict=False))
         values["power"] = values["load"] * values["speed"]
     elif way and way.coupling == "capacity" and way.extrapolation:
-        values |= {"rung": way.rung, "master": way.master}
+        values |= {"level": way.level, "master": way.master}
     else:
         return [f"no command goes this way; reproduced by: {given['without']}"]
     template = (

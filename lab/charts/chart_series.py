@@ -53,14 +53,14 @@ class Quantity:
         return {"name": self.name, "kind": kind, "unit": self.unit, "floor": floor}
 
 
-def rungs(spec: ModelSpec, *, quick: bool = False) -> list[Configuration]:
+def levels(spec: ModelSpec, *, quick: bool = False) -> list[Configuration]:
     """Return every named fidelity that the kernel knows."""
     counted = next((text for text, _ in spec.counted()), "calls")
     return [
         Configuration(
-            "fidelity levels", name, "rung", name, partial(KernelMethod, spec, name), counted
+            "fidelity levels", name, "level", name, partial(KernelMethod, spec, name), counted
         )
-        for name in spec.rungs
+        for name in spec.levels
     ]
 
 
@@ -75,7 +75,7 @@ class Chart:
 
 WARM = "warm call, 1 % away [s]"
 KELVIN = Quantity("temperature", False, unit="K")
-RUNGS = Chart((Quantity("friction_torque", True, 1e-4), KELVIN), WARM, rungs)
+LEVELS = Chart((Quantity("friction_torque", True, 1e-4), KELVIN), WARM, levels)
 
 
 def cases_of(model: str, *, quick: bool = False) -> tuple[ChartCase, ...]:

@@ -63,11 +63,11 @@ class ClutchMethod(KernelMethod):
 
 def _clutch(spec: ModelSpec, *, quick: bool = False) -> list[Configuration]:
     """Return every level, and those with a moving film over the communication step."""
-    rungs = [
+    levels = [
         Configuration(
-            "fidelity levels", name, "rung", name, partial(ClutchMethod, name, USUAL_STEP), "steps"
+            "fidelity levels", name, "level", name, partial(ClutchMethod, name, USUAL_STEP), "steps"
         )
-        for name in spec.rungs
+        for name in spec.levels
     ]
     steps = [
         Configuration(
@@ -81,7 +81,7 @@ def _clutch(spec: ModelSpec, *, quick: bool = False) -> list[Configuration]:
         for name in ("field", "fine")
         for h in (STEPS[::2] if quick else STEPS)
     ]
-    return rungs + steps
+    return levels + steps
 
 
 CLUTCH = Chart(

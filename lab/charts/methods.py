@@ -76,7 +76,7 @@ class KernelMethod:
         self._work = np.zeros(kernel.NWORK)
         fill_table(spec, params, self._par, self._work)
         tables = tables_of(spec, fidelity)
-        self.build_s = float(tables.find(params).card["build_s"]) if tables else 0.0
+        self.build_s = float(tables.find(params).metadata["build_s"]) if tables else 0.0
         self._out, self._iout = np.empty(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
         self._real = spec.real_outputs
         # where the kernel leaves the first of its counts in ``work``

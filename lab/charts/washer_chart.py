@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from lab.charts.chart_series import KELVIN, WARM, Chart, Configuration, Quantity, rungs
+from lab.charts.chart_series import KELVIN, WARM, Chart, Configuration, Quantity, levels
 from lab.charts.methods import KernelMethod
 from thrustwasher.model.spec import ModelSpec
 from thrustwasher.washer.kernel_arguments import constants
@@ -37,7 +37,7 @@ def _washer(spec: ModelSpec, *, quick: bool = False) -> list[Configuration]:
         )
         for r, t in (GRIDS[::3] if quick else GRIDS)
     ]
-    return [*rungs(spec), *meshes]
+    return [*levels(spec), *meshes]
 
 
 WASHER = Chart((Quantity("friction_torque", True, 1e-3), KELVIN), WARM, _washer)

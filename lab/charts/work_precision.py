@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from lab.charts.chart_series import RUNGS, Configuration, Quantity, cases_of, digest
+from lab.charts.chart_series import LEVELS, Configuration, Quantity, cases_of, digest
 from lab.charts.clutch_chart import CLUTCH
 from lab.charts.methods import ChartCase, Method, MethodAnswer
 from lab.charts.washer_chart import WASHER
@@ -22,7 +22,7 @@ from thrustwasher.studio.verification.costs import REPEATS, Timing, time_call
 from thrustwasher.studio.verification.reference_cache import SOURCES
 from thrustwasher.studio.verification.reference_values import ReferenceValues
 
-CHARTS = {"washer": WASHER, "clutch": CLUTCH, "gearmesh": RUNGS}  # by the models' keys
+CHARTS = {"washer": WASHER, "clutch": CLUTCH, "gearmesh": LEVELS}  # by the models' keys
 
 Progress = Callable[[str], None]
 OF_SETTING = ("family", "label", "knob", "value", "count_of", "is_rival")

@@ -11,12 +11,12 @@ from lab.charts.work_precision import CHARTS
 from lab.macro_steps import WAYS
 from thrustwasher import cli
 from thrustwasher.errors import ParameterError
-from thrustwasher.model.registry import models_with_cards, spec_of
+from thrustwasher.model.registry import models_with_error_tables, spec_of
 
 
 def marks():
     """Yield model, study and sample of every mark that a chart can have, in every case."""
-    for model in models_with_cards():
+    for model in models_with_error_tables():
         cases = [vars(case) for case in cases_of(model)]
         for one in CHARTS[model].series(spec_of(model)):
             sample = {**vars(one), "errors": {}}

@@ -137,13 +137,13 @@ def solve(n: int, x: float) -> float:
     assert [is_plain(n) for n in loops_] == [True, False, False, False]
 
 
-def test_every_rung_has_a_bound_in_words():
+def test_every_level_has_a_bound_in_words():
     for spec in all_specs():
-        assert all(bound_of(spec.key, rung) for rung in spec.rungs), spec.key
+        assert all(bound_of(spec.key, level) for level in spec.levels), spec.key
 
 
 @pytest.mark.parametrize(
-    ("model", "rung", "function"),
+    ("model", "level", "function"),
     [
         ("clutch", "field", "integrate"),
         ("gearmesh", "field", "heated_flank"),
@@ -151,20 +151,20 @@ def test_every_rung_has_a_bound_in_words():
         ("washer", "map", "find_between"),
     ],
 )
-def test_the_words_have_the_numbers_of_the_loops(model, rung, function):
+def test_the_words_have_the_numbers_of_the_loops(model, level, function):
     (loop,) = (x for x in loops() if x.function == function)
-    assert str(number(loop)) in re.findall(r"\d+", bound_of(model, rung))
+    assert str(number(loop)) in re.findall(r"\d+", bound_of(model, level))
 
 
-@pytest.mark.parametrize("rung", ["field", "fine"])
-def test_the_words_have_the_washers_budget(rung):
-    named = re.findall(r"\d+", bound_of("washer", rung))
+@pytest.mark.parametrize("level", ["field", "fine"])
+def test_the_words_have_the_washers_budget(level):
+    named = re.findall(r"\d+", bound_of("washer", level))
     assert [int(n) for n in named] == [BUDGET, BUDGET_IN_TIME]
 
 
 def test_the_page_has_the_bound_of_every_step():
     page = PAGE.read_text("utf-8")
-    bounds = {bound_of(spec.key, rung) for spec in all_specs() for rung in spec.rungs}
+    bounds = {bound_of(spec.key, level) for spec in all_specs() for level in spec.levels}
     assert [bound for bound in bounds if f" | {bound} |" not in page] == []
 
 

@@ -34,7 +34,7 @@ PLACES = {
         },
         "shift.checks.holding": {"clutch", "transmission"},
         "shift.checks.run_doubts": {"washer"},
-        "shift.scene.course_file": {"transmission"},
+        "shift.scene.profile_file": {"transmission"},
         "shift.scene.doubts": {"clutch", "gearmesh", "transmission"},
         "shift.scene.places": {"transmission"},
         "shift.scene.scene": {"transmission"},
@@ -76,7 +76,7 @@ PLACES = {
         "studio.calibration.friction.reach": {"clutch"},
     },
     "a pack is stepped along recordings of its engagements": {
-        "studio.calibration.engagement.pack_course": {"clutch"},
+        "studio.calibration.engagement.pack_history": {"clutch"},
         "studio.calibration.engagement.trace_fit": {"clutch"},
         "studio.calibration.engagement.traced_pack": {"clutch"},
     },

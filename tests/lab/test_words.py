@@ -6,6 +6,8 @@ import tomllib
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
+from token import NAME
+from tokenize import tokenize
 from typing import NamedTuple
 
 import pytest
@@ -20,6 +22,9 @@ NEWEST = re.compile(r"(?ms)^## .*?(?=^## |\Z)")
 SCRIPT_TEXT = re.compile(
     r'(?m)(?<=[(,=:?+] )"(?:[^"\\\n]|\\.)* (?:[^"\\\n]|\\.)*"|^ *"[^"\n]* [^"\n]*"'
 )
+# no part of a name in the code; HistoryError keeps its former one for a version
+PRIVATE = re.compile(r"(?i)(?<![a-z])(?:rungs?|courses?|crew|shelf)(?![a-z])")
+FORMER = {"follow.py"}
 NAMES = re.compile(r"``.*?``|`[^`\n]+`|(?<![\w.])[\w.]*_[\w.]+|[\w-]+/[\w./-]+", re.S)
 
 
@@ -107,6 +112,27 @@ def test_messages_and_docstrings_are_in_the_terms_of_the_field() -> None:
         for line in left(text)
     ]
     assert not found, "\n".join(dict.fromkeys(found))
+
+
+def names_in(path: Path) -> set[str]:
+    """Return the names that a source of Python, C or JavaScript has."""
+    if path.suffix == ".py":
+        with path.open("rb") as file:
+            return {t.string for t in tokenize(file.readline) if t.type == NAME}
+    return set(re.findall(r"[A-Za-z_]\w*", path.read_text("utf-8")))
+
+
+def test_names_in_the_code_are_in_the_terms_of_the_field() -> None:
+    sources = [p for end in ("py", "js", "c", "h") for p in PACKAGE.rglob(f"*.{end}")]
+    sources += [*(ROOT / "fmu_src").rglob("*.[ch]"), *(ROOT / "lab").glob("**/*.py")]
+    found = [
+        f"{path.relative_to(ROOT)}: {name}"
+        for path in sorted(sources)
+        if "bundle" not in path.parts and path.name not in FORMER
+        for name in sorted(names_in(path))
+        if PRIVATE.search(re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name))
+    ]
+    assert len(sources) > 500 and not found, "\n".join(found)
 
 
 def test_tables_are_in_the_terms_of_the_field() -> None:

@@ -86,7 +86,7 @@ def _parameters(command: str) -> list[str]:
 
 def _levels(command: str) -> list[str]:
     with suppress(KeyError):
-        return [*_spec_of(command).rungs, "auto:0.01"]
+        return [*_spec_of(command).levels, "auto:0.01"]
     return ["auto:0.01"]
 
 

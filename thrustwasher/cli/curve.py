@@ -128,6 +128,6 @@ def _loads(text: str | None) -> dict[str, float]:
 def _of_part(part: PartFile) -> dict[str, Any]:
     """Return the ends of the curve [N], wider if the box is, and the part's level."""
     low, high = part.box.get("load", (LOAD_MIN, LOAD_MAX))
-    rung = "field" if part.fidelity == "map" else part.fidelity  # a curve takes a mesh
+    level = "field" if part.fidelity == "map" else part.fidelity  # a curve takes a mesh
     ends = {"load_min": max(min(low, LOAD_MIN), 1.0), "load_max": max(high, LOAD_MAX)}
-    return {**ends, "fidelity": rung}
+    return {**ends, "fidelity": level}

@@ -98,7 +98,7 @@ def _seconds(name: str, text: str) -> float:
     return check_number(name, parse_quantity(text, "s", name), "s", low, LONGEST)
 
 
-def _engage(params: Any, point: dict[str, float], times: dict[str, float], rung: str) -> Any:
+def _engage(params: Any, point: dict[str, float], times: dict[str, float], level: str) -> Any:
     """Return the engagement: load up in a straight ramp, slip down to zero at the end."""
     import numpy as np
 
@@ -121,7 +121,7 @@ def _engage(params: Any, point: dict[str, float], times: dict[str, float], rung:
         params,
         time=t,
         load=point["load"] * rise,
-        fidelity=rung,
+        fidelity=level,
         speed=point["speed"] * (1.0 - t / times["duration"]),
         oil_temperature=point["oil_temperature"],
         drum_speed=point["drum_speed"],

@@ -106,7 +106,7 @@ def _build(arguments: argparse.Namespace) -> int:
 
             return both
 
-        card = make_map(
+        metadata = make_map(
             params,
             Path(out),
             box=box,
@@ -126,7 +126,7 @@ def _build(arguments: argparse.Namespace) -> int:
     if arguments.file and plain and not serves(TABLES, params, box, tolerance):
         keep_own(params, lambda path: write(path, Path(out).read_bytes()))
     more = {"warnings": warnings, **_options.oil_record(part)}
-    _show({**card, **more} if arguments.json else card, str(out), arguments.json)
+    _show({**metadata, **more} if arguments.json else metadata, str(out), arguments.json)
     return 0
 
 
@@ -144,10 +144,10 @@ def _list(arguments: argparse.Namespace) -> int:
 
     maps = all_maps()
     if arguments.json:
-        _output.print_json({"maps": [{"file": str(m.path), **m.card} for m in maps]})
+        _output.print_json({"maps": [{"file": str(m.path), **m.metadata} for m in maps]})
         return 0
     for m in maps:
-        _show(m.card, str(m.path), False)
+        _show(m.metadata, str(m.path), False)
     if not maps:
         folders = ", ".join(map(str, map_folders()))
         print(f"no map in {folders}; make one with `thrustwasher map build`")
@@ -164,7 +164,7 @@ def _check(arguments: argparse.Namespace) -> int:
 
     file = read_map(arguments.file)
     try:
-        params = WasherParams(**file.card["params"])
+        params = WasherParams(**file.metadata["params"])
     except (KeyError, TypeError):
         raise ParameterError(
             f"map = {arguments.file!r}: its metadata names no parameters"
@@ -174,38 +174,41 @@ def _check(arguments: argparse.Namespace) -> int:
             params,
             arguments.file,
             points=arguments.points,
-            grid=mesh_of(file.card),
+            grid=mesh_of(file.metadata),
             run=run,
             progress=_output.time_left("held-out points"),
         )
-    card = {**file.card, "held_out": asdict(verdict)}
-    _show(card, arguments.file, arguments.json)
+    metadata = {**file.metadata, "held_out": asdict(verdict)}
+    _show(metadata, arguments.file, arguments.json)
     return 0
 
 
-def _show(card: dict[str, Any], path: str, as_json: bool) -> None:
+def _show(metadata: dict[str, Any], path: str, as_json: bool) -> None:
     """Print metadata, as one JSON object or in words."""
     if as_json:
-        _output.print_json({"file": path, **card})
+        _output.print_json({"file": path, **metadata})
         return
     from ..washer.map.map_check import mesh_of
 
     known = {s.name: s for s in INPUTS}
-    box = ", ".join(f"{name} {range_text(known[name], ends)}" for name, ends in card["box"].items())
+    box = ", ".join(
+        f"{name} {range_text(known[name], ends)}" for name, ends in metadata["box"].items()
+    )
     print(f"{path}: {box}")
     finer = ""
-    if card.get("finer_lines"):
+    if metadata.get("finer_lines"):
         finer = (
-            f", {card['finer_lines']} on a finer one (the torque was up to "
-            f"{card['mesh_made_good']:.1%} off without them)"
+            f", {metadata['finer_lines']} on a finer one (the torque was up to "
+            f"{metadata['mesh_made_good']:.1%} off without them)"
         )
     print(
-        f"  tolerance {card['tolerance']:g}: {card['lines']} curves on the {card['built_from']} "
-        f"mesh{finer}, {card['build_s']:g} s with {card['workers']} processes"
+        f"  tolerance {metadata['tolerance']:g}: {metadata['lines']} curves on the "
+        f"{metadata['built_from']} mesh{finer}, {metadata['build_s']:g} s with "
+        f"{metadata['workers']} processes"
     )
-    held = card["held_out"]
+    held = metadata["held_out"]
     if held:
-        nodes = "{} x {} nodes".format(*mesh_of(card))
+        nodes = "{} x {} nodes".format(*mesh_of(metadata))
         print(
             f"  held out ({held['points']:g} points on {nodes}): torque within "
             f"{held['torque']:.2g} (rms {held['torque_rms']:.2g}), "

@@ -91,7 +91,7 @@ def run(arguments: argparse.Namespace) -> int:
         )
     if arguments.no_report and arguments.out != FOLDER:
         raise ParameterError(f"--out {arguments.out}: --no-report writes no files; leave one out")
-    from ..shift.from_fmus import check_rungs
+    from ..shift.from_fmus import check_levels
 
     scene = _scene(arguments, arguments.scene or "planetary")
     if scene.sequence:
@@ -99,7 +99,7 @@ def run(arguments: argparse.Namespace) -> int:
             raise ParameterError(
                 "--ssp: a package has one shift, allowed: a scene without [sequence]"
             )
-        check_rungs(scene)
+        check_levels(scene)
     if arguments.ssp:
         return _export(arguments, scene)
     for option in ("fmi", "platforms"):
@@ -292,14 +292,14 @@ def _fmu_instances(scene: Any, target: str) -> Any:
 
 def _export(arguments: argparse.Namespace, scene: Any) -> int:
     """Write the shift as a package that any SSP master runs, and name it."""
-    from ..shift.from_fmus import check_rungs
+    from ..shift.from_fmus import check_levels
 
     _options.refuse_unused(arguments, "--ssp", ("no_report", "no_guard", "scatter"), out=FOLDER)
     if arguments.fmu == "python":
         raise ParameterError("--fmu python: a package holds native FMUs only; leave it out")
     if arguments.master not in (None, "jacobi"):
         raise ParameterError(f"--master {arguments.master}: a package is for a parallel master")
-    check_rungs(scene, "in a package")
+    check_levels(scene, "in a package")
     if arguments.fmi not in (None, *FMI):
         raise ParameterError(f"--fmi {arguments.fmi}: allowed: {' or '.join(FMI)}")
     target = _output.check_file(arguments.ssp, "--ssp", (".ssp",))

@@ -6,7 +6,7 @@
 ``solve``         boundary friction, and a pack that slips at a constant speed
 ``engagement``    load and slip are given over time, torque and heat follow
 ``kernels``       compiled code
-``course``        A pack along given profiles of load and slip, by its kernels
+``profile``        A pack along given profiles of load and slip, by its kernels
 ``release``       what a pack drags after it was let go: a cold release against a warm one
 ================  =========================================================================
 """

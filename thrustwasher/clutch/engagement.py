@@ -7,16 +7,16 @@ from numpy.typing import ArrayLike
 
 from ..errors import Status
 from ..face_load import face_loads
+from ..model.levels import level_named
 from ..model.parameters import check_number
-from ..model.prepare import course_of, rising
-from ..model.rungs import rung_named
+from ..model.prepare import profile_of, rising
 from ..model.solutions import OverTime
 from ..model.spec import REGIMES
 from ..numerics.jit import Array
-from .course import outputs_over
 from .kernels import layout as k
 from .kernels import pack_friction
 from .parameters import DRUM, LOAD, OIL, SPEC, SPEED, ClutchParams
+from .profile import outputs_over
 from .release import cold_release
 from .solve import (
     doubts_of_lining,
@@ -104,10 +104,10 @@ def engage_clutch(
     ('film', 'boundary')
     """
     points = rising(time)
-    forces = course_of("load", load, "N", *LOAD.range, len(points))
-    slips = course_of("speed", speed, "rad/s", *SPEED.range, len(points))
+    forces = profile_of("load", load, "N", *LOAD.range, len(points))
+    slips = profile_of("speed", speed, "rad/s", *SPEED.range, len(points))
     oil = check_number("oil_temperature", oil_temperature, "K", *OIL.range)
-    drums = course_of("drum_speed", drum_speed, "rad/s", *DRUM.range, len(points))
+    drums = profile_of("drum_speed", drum_speed, "rad/s", *DRUM.range, len(points))
     par = prepare(params, fidelity)
     rows, substeps = outputs_over(par, points, forces, slips, oil, drums)
     kept, stages = {f.name for f in fields(Engagement)}, list(REGIMES)
@@ -122,7 +122,7 @@ def engage_clutch(
         speed=slips,
         **columns,
         substeps=substeps,
-        fidelity=rung_named(SPEC, fidelity),
+        fidelity=level_named(SPEC, fidelity),
         regime=[
             stages[pack_friction.regime_of(par, u, slip) - 1]
             for u, slip in zip(columns["film_ratio"], slips, strict=True)
@@ -135,7 +135,7 @@ def engage_clutch(
                 f"The pack is {line}"
                 for line in cold_release(
                     params,
-                    rung_named(SPEC, fidelity),
+                    level_named(SPEC, fidelity),
                     time=points,
                     load=forces,
                     speed=slips,

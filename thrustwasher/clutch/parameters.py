@@ -35,10 +35,10 @@ N_TABLE = 5
 OF_TABLE = (("friction_law", "table"),)
 OF_WANG = (("friction_law", "wang"),)
 OVER_SPEED = (  # the level closed has the constant law
-    *(("fidelity", rung) for rung in ("stribeck", "field", "fine")),
+    *(("fidelity", level) for level in ("stribeck", "field", "fine")),
     ("friction_law", "constant"),
 )
-WITH_FILM = tuple(("fidelity", rung) for rung in ("field", "fine"))
+WITH_FILM = tuple(("fidelity", level) for level in ("field", "fine"))
 
 
 def _coefficient(value: float, where: str) -> Any:

@@ -8,9 +8,9 @@ import numpy as np
 from ..model.parameters import check_number
 from ..numerics.jit import Array
 from ..units import format_quantity as say
-from .course import outputs_over
 from .kernels import layout as k
 from .parameters import DRUM, LOAD, OIL, SPEED, ClutchParams
+from .profile import outputs_over
 from .solve import prepare
 
 AFTER = 0.1  # s: what a pack drags is said so long after it was let go

@@ -11,10 +11,10 @@ from ..errors import ParameterError, SolveError, Status
 from ..face_load import Face, OnFaces
 from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
+from ..model.levels import level_named
 from ..model.parameters import check_number
 from ..model.prepare import filled
 from ..model.record import Sweep
-from ..model.rungs import rung_named
 from ..model.sensitivity import Differentiable
 from ..model.solutions import Asked
 from ..model.spec import REGIMES, ModelSpec
@@ -274,7 +274,7 @@ def solve_clutch(
         regime=list(REGIMES)[pack_friction.regime_of(par, ratio, speed) - 1],
         status=status,
         iterations=int(turns + s.iterations),
-        fidelity=rung_named(SPEC, fidelity),
+        fidelity=level_named(SPEC, fidelity),
         _request=Asked(SPEC.key, params, {**point, "fidelity": fidelity}),
         warnings=(
             *doubts_of_pack(params, fidelity),

@@ -86,7 +86,7 @@ def build(
         raise ParameterError("C sources lie in native FMUs only; use --target native")
     specs = asked(models, oil)
     if fidelity is not None:
-        specs = [find_model(spec.key).of_one_rung(spec, fidelity) for spec in specs]
+        specs = [find_model(spec.key).of_one_level(spec, fidelity) for spec in specs]
     specs = [with_box(spec) for spec in specs] if maps else specs
     say = note or (lambda _: None)
     if target == "python" and any(spec.kind for spec in specs):

@@ -10,10 +10,10 @@ import numpy as np
 from ..errors import ParameterError, SolveError, Status
 from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
+from ..model.levels import level_named
 from ..model.parameters import check_number
 from ..model.prepare import filled
 from ..model.record import Sweep
-from ..model.rungs import rung_named
 from ..model.sensitivity import Differentiable
 from ..model.solutions import Asked
 from .kernels import layout as k
@@ -233,7 +233,7 @@ def solve_gearmesh(
     point = {"power": power, "speed": speed, "oil_temperature": oil, "fidelity": fidelity}
     known = {
         "status": status,
-        "fidelity": rung_named(SPEC, fidelity),
+        "fidelity": level_named(SPEC, fidelity),
         "limits": limits_assumed(params),
         "_request": Asked(SPEC.key, params, point),
         **_size(params, par),

@@ -17,8 +17,8 @@ from ..model.prepare import tables_of
 from ..model.registry import find_model, ladder_of, spec_of
 from ..model.spec import ModelSpec
 from ..units import format_quantity as say
-from .compare_rungs import Comparison, Point, points_of
-from .error_table import QUANTITIES, SAFETY, Interval, RungErrors, fresh_rungs, load_tables
+from .compare_levels import Comparison, Point, points_of
+from .error_table import QUANTITIES, SAFETY, Interval, LevelErrors, fresh_levels, load_tables
 from .formats import shown_error
 
 AUTO = "auto"
@@ -29,19 +29,19 @@ TOLERANCES = (1e-6, 0.5)
 OF_DIFFERENCE = 4.0 / 3.0
 
 
-def rung_and_tolerance(where: str, spec: ModelSpec, text: object) -> tuple[str, float | None]:
+def level_and_tolerance(where: str, spec: ModelSpec, text: object) -> tuple[str, float | None]:
     """Return level and tolerance of "field", "auto" or "auto:0.01"; None: as named.
 
     With a tolerance the level is the model's own default, until one is chosen.
     """
-    rung, _, given = text.partition(":") if isinstance(text, str) else ("", "", "")
-    if rung != AUTO and text not in spec.fidelities:
-        options = " or ".join(map(repr, spec.rungs))
+    level, _, given = text.partition(":") if isinstance(text, str) else ("", "", "")
+    if level != AUTO and text not in spec.fidelities:
+        options = " or ".join(map(repr, spec.levels))
         raise ParameterError(
             f"{where}: fidelity = {text!r}, allowed: {options} or 'auto:TOLERANCE'"
         )
-    if rung != AUTO:
-        return rung, None
+    if level != AUTO:
+        return level, None
     low, high = TOLERANCES
     try:
         tolerance = TOLERANCE if text == AUTO else float(given)
@@ -74,18 +74,18 @@ class Choice:
         return "\n  ".join(self.reasons)
 
 
-def rungs_of(spec: ModelSpec, params: object) -> list[str]:
+def levels_of(spec: ModelSpec, params: object) -> list[str]:
     """Return the levels that can be chosen with these parameters, cheapest first.
 
     ParameterError: none can be chosen of this model.
     """
     ladder, found = ladder_of(spec.key), []
-    for rung in ladder.kernels:
+    for level in ladder.kernels:
         with suppress(ParameterError):  # there is no file for it to look its answers up in
-            if tables := tables_of(spec, rung):
+            if tables := tables_of(spec, level):
                 tables.find(params)
-            if all(getattr(params, n) == value for n, value in ladder.only.get(rung, {}).items()):
-                found.append(rung)
+            if all(getattr(params, n) == value for n, value in ladder.only.get(level, {}).items()):
+                found.append(level)
     return found
 
 
@@ -144,21 +144,21 @@ def choose(
         _above("safety", safety, 1.0),
         _above("n_calls", n_calls, 1.0),
     )
-    rungs = rungs_of(spec, params)
+    levels = levels_of(spec, params)
     if among is not None:
         for name in among:
-            if name not in rungs:
-                raise ParameterError(f"among: {name!r}, allowed: {' or '.join(map(repr, rungs))}")
-        rungs = [name for name in rungs if name in among]
-    if not rungs:
+            if name not in levels:
+                raise ParameterError(f"among: {name!r}, allowed: {' or '.join(map(repr, levels))}")
+        levels = [name for name in levels if name in among]
+    if not levels:
         raise ParameterError("among: no fidelity level, allowed: at least one")
     # What need not be given is zero in all tables.
     plain_inputs = all(whole[s.name] == (0.0, 0.0) for s in spec.inputs if s.optional)
-    fresh = fresh_rungs(spec.key, params) if plain_inputs else {}
+    fresh = fresh_levels(spec.key, params) if plain_inputs else {}
     known = {
-        rung: asked.safety * worst
-        for rung in rungs
-        if rung in fresh and (worst := fresh[rung].worst(quantity, whole)) is not None
+        level: asked.safety * worst
+        for level in levels
+        if level in fresh and (worst := fresh[level].worst(quantity, whole)) is not None
     }
     if known and asked.is_of_solutions and all(low == high for low, high in whole.values()):
         at = {name: low for name, (low, _) in whole.items()}
@@ -167,10 +167,10 @@ def choose(
         found = _by_table(asked, known, fresh)
     else:
         compared = Comparison(spec, params, points or points_of(whole), quantity)
-        found = _by_comparison(asked, rungs, compared)
-    tables = ((r, t.stale(r)) for t in load_tables(spec.key, params) for r in t.rungs)
+        found = _by_comparison(asked, levels, compared)
+    tables = ((r, t.stale(r)) for t in load_tables(spec.key, params) for r in t.levels)
     stale = [
-        f"not counted: {r.fidelity}: {why}" for r, why in tables if why and r.fidelity in rungs
+        f"not counted: {r.fidelity}: {why}" for r, why in tables if why and r.fidelity in levels
     ]
     return replace(found, reasons=(*found.reasons, *stale))
 
@@ -195,39 +195,39 @@ class _Request(NamedTuple):
 
 
 def _of_solutions(
-    spec: ModelSpec, params: object, at: dict[str, float], rungs: Iterable[str]
+    spec: ModelSpec, params: object, at: dict[str, float], levels: Iterable[str]
 ) -> dict[str, float]:
     """Return the errors that the solutions at a point estimate, of levels of which they do."""
     model, found = find_model(spec.key), {}
-    for rung in rungs:
+    for level in levels:
         with suppress(ParameterError, SolveError):
-            result = model.solve(params, **model.back(dict(at)), fidelity=rung)
+            result = model.solve(params, **model.back(dict(at)), fidelity=level)
             estimate = getattr(result, "error_estimate", None)
             if estimate is not None:
-                found[rung] = float(estimate)
+                found[level] = float(estimate)
     return found
 
 
 def _by_table(
-    asked: _Request, known: dict[str, float], fresh: dict[str, RungErrors], *, at: bool = False
+    asked: _Request, known: dict[str, float], fresh: dict[str, LevelErrors], *, at: bool = False
 ) -> Choice:
     """Return the first level whose error holds, ``at`` a point or in a box; SolveError if none."""
-    chosen = next((rung for rung, error in known.items() if error <= asked.tol), None)
+    chosen = next((level for level, error in known.items() if error <= asked.tol), None)
     if chosen is None:
-        best = min(known, key=lambda rung: known[rung])
+        best = min(known, key=lambda level: known[level])
         raise SolveError(
             f"{asked.model}: no fidelity level reaches {asked.shown(asked.tol)} in "
             f"{asked.quantity}; the "
             f"best is {best} with {asked.shown(known[best])}. Ask for less, or name a "
             f"fidelity level"
         )
-    rung = fresh[chosen]
+    level = fresh[chosen]
     where = " at this point" if at else ""
     lines = [
         f"{asked.model}: {chosen}, {asked.quantity} within {asked.shown(known[chosen])}{where} "
-        f"(requested {asked.shown(asked.tol)}), {say(rung.call, 's', digits=2)} per call"
+        f"(requested {asked.shown(asked.tol)}), {say(level.call, 's', digits=2)} per call"
     ]
-    beside = max(chart.beside_fold for chart in rung.charts)
+    beside = max(chart.beside_fold for chart in level.charts)
     if beside and not at and asked.quantity == TORQUE:
         promise = asked.shown(asked.safety * beside)
         lines.append(f"within 5 % of a fold's load: {promise}, if the branch is the same")
@@ -236,26 +236,26 @@ def _by_table(
             words = "too coarse" if error > asked.tol else "would hold too"
             call = say(fresh[other].call, "s", digits=2)
             lines.append(f"{words}: {other}, {asked.shown(error)} in {call}")
-    return Choice(chosen, known[chosen], asked.n_calls * rung.call, tuple(lines))
+    return Choice(chosen, known[chosen], asked.n_calls * level.call, tuple(lines))
 
 
-def _by_comparison(asked: _Request, rungs: list[str], compared: Comparison) -> Choice:
+def _by_comparison(asked: _Request, levels: list[str], compared: Comparison) -> Choice:
     """Return the first level that the one above confirms at the points, or the last."""
     coarse: list[str] = []
     n = len(compared.points)
     where = "there" if n == 1 else f"at {n} points"
-    for rung, above in pairwise(rungs):
-        difference = compared.difference(rung, above)
+    for level, above in pairwise(levels):
+        difference = compared.difference(level, above)
         error = asked.safety * OF_DIFFERENCE * difference
         if error <= asked.tol:
             words = (
-                f"{asked.model}: {rung}, no table of errors speaks here; {where} it is "
+                f"{asked.model}: {level}, no table of errors speaks here; {where} it is "
                 f"{asked.shown(difference)} from {above} (requested {asked.shown(asked.tol)})"
             )
-            return Choice(rung, error, math.nan, (words, *coarse), False)
-        coarse.append(f"too coarse: {rung}, {asked.shown(difference)} from {above}")
-    words = f"{asked.model}: {rungs[-1]}, the last fidelity level; no table of errors speaks here"
-    return Choice(rungs[-1], math.inf, math.nan, (words, *coarse), False)
+            return Choice(level, error, math.nan, (words, *coarse), False)
+        coarse.append(f"too coarse: {level}, {asked.shown(difference)} from {above}")
+    words = f"{asked.model}: {levels[-1]}, the last fidelity level; no table of errors speaks here"
+    return Choice(levels[-1], math.inf, math.nan, (words, *coarse), False)
 
 
 def checked_box(spec: ModelSpec, box: Mapping[str, float | Interval]) -> dict[str, Interval]:

@@ -24,7 +24,7 @@ from ..native.files import user_cache
 from ..storage.digests import CHECK, DATA, closure, is_broken, kernel_digest, params_digest, sealed
 from ..storage.whole_files import whole_file
 
-SCHEMA = 3
+SCHEMA = 4
 SAFETY = 1.5  # between the largest error found at points and what is promised between them
 OWN = "own-"  # begins the name of a table that lies in the user's cache
 FOLDER = "THRUSTWASHER_TABLES"  # environment: one more folder with tables
@@ -90,7 +90,7 @@ class Chart:
 
 
 @dataclass(frozen=True, slots=True)
-class RungErrors:
+class LevelErrors:
     """The measured errors of one level in ``box``, and the seconds of a call.
 
     ``sources`` is the digest of its kernels and of the files in ``data`` that it reads.
@@ -151,14 +151,14 @@ class ErrorTable:
     version: str  # of the package
     machine: str  # that the seconds are of
     reference: tuple[str, ...]
-    rungs: tuple[RungErrors, ...]
+    levels: tuple[LevelErrors, ...]
 
-    def stale(self, rung: RungErrors) -> str | None:
+    def stale(self, level: LevelErrors) -> str | None:
         """Return why a level's errors do not count any more, and what renews them, or None."""
         own = self.name.startswith(OWN)
         renew = "thrustwasher fidelity PART.toml" if own else f"{VERIFY} {self.model}"
         try:
-            if sources_of(self.model, rung.fidelity, rung.files) == rung.sources:
+            if sources_of(self.model, level.fidelity, level.files) == level.sources:
                 return None
         except (KeyError, OSError) as error:
             return f"a source is not there ({error}); renew it: {renew}"
@@ -213,7 +213,7 @@ def read_tables(path: Path) -> tuple[ErrorTable, ...]:
 
 def own_folder() -> Path:
     """Return where the tables of the user's own parts lie; it need not exist."""
-    return user_cache() / "cards"
+    return user_cache() / "error_tables"
 
 
 def named_folder() -> str | None:
@@ -226,7 +226,7 @@ def named_folder() -> str | None:
 def table_folders() -> list[Path]:
     """Return the folders that are searched: the package's, the user's, the environment's."""
     named = named_folder()
-    return [DATA / "cards", own_folder(), *([Path(named)] if named else [])]
+    return [DATA / "error_tables", own_folder(), *([Path(named)] if named else [])]
 
 
 @cache
@@ -265,15 +265,15 @@ def refused_files() -> dict[str, str]:
     return {name: why for folder in table_folders() for name, why in _folder(folder)[1].items()}
 
 
-def fresh_rungs(model: str, params: object) -> dict[str, RungErrors]:
+def fresh_levels(model: str, params: object) -> dict[str, LevelErrors]:
     """Return the levels whose errors are known for these parameters and kernels, cheapest first."""
     return _fresh(model, params, named_folder())
 
 
 @lru_cache(maxsize=64)
-def _fresh(model: str, params: object, folder: str | None) -> dict[str, RungErrors]:
+def _fresh(model: str, params: object, folder: str | None) -> dict[str, LevelErrors]:
     tables = load_tables(model, params)
-    return {r.fidelity: r for t in tables for r in t.rungs if t.stale(r) is None}
+    return {r.fidelity: r for t in tables for r in t.levels if t.stale(r) is None}
 
 
 def error_estimate(
@@ -290,8 +290,8 @@ def error_estimate(
     1.5 times the largest error found in the point's region; over all branches if none is named.
     With the film ratio found there, that among points of such film ratios if it is less.
     """
-    rung = fresh_rungs(model, params).get(fidelity)
+    level = fresh_levels(model, params).get(fidelity)
     known = point if film_ratio is None else {**point, "film_ratio": film_ratio}
     box = {name: (value, value) for name, value in known.items()}
-    worst = rung.worst(quantity, box, branch) if rung else None
+    worst = level.worst(quantity, box, branch) if level else None
     return None if worst is None else SAFETY * worst

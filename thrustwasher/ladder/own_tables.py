@@ -72,8 +72,8 @@ def serves(tables: Tables, params: object, box: Box, tol: float) -> bool:
         known = tables.box(params)
     except ParameterError:
         return False
-    card = tables.find(params).card
-    errors = card["tolerance"], card.get("held_out", {}).get("torque", 0.0)
+    metadata = tables.find(params).metadata
+    errors = metadata["tolerance"], metadata.get("held_out", {}).get("torque", 0.0)
     return max(errors) <= tol and all(
         known[n][0] <= max(low, tables.least(n)) and high <= known[n][1]
         for n, (low, high) in box.items()

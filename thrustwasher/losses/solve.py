@@ -13,9 +13,9 @@ import numpy as np
 from ..errors import SolveError, Status
 from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
+from ..model.levels import level_named
 from ..model.parameters import check_number
 from ..model.prepare import filled
-from ..model.rungs import rung_named
 from ..model.sensitivity import Differentiable
 from ..model.solutions import Asked
 from ..model.spec import CHURNING_REGIMES
@@ -120,7 +120,7 @@ def solve_losses(
     return LossesResult(
         **shown,
         status=status,
-        fidelity=rung_named(SPEC, fidelity),
+        fidelity=level_named(SPEC, fidelity),
         _request=Asked(SPEC.key, params, {**point, "fidelity": fidelity}),
         warnings=(
             *idle_warnings(SPEC.key, params, fidelity),

@@ -14,7 +14,7 @@
 ``unread``       which parameters are not read, because of the value of another one
 ``oil``          an oil by name, data sheet or points, as parameters of a model
 ``oil_laws``     viscosity of an oil over temperature: ASTM D341, and the laws that the models have
-``rungs``        names of levels, and which one runs in the place of one that is gone
+``levels``        names of levels, and which one runs in the place of one that is gone
 ``prepare``      from parameters to what a kernel takes: rules, constants, tables
 ``sensitivity``  derivatives of results over parameters, and differences where a solve is quick
 ``solutions``    solutions of a model, at a point and over time, as a person reads them

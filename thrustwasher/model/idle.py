@@ -10,9 +10,9 @@ from functools import cache, lru_cache
 from typing import Any
 
 from ..units import format_quantity
+from .levels import gone_level
 from .part_file import PartFile, preset_parts
 from .registry import find_spec
-from .rungs import gone_rung
 from .unread import unread, why_unread
 
 
@@ -26,7 +26,7 @@ def idle_warnings(model: str, params: Any, fidelity: str = "") -> tuple[str, ...
     """
     found: dict[str, list[str]] = {}
     spec = find_spec(model)
-    gone, fidelity = gone_rung(spec, fidelity), spec.successors.get(fidelity, fidelity)
+    gone, fidelity = gone_level(spec, fidelity), spec.successors.get(fidelity, fidelity)
     for f in fields(params):
         own = getattr(params, f.name)
         pairs = unread(params, f.name, fidelity) if own != 0.0 else []

@@ -34,6 +34,7 @@ from ..errors import ParameterError, within
 from ..face_load import LIMITED, over_limits
 from ..moved import now_named
 from ..units import exact_quantity, format_quantity
+from .levels import level_named
 from .oil import Oil, oil_doubts, refuse_two_ways, sheet_oil
 from .parameters import (
     allowed,
@@ -48,7 +49,6 @@ from .parameters import (
 from .part_places import part_places
 from .point import point_of
 from .registry import MODELS, find_model
-from .rungs import rung_named
 from .scatter import Place, Scatter, read_scatter
 from .spec import ModelSpec, tailored
 from .toml_tables import (
@@ -104,12 +104,12 @@ class PartFile:
         """The model as its FMU shows it: this part's name and values, inputs inside its box."""
         names = [s.name for s in self.spec.inputs]
         starts = {s.name: self.inside(s.name, s.in_fmus) for s in self.spec.inputs}
-        course = tuple((t, *map(self.inside, names, row)) for t, *row in self.spec.course)
+        profile = tuple((t, *map(self.inside, names, row)) for t, *row in self.spec.profile)
         return tailored(
             self.spec,
-            {**self.parameters, "fidelity": rung_named(self.spec, self.fidelity)},
+            {**self.parameters, "fidelity": level_named(self.spec, self.fidelity)},
             starts,
-            course=course,
+            profile=profile,
             **self.about,
         )
 
@@ -348,7 +348,7 @@ def _part(where: str, table: dict[str, Any], folder: Path | None = None) -> Part
         spec = find_model(table["model"]).spec
         name = checked_name(table["name"])
         fidelity = table.get("fidelity", spec.default_fidelity)
-        rung_named(spec, fidelity)
+        level_named(spec, fidelity)
     parameters = read_parameters(f"{where} [parameters]", spec, table.get("parameters", {}))
     own = None
     if "oil" in table:
@@ -448,8 +448,8 @@ def _lines(part: PartFile) -> Iterator[str]:
     yield f"name = {json.dumps(part.name)}  # of its FMU: letters, digits and _"
     for key in ("description", "notes"):
         yield f"{key} = {json.dumps(getattr(part, key), ensure_ascii=False)}"
-    rungs = " or ".join(part.spec.rungs)
-    yield f"fidelity = {json.dumps(part.fidelity)}  # {rungs}"
+    levels = " or ".join(part.spec.levels)
+    yield f"fidelity = {json.dumps(part.fidelity)}  # {levels}"
     params = part.params
     is_in = part.oil and part.oil.is_in(part.spec, params)  # or it is not this oil any more
     set_by_oil = part.oil.parameters_for(part.spec) if part.oil and is_in else {}

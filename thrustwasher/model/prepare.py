@@ -14,9 +14,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, Status
 from ..units import into_range
+from .levels import level_named
 from .parameters import as_numbers, check_rules
 from .registry import MODELS, find_model
-from .rungs import rung_named
 from .spec import ModelSpec, Signal, Tables
 
 Array = NDArray[np.float64]
@@ -31,12 +31,12 @@ def filled(
     ParameterError if the
     level is not one of the model's, or the parameters cannot be used together.
     """
-    rung = rung_named(spec, fidelity)
+    level = level_named(spec, fidelity)
     if getattr(params, "thermal_mode", "quasi_steady") != "quasi_steady":
         params = replace(params, thermal_mode="quasi_steady")
     if getattr(params, "holding", "off") != "off":
         params = replace(params, holding="off")
-    numbers = [*as_numbers(params), list(spec.fidelities).index(rung) + 1]
+    numbers = [*as_numbers(params), list(spec.fidelities).index(level) + 1]
     par = np.zeros(size)
     par[: len(numbers)] = numbers
     status = Status(derive(par))
@@ -68,15 +68,15 @@ def with_box(spec: ModelSpec) -> ModelSpec:
         box = tables.box(spec.table_of or spec.params())
     except ParameterError:  # no map was made for it
         return spec
-    return replace(spec, inputs=tuple(_told(s, box, tables.rung) for s in spec.inputs))
+    return replace(spec, inputs=tuple(_told(s, box, tables.level) for s in spec.inputs))
 
 
-def _told(signal: Signal, box: Mapping[str, tuple[float, float]], rung: str) -> Signal:
+def _told(signal: Signal, box: Mapping[str, tuple[float, float]], level: str) -> Signal:
     if signal.name not in box:
         return signal
     low, high = box[signal.name]
     unit = "" if signal.unit == "1" else f" {signal.unit}"
-    return replace(signal, help=f"{signal.help}; fidelity {rung}: {low:g} .. {high:g}{unit}")
+    return replace(signal, help=f"{signal.help}; fidelity {level}: {low:g} .. {high:g}{unit}")
 
 
 def is_of_table(spec: ModelSpec, par: object, place: int) -> bool:
@@ -102,10 +102,10 @@ def fill_table(spec: ModelSpec, params: object, par: object, work: Any) -> None:
     room[: len(table)] = table
 
 
-def tables_of(spec: ModelSpec, rung: str | None = None) -> Tables | None:
+def tables_of(spec: ModelSpec, level: str | None = None) -> Tables | None:
     """Return where a model, or one level of it, looks its answers up; None if it solves."""
     tables = find_model(spec.key).tables() if spec.key in MODELS else None
-    return tables if tables and rung in (None, tables.rung) else None
+    return tables if tables and level in (None, tables.level) else None
 
 
 def _known(spec: ModelSpec) -> dict[str, float]:
@@ -115,13 +115,13 @@ def _known(spec: ModelSpec) -> dict[str, float]:
 
 def rising(time: ArrayLike) -> Array:
     """Return points in time [s]; at least two, rising."""
-    points = course_of("time", time, "s", -1e9, 1e9)
+    points = profile_of("time", time, "s", -1e9, 1e9)
     if len(points) < 2 or not (np.diff(points) > 0.0).all():
         raise ParameterError("time: at least two rising points [s] are required")
     return points
 
 
-def course_of(
+def profile_of(
     name: str, values: ArrayLike, unit: str, low: float, high: float, n: int | None = None
 ) -> Array:
     """Return a checked array; one number stands for ``n`` equal ones."""

@@ -191,13 +191,13 @@ class Model(ABC):
 
     alone: tuple[str, ...] = ()  # levels that there are FMUs of their own of
 
-    def of_one_rung(self, spec: ModelSpec, rung: str) -> ModelSpec:
+    def of_one_level(self, spec: ModelSpec, level: str) -> ModelSpec:
         """Return a model of this kind, or a part's, that has nothing but one of its levels.
 
         ParameterError if there is no such FMU.
         """
         raise ParameterError(
-            f"fidelity = {rung!r} alone, for {spec.name}, allowed: "
+            f"fidelity = {level!r} alone, for {spec.name}, allowed: "
             + (" or ".join(map(repr, self.alone)) or "none; its FMU has all of its fidelities")
         )
 

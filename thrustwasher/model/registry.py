@@ -49,7 +49,7 @@ def models_with_points() -> dict[str, Model]:
     return {model.key: model for model in all_models() if model.command}
 
 
-def models_with_cards() -> dict[str, Model]:
+def models_with_error_tables() -> dict[str, Model]:
     """Return the models with verification tables of their fidelity levels, by their keys."""
     return {model.key: model for model in all_models() if model.ladder}
 
@@ -100,7 +100,9 @@ def all_specs(*, helpers: bool = False, alone: bool = False) -> list[ModelSpec]:
     models = [*all_models(), *map(find_model, HELPERS if helpers else ())]
     found = [model.spec for model in models]
     if alone:
-        found += [model.of_one_rung(model.spec, rung) for model in models for rung in model.alone]
+        found += [
+            model.of_one_level(model.spec, level) for model in models for level in model.alone
+        ]
     return found
 
 
@@ -120,7 +122,7 @@ def _among(models: dict[str, Model], name: str) -> Model:
 
 def ladder_of(name: str) -> Ladder:
     """Return what the choice of a level knows of a model; errors as in ``spec_of``."""
-    found = _among(models_with_cards(), name).ladder
+    found = _among(models_with_error_tables(), name).ladder
     assert found is not None
     return found
 

@@ -122,10 +122,10 @@ class Terminal:
 class Tables(NamedTuple):
     """Files of solutions made beforehand, in which one of a model's levels looks its answers up.
 
-    A file has a ``path``, its ``data`` as the kernel takes them, and a ``card``.
+    A file has a ``path``, its ``data`` as the kernel takes them, and a ``metadata``.
     """
 
-    rung: str
+    level: str
     paths: Callable[[], list[Path]]  # of all files there are
     readable: Callable[[bool], Sequence[Any]]  # sound files: those of the package alone, or all
     find: Callable[[Any], Any]  # the file for parameters; ParameterError if there is none
@@ -156,7 +156,7 @@ class ModelSpec:
     stop_time: float = 1.0
     step_size: float = 1e-3
     # The reference run: rows of time and all inputs, linear between; none: inputs at their start.
-    course: tuple[tuple[float, ...], ...] = ()
+    profile: tuple[tuple[float, ...], ...] = ()
     counted: Callable[[], tuple[tuple[str, int], ...]] = tuple
     """Returns what the solver counts: text, place in ``work``."""
     absent: Callable[[Any], frozenset[str]] = no_outputs
@@ -174,7 +174,7 @@ class ModelSpec:
     successors: Mapping[str, str] = field(default_factory=dict)
 
     @property
-    def rungs(self) -> dict[str, str]:
+    def levels(self) -> dict[str, str]:
         """The fidelities there are, each with its sentence."""
         return {n: text for n, text in self.fidelities.items() if n not in self.successors}
 
@@ -191,7 +191,7 @@ def tailored(
 
     ``fidelity`` is among the parameters; what is not named stays as it is. ``more`` are other
     fields of the model, such as ``name`` and, of its default experiment [s], ``stop_time``; its
-    inputs hold unless a ``course`` is among them.
+    inputs hold unless a ``profile`` is among them.
     """
     kept = [
         (f.name, f.type, field(default=parameters.get(f.name, f.default), metadata=f.metadata))
@@ -209,7 +209,7 @@ def tailored(
     own = {
         "params": params,
         "kind": spec.kind or spec.name,
-        "course": (),
+        "profile": (),
         "default_fidelity": parameters.get("fidelity", spec.default_fidelity),
         "inputs": tuple(
             replace(s, start=starts[s.name], first=None) if s.name in starts else s

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, get_args, get_origin, get_type_hints
 
 from ..errors import ParameterError, refuse_pipe, suggestion, within
+from ..moved import now_named
 from ..units import has_unit, parse_quantity
 from .parameters import allowed, check_number, check_value
 from .spec import ModelSpec, Rule
@@ -109,7 +110,7 @@ def spec_beside(
     may follow; an output depends on all inputs unless these say otherwise. ``more`` are fields of
     the ``ModelSpec`` that are no data.
     """
-    table = table_beside(module, "interface.toml")
+    table = now_named(module, {"course": "profile"}, table_beside(module, "interface.toml"))
     numbers = {"inputs": ("low", "high", "nominal", "start"), "outputs": ("nominal",)}
     signals: dict[str, Any] = {"inputs": [], "outputs": []}
     for kind, names in numbers.items():

@@ -26,7 +26,7 @@ def fmu_instances(scene: Scene, target: str = "native") -> Iterator[Make]:
         yield make
 
 
-def check_rungs(scene: Scene, where: str = "with [sequence]") -> None:
+def check_levels(scene: Scene, where: str = "with [sequence]") -> None:
     """Refuse a fidelity that is still to be chosen."""
     if open_ := [name for name, part in scene.parts.items() if part.tolerance]:
         raise ParameterError(
@@ -50,6 +50,6 @@ def run_scene(
     """
     if not scene.sequence:
         return run_auto(scene, make, guard=guard, progress=progress)
-    check_rungs(scene)
+    check_levels(scene)
     instances = {name: make(name, part) for name, part in scene.parts.items()}
     return run_sequence(scene, instances, guard=guard, progress=progress, keep=keep)

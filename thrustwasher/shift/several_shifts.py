@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError, SolveError
 from ..shown import Card, Line, Tabled, Words, plain_dict
-from ..transmission.parameters import course_points
+from ..transmission.parameters import profile_points
 from ..units import format_quantity
 from .account.summary import warnings_of
 from .checks.guard import REMEDY, followed_washers
@@ -243,7 +243,7 @@ def _drives(system: System, shifts: list[Scene]) -> Drive:
     names, inputs = system.transmission.input_names, system.transmission.inputs
     profiles = [
         {
-            name: np.array(course_points(s.parts["transmission"].params, profile)).T
+            name: np.array(profile_points(s.parts["transmission"].params, profile)).T
             for name, profile in DRIVEN.items()
         }
         for s in shifts

@@ -6,20 +6,20 @@ from pathlib import Path
 
 from ..errors import ParameterError
 from ..plugins import called
-from .from_fmus import check_rungs, fmu_instances, run_scene
+from .from_fmus import check_levels, fmu_instances, run_scene
 from .scene.scene import Scene, with_fidelities
 from .scene.scene_file import load_scene
 from .several_shifts import SequenceResult
 from .shift_result import ShiftResult
 
-Rungs = str | Sequence[str] | Mapping[str, str]
+Levels = str | Sequence[str] | Mapping[str, str]
 
 
 def run_shift(
     scene: str | Path | Scene = "planetary",
     *,
     step: float | None = None,
-    fidelity: Rungs | None = None,
+    fidelity: Levels | None = None,
     scatter: int | None = None,
     keep: str = "all",
 ) -> ShiftResult | SequenceResult:
@@ -56,12 +56,12 @@ def run_shift(
     '2.11 s'
     """
     asked = _scene(scene).with_options(step=_seconds(step))
-    asked = with_fidelities(asked, _rungs(fidelity))
+    asked = with_fidelities(asked, _levels(fidelity))
     runs = None
     if scatter is not None:
         runs = called("runs_of_study")(f"scatter = {scatter!r}", asked, scatter)
     if asked.sequence:
-        check_rungs(asked)
+        check_levels(asked)
     with fmu_instances(asked) as make:
         result = run_scene(asked, make, keep=keep)
     if runs is None or isinstance(result, SequenceResult):
@@ -83,12 +83,12 @@ def _seconds(step: object) -> float | None:
     raise ParameterError(f"step = {step!r}, allowed: a number of seconds")
 
 
-def _rungs(fidelity: object) -> list[str]:
+def _levels(fidelity: object) -> list[str]:
     if fidelity is None:
         return []
     found = [fidelity] if isinstance(fidelity, str) else fidelity
     if isinstance(fidelity, Mapping):
-        found = [f"{part}={rung}" for part, rung in fidelity.items()]
+        found = [f"{part}={level}" for part, level in fidelity.items()]
     if not isinstance(found, Sequence) or not all(isinstance(text, str) for text in found):
         raise ParameterError(
             f"fidelity = {fidelity!r}, allowed: a fidelity level, or {{part: fidelity level}}"

@@ -1,9 +1,9 @@
 """What lies around the models, their FMUs and shifts, which run without it.
 
 ================  =========================================================================
-``commands``      the commands ``calibrate cards compare efficiency explore optimise scatter
+``commands``      the commands ``calibrate fidelity compare efficiency explore optimise scatter
                   sweep``, and the files of ``shift``
-``rigs``          published measurements against the models
+``measured``          published measurements against the models
 ``optimisation``  designs that are found
 ``scatter``       uncertainty of figures
 ``explore``       a model or a shift in one page for the browser

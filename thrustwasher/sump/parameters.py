@@ -131,7 +131,7 @@ SPEC = ModelSpec(
     stop_time=600.0,
     step_size=1.0,
     # 2 kW for ten minutes, the cooler from half of it on.
-    course=tuple(
+    profile=tuple(
         (t, *[2e3 if i == 1 else 0.0 for i in PORTS], 298.15, flow, 338.15, *[0.0 for _ in PORTS])
         for t, flow in ((0.0, 0.0), (300.0, 0.0), (301.0, 5e-5), (600.0, 5e-5))
     ),

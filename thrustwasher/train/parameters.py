@@ -202,7 +202,7 @@ SPEC = ModelSpec(
     terminals=TERMINALS,
     absent=absent_outputs,
     # Run up under torque, work, coast down through no torque, stand, turn back.
-    course=(
+    profile=(
         (0.0, 0.0, 0.0, 300.0),
         (0.3, 100.0, 300.0, 300.0),
         (0.6, 200.0, 500.0, 340.0),

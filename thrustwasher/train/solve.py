@@ -11,9 +11,9 @@ from ..gearmesh.solve import solve_gearmesh
 from ..losses.kernels import loss_laws as laws
 from ..losses.loss_ranges import DEPTH, FAST, FROUDE, REYNOLDS
 from ..model.advice import warnings_of
+from ..model.levels import level_named
 from ..model.parameters import check_number
 from ..model.prepare import filled
-from ..model.rungs import rung_named
 from ..model.sensitivity import Differentiable
 from ..model.solutions import Asked
 from ..numerics.power_flow import BOTH, SELF_LOCKING, power_flow
@@ -123,7 +123,7 @@ def solve_train(
         **found,
         flow=flow,
         status=status,
-        fidelity=rung_named(SPEC, fidelity),
+        fidelity=level_named(SPEC, fidelity),
         _request=Asked(SPEC.key, params, {**point, "fidelity": fidelity}),
         warnings=tuple(warnings_of(SPEC, status, point, shown, doubts)),
     )

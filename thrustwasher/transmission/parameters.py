@@ -20,7 +20,7 @@ from ..model.parameters import (
 )
 from ..model.spec import ModelSpec, Rule
 from .bearings import BEARINGS, bearing_fields, rubbing, two_ends
-from .signals import COURSE, INPUTS, OUTPUTS, TERMINALS
+from .signals import INPUTS, OUTPUTS, PROFILE, TERMINALS
 
 ARRANGEMENT = {
     "sun-input": "the sun is driven, the brake holds the ring: first gear 1 + z_r/z_s",
@@ -51,7 +51,7 @@ def _room(p: Any) -> str:
     )
 
 
-COURSES = {  # of points in time; what is out of use next to the engine's: its constant torque
+PROFILES = {  # of points in time; what is out of use next to the engine's: its constant torque
     "clutch_pressure": ("Pa", 0.0, 1e8, "pressure of the clutch"),
     "brake_pressure": ("Pa", 0.0, 1e8, "pressure of the brake"),
     "engine_torque": ("N.m", -1e5, 1e5, "engine torque"),
@@ -59,7 +59,7 @@ COURSES = {  # of points in time; what is out of use next to the engine's: its c
 POINTS = 10  # of a profile at most
 
 
-def course_fields(name: str, points: Sequence[tuple[float, float]]) -> dict[str, float]:
+def profile_fields(name: str, points: Sequence[tuple[float, float]]) -> dict[str, float]:
     """Return the parameters of a profile of points (time [s], value in SI units).
 
     ParameterError if there are none or too many.
@@ -71,7 +71,7 @@ def course_fields(name: str, points: Sequence[tuple[float, float]]) -> dict[str,
     return {f"{name}_points": len(points), **times, **values}
 
 
-def course_points(params: object, name: str) -> list[tuple[float, float]]:
+def profile_points(params: object, name: str) -> list[tuple[float, float]]:
     """Return the points of a profile: time [s] and value."""
     return [
         (getattr(params, f"{name}_time_{i}"), getattr(params, f"{name}_{i}"))
@@ -85,7 +85,7 @@ def _order(name: str) -> Rule:
 
 
 def _not_rising(name: str, p: object) -> str:
-    times = [t for t, _ in course_points(p, name)]
+    times = [t for t, _ in profile_points(p, name)]
     i, a, b = next((i, a, b) for i, (a, b) in enumerate(pairwise(times), 2) if not b > a)
     return f"{name}_time_{i} = {b!r} s, allowed: above the time of the point before ({a!r} s)"
 
@@ -121,7 +121,7 @@ RULES = (
         "piston_supply_radius = {piston_supply_radius} m, allowed: up to piston_outer_radius "
         "({piston_outer_radius} m)"
     ),
-    *map(_order, COURSES),
+    *map(_order, PROFILES),
     *map(two_ends, BEARINGS),
     *map(rubbing, BEARINGS),
 )
@@ -145,7 +145,7 @@ def _piston(pack: str) -> dict[str, Any]:
     return {f"{pack}_{name}": quantity(*about) for name, about in given.items()}
 
 
-def _course(name: str, unit: str, low: float, high: float, text: str) -> dict[str, Any]:
+def _profile(name: str, unit: str, low: float, high: float, text: str) -> dict[str, Any]:
     time, value = f"{text}: time of point", f"{text}: value of point"
     n = range(1, POINTS + 1)
     return {
@@ -261,8 +261,8 @@ class _TransmissionParams:
 
 _MORE = {k: x for name in BEARINGS for k, x in bearing_fields(name).items()}
 _MORE |= _piston("clutch") | _piston("brake")
-for _name, _about in COURSES.items():
-    _MORE |= _course(_name, *_about)
+for _name, _about in PROFILES.items():
+    _MORE |= _profile(_name, *_about)
 TransmissionParams = other_names(extended(_TransmissionParams, "TransmissionParams", _MORE))
 
 
@@ -279,5 +279,5 @@ SPEC = ModelSpec(
     kernel="thrustwasher.transmission.kernels.step",
     rules=RULES,
     terminals=TERMINALS,
-    course=COURSE,
+    profile=PROFILE,
 )

@@ -266,7 +266,7 @@ TERMINALS = (
 
 _LOST = (3.0, 0.1, 1.0, 0.02)  # what losses take from input, drum, output and planet
 # An upshift, from row to row: the brake lets go while the clutch takes over and locks.
-COURSE = (
+PROFILE = (
     (0.0, 0.0, 400.0, 0.05, 0.2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, *_LOST),
     (0.2, 0.0, 400.0, 0.05, 0.2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, *_LOST),
     (0.5, 150.0, 0.0, 0.05, 0.2, 0.6, 0.0, 0.0, 0.0, 0.0, 0.0, *_LOST),

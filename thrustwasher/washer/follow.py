@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SolveError, Status
 from ..face_load import face_loads
+from ..model.levels import gone_level, level_named
 from ..model.parameters import as_numbers
-from ..model.prepare import course_of, rising
-from ..model.rungs import gone_rung, rung_named
+from ..model.prepare import profile_of, rising
 from ..model.solutions import OverTime
 from ..moved import renamed, warn_renamed
 from ..numerics.jit import Array
@@ -142,7 +142,7 @@ def follow_washer(
     """
     points = rising(time)
     columns = [
-        course_of(name, given, unit, low, high, len(points))
+        profile_of(name, given, unit, low, high, len(points))
         for (name, unit, low, high), given in zip(
             RANGES, (load, speed, tilt, oil_temperature, far_face_temperature), strict=True
         )
@@ -156,8 +156,8 @@ def follow_washer(
         )
     if fidelity == "map":
         raise ParameterError(f"fidelity = {fidelity!r}, allowed: 'field' or 'fine'")
-    inputs, rung = np.column_stack(columns), rung_named(SPEC, fidelity)
-    run = Follower(params, resolve_grid(rung, grid))
+    inputs, level = np.column_stack(columns), level_named(SPEC, fidelity)
+    run = Follower(params, resolve_grid(level, grid))
     rows, lost = np.empty((len(points), kernel.NOUT)), np.zeros(len(points), bool)
     statuses: list[Status] = []
 
@@ -175,10 +175,10 @@ def follow_washer(
             time=points[:n],
             distress=lost[:n].copy(),
             status=statuses,
-            fidelity=rung,
+            fidelity=level,
             thermal_mode=params.thermal_mode,
             grid=run.grid,
-            warnings=gone_rung(SPEC, fidelity),
+            warnings=gone_level(SPEC, fidelity),
             **given,
             **made,
             **loads,

@@ -10,9 +10,9 @@ import numpy as np
 
 from ..errors import ParameterError, SolveError, Status
 from ..model.idle import idle_warnings
+from ..model.levels import gone_level, level_named
 from ..model.parameters import check_number
 from ..model.registry import find_model
-from ..model.rungs import gone_rung, rung_named
 from ..model.solutions import scalars, words_at_points
 from ..numerics.jit import Array
 from ..shown import Card, Line, Tabled, Words, column_lines, plain
@@ -29,7 +29,7 @@ from .kernels.workspace import fields_of, size_of_state, size_of_work, workspace
 from .parameters import SPEC, WasherParams
 from .sensitivities import Solved, fold_derivatives
 from .solve import GRIDS, check_point, resolve_grid, result_from
-from .washer_result import BRANCH_NAMES, BY_CARD, Fold, Inputs, WasherResult, advised, lost_text
+from .washer_result import BRANCH_NAMES, FROM_TABLES, Fold, Inputs, WasherResult, advised, lost_text
 
 __all__ = ["Fold", "LoadCurve", "load_curve"]
 
@@ -174,8 +174,8 @@ def load_curve(
     >>> [f"{fold.kind} {fold.load:.0f} N" for fold in curve.folds]
     ['film_lost 958 N', 'film_regained 659 N']
     """
-    rung = rung_named(SPEC, fidelity)
-    nodes = resolve_grid(rung, grid)
+    level = level_named(SPEC, fidelity)
+    nodes = resolve_grid(level, grid)
     load_min = check_number("load_min", load_min, "N", 1.0, MOST)
     load_max = check_number("load_max", load_max, "N", load_min, MOST)
     if load_min == load_max:
@@ -185,13 +185,13 @@ def load_curve(
     point = check_point(params, load_min, speed, tilt, oil_temperature, far_face_temperature)
     here = Continuation(params, point, nodes)
     here.begin(load_min)
-    points: list[WasherResult] = [here.result(rung)]
+    points: list[WasherResult] = [here.result(level)]
     folds: list[Fold] = []
     while here.load < load_max or not here.whole[L.RISES]:
         here.next_point()
-        points.append(here.result(rung))
+        points.append(here.result(level))
         folds += here.passed()
-    return LoadCurve(_labelled(points, folds), folds, gone_rung(SPEC, fidelity))
+    return LoadCurve(_labelled(points, folds), folds, gone_level(SPEC, fidelity))
 
 
 def _labelled(points: list[WasherResult], folds: list[Fold]) -> list[WasherResult]:
@@ -327,5 +327,5 @@ class Continuation:
             Status.OK,
             L.FILM_BRANCH,
             False,
-            BY_CARD if self.nodes == GRIDS[fidelity] else None,
+            FROM_TABLES if self.nodes == GRIDS[fidelity] else None,
         )

@@ -127,10 +127,10 @@ class Washer(Model):
 
         return TABLES
 
-    def of_one_rung(self, spec: ModelSpec, rung: str) -> ModelSpec:
+    def of_one_level(self, spec: ModelSpec, level: str) -> ModelSpec:
         """Return a washer that only looks up in its map."""
-        if rung not in self.alone:
-            return super().of_one_rung(spec, rung)
+        if level not in self.alone:
+            return super().of_one_level(spec, level)
         from .map.map_alone import map_alone
 
         return map_alone(spec)

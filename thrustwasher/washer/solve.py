@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from ..errors import FIRST_FAILURE, BranchError, ParameterError, SolveError, Status
+from ..model.levels import gone_level, level_named
 from ..model.parameters import check_number
 from ..model.record import Sweep
-from ..model.rungs import gone_rung, rung_named
 from ..native.load import bound
 from ..numerics.jit import Array
 from .kernel_arguments import Recent, constants, work_array
@@ -24,7 +24,15 @@ from .kernels.continuation import BUDGET
 from .kernels.regime_and_status import LEAST_TEMPERATURE
 from .kernels.workspace import size_of_state, size_of_work
 from .parameters import SPEC, WasherParams
-from .washer_result import BRANCH_NAMES, BRANCHES, BY_CARD, OVERLAP, Inputs, WasherResult, result_of
+from .washer_result import (
+    BRANCH_NAMES,
+    BRANCHES,
+    FROM_TABLES,
+    OVERLAP,
+    Inputs,
+    WasherResult,
+    result_of,
+)
 
 __all__ = ["WasherParams", "WasherResult", "solve_washer"]
 
@@ -42,10 +50,10 @@ OK = Status.OK
 LARGEST_GRID = (129, 512)
 
 
-def resolve_grid(rung: str, grid: tuple[int, int] | None) -> tuple[int, int]:
+def resolve_grid(level: str, grid: tuple[int, int] | None) -> tuple[int, int]:
     """Return (n_r, n_theta) or raise ParameterError naming what is wrong."""
     if grid is None:
-        return GRIDS[rung]
+        return GRIDS[level]
     try:
         n_r, n_t = (int(n) for n in grid)
         whole = (n_r, n_t) == tuple(grid)
@@ -185,19 +193,19 @@ def solve_washer(
     >>> f"{r.friction_torque:.3f} N m, film ratio {r.film_ratio:.1f}, {r.branch}"
     '0.258 N m, film ratio 20.8, film'
     """
-    rung, messages = rung_named(SPEC, fidelity), gone_rung(SPEC, fidelity)
-    nodes = resolve_grid(rung, grid)
+    level, messages = level_named(SPEC, fidelity), gone_level(SPEC, fidelity)
+    nodes = resolve_grid(level, grid)
     point = check_point(params, load, speed, tilt, oil_temperature, far_face_temperature)
     if branch is not None and branch not in BRANCHES:
         raise ParameterError(f"branch = {branch!r}, allowed: 'film' or 'contact'")
     preferred = BRANCHES[branch] if branch is not None else 0.0
     found: WasherResult | None = None
-    if rung == "map":
+    if level == "map":
         if grid is not None:
             raise ParameterError(f"grid = {grid!r}, allowed: none; fidelity 'map' has no mesh")
         found = _map_solver()(params, point, preferred, start)
-    leaves = rung == "map" and not found
-    solver = "field" if leaves else rung
+    leaves = level == "map" and not found
+    solver = "field" if leaves else level
     result = found or _solve(params, point, solver, nodes, preferred, start, grid is None)
     if leaves:
         result = _told_outside()(result, NOT_IN_MAP)
@@ -300,9 +308,9 @@ def _solve(
     nodes: tuple[int, int],
     preferred: float,
     start: WasherResult | None,
-    card: bool = False,
+    from_tables: bool = False,
 ) -> WasherResult:
-    """Solve on a mesh; ``card``: the level is one whose verification tables know its error."""
+    """Solve on a mesh; ``from_tables``: verification tables know the error of the level."""
     ready = _prepared(params, nodes)
     if start is not None and _continues(start, params, nodes):
         state = start._state.copy()
@@ -310,7 +318,7 @@ def _solve(
         state = np.zeros(size_of_state(*nodes))
         if start is not None and preferred == 0.0:
             preferred = BRANCHES.get(start.branch, 0.0)
-            return _prefer(params, point, fidelity, nodes, preferred, card)
+            return _prefer(params, point, fidelity, nodes, preferred, from_tables)
     ready.inp[:] = (*point, preferred)
     code = ready.step(state, 0.0, 1.0)
     status = OK if code == 0 else Status(code)
@@ -329,7 +337,7 @@ def _solve(
         status,
         float(work[L.AT_FOUND]),
         bool(ready.iout[1]),
-        BY_CARD if card else None,
+        FROM_TABLES if from_tables else None,
     )
 
 
@@ -346,12 +354,12 @@ def _prefer(
     fidelity: str,
     nodes: tuple[int, int],
     preferred: float,
-    card: bool = False,
+    from_tables: bool = False,
 ) -> WasherResult:
     """Solve from nothing on a preferred branch, on the other if it does not exist."""
-    result = _solve(params, point, fidelity, nodes, preferred, None, card)
+    result = _solve(params, point, fidelity, nodes, preferred, None, from_tables)
     if result.status is Status.NO_BRANCH:
-        return _solve(params, point, fidelity, nodes, 0.0, None, card)
+        return _solve(params, point, fidelity, nodes, 0.0, None, from_tables)
     return result
 
 

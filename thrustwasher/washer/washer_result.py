@@ -35,7 +35,7 @@ OVERLAP = (
     "raise roughness or viscosity"
 )
 PRESSED = "film_thickness = {:.3g} um: " + OVERLAP
-BY_CARD = -1.0  # in place of an error: a verification table is looked at when somebody asks
+FROM_TABLES = -1.0  # in place of an error: a verification table is looked at when somebody asks
 INPUTS = tuple(signal.name for signal in SPEC.inputs)
 Inputs = tuple[float, float, float, float, float]  # of a solution, in that order
 FULL_FILM = 3.0  # film ratio above which regime and branch are called film
@@ -114,7 +114,7 @@ class WasherResult(AtPoint, OnFaces):
     iterations: int
     fidelity: str
     grid: tuple[int, int]
-    _error: float | None = field(repr=False)  # as error_estimate, or BY_CARD
+    _error: float | None = field(repr=False)  # as error_estimate, or FROM_TABLES
     load: float  # [N] as solved for
     speed: float  # [rad/s]
     tilt: float  # [rad]
@@ -133,7 +133,7 @@ class WasherResult(AtPoint, OnFaces):
         milliseconds), with the map from its verification table. Both hold for the parameters and
         the box that a verification table was measured for; elsewhere it is None.
         """
-        if self._error != BY_CARD:
+        if self._error != FROM_TABLES:
             return self._error
         known = self._by_table()
         if known is None or self.fidelity not in OF_FILM:

@@ -66,7 +66,7 @@ def stepped(case: Case, host: float) -> Case:
         steps=[host] * count,
         torque1=[case.torque1[0]] * count,
         torque2=[case.torque2[0]] * count,
-        loads=[case.course.at(n * host) / case.gain for n in range(count)],
+        loads=[case.profile.at(n * host) / case.gain for n in range(count)],
     )
 
 
@@ -100,9 +100,9 @@ def unit_for(method: str, case: Case) -> Any:
 
 def units_for(method: str, case: Linear) -> list[Any]:
     if method == TOLD:
-        inertias = [case.inertias[i, i] for i in range(len(case.courses))]
+        inertias = [case.inertias[i, i] for i in range(len(case.profiles))]
         return [KnownPlant(inertia, case.delay, case.gain) for inertia in inertias]
-    return [METHODS[method](case) for _ in case.courses]
+    return [METHODS[method](case) for _ in case.profiles]
 
 
 def share(cases: Iterator[Case], method: str) -> Shares:
@@ -139,7 +139,9 @@ def again(method: str, plants: int, ratio: float) -> Shares:
             case,
             inertia1=ratio * case.inertia1,
             inertia2=ratio * case.inertia2,
-            course=replace(case.course, top=ratio * case.course.top, low=ratio * case.course.low),
+            profile=replace(
+                case.profile, top=ratio * case.profile.top, low=ratio * case.profile.low
+            ),
             torque1=[ratio * x for x in case.torque1],
             torque2=[ratio * x for x in case.torque2],
             loads=[ratio * x for x in case.loads],

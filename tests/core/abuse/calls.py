@@ -20,7 +20,7 @@ from thrustwasher.model.registry import find_spec
 from thrustwasher.model.spec import Signal
 
 RIGHT, REFUSED, UNSOLVED = "right", "refused by name", "no solution, by name"
-RUNGS = {
+LEVELS = {
     "washer": ("field",),
     "gearmesh": ("field", "fine"),
     "clutch": ("closed", "stribeck", "field", "fine"),
@@ -62,18 +62,18 @@ def solve_once(model, rng):
     if model == "gearmesh" and legal and rng.random() < 0.8:  # most powers ask for too much torque
         torque = draws.inside(rng, 0.0, 1e5)
         point["power"] = min(torque * abs(point["speed"]), 1e9)
-    rung = rng.choice(RUNGS[model])
-    where = f"{changed} {point} {rung}"
+    level = rng.choice(LEVELS[model])
+    where = f"{changed} {point} {level}"
     known = [*changed, *point, "throw", "fidelity", *(f.name for f in dataclasses.fields(cls))]
     try:
         params = cls(**changed)
-        result = solve(params, **point, fidelity=rung)
+        result = solve(params, **point, fidelity=level)
     except (ParameterError, SolveError) as error:
         return named(error, known)
     say_if_wrong([] if legal else ["taken though outside its range"], where)
     say_if_wrong(judged(model, params, point, result), where, result)
     turned = {name: -point[name] for name in ("speed", "drum_speed") if name in point}
-    mirror = solve(params, **{**point, **turned}, fidelity=rung)
+    mirror = solve(params, **{**point, **turned}, fidelity=level)
     share = 1e-8 if model == "washer" else 0.0  # a mesh is walked through the other way round
     odd = claims.close(mirror.friction_torque, -result.friction_torque, share)
     say_if_wrong([] if odd else ["not odd in speed"], where, result, mirror)

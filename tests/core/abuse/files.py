@@ -93,7 +93,7 @@ class Cards:
 
     def __init__(self, folder):
         self.path = Path(folder) / "spoiled.json"
-        whole = sorted((DATA / "cards").glob("*.json"))
+        whole = sorted((DATA / "error_tables").glob("*.json"))
         self.files = [(path.read_bytes(), read_tables(path)) for path in whole]
 
     def __call__(self, rng):
@@ -118,8 +118,8 @@ class Maps:
         data[L.KIND], data[L.SIZE] = L.MAGIC, len(data)
         data[L.TERMS : L.IDENTITY] = [*terms, *terms, *at]
         data[L.DATA :] = np.float32(np.linspace(-1.0, 3.0, int(at[-1])))
-        self.card = {"kind": "washer map", "box": {"load": [1.0, 2.0]}}
-        self.data, self.whole = data, map_file.pack(data, self.card)
+        self.metadata = {"kind": "washer map", "box": {"load": [1.0, 2.0]}}
+        self.data, self.whole = data, map_file.pack(data, self.metadata)
 
     def __call__(self, rng):
         self.path.write_bytes(damage.bits(rng, self.whole))
@@ -128,7 +128,7 @@ class Maps:
             found = map_file.read_map(self.path)
         except ParameterError as error:
             return one_line(error, "spoiled.twm")
-        same = np.array_equal(found.data, self.data) and found.card == self.card
+        same = np.array_equal(found.data, self.data) and found.metadata == self.metadata
         say_if_wrong([] if same else ["another map"])
         return RIGHT
 

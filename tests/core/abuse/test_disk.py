@@ -112,7 +112,7 @@ def test_a_map_whose_lines_fill_the_disk_goes_on_later(out, tmp_path, monkeypatc
     file, kept, append = out / "x.twm", [], journal.Journal.append
     assert command(*MAP, tmp_path / "whole.twm")[0] == 0
     whole = read_map(tmp_path / "whole.twm")
-    lines, numbers = whole.card["lines"], whole.data.size - L.DATA
+    lines, numbers = whole.metadata["lines"], whole.data.size - L.DATA
     monkeypatch.setattr(
         journal.Journal, "append", lambda *given: (append(*given), kept.append(given[1]))
     )

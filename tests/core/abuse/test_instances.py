@@ -11,7 +11,7 @@ from thrustwasher.fmu.stepper import DirectInstance
 from thrustwasher.model.registry import find_spec
 
 MOVES = 12
-RUNGS = {"map": 10, "field": 1}  # of the washer: examples
+LEVELS = {"map": 10, "field": 1}  # of the washer: examples
 walks = st.lists(st.randoms(use_true_random=False), min_size=MOVES, max_size=MOVES)
 
 
@@ -19,7 +19,7 @@ NATIVE, PYTHON = "native-fmi2", "python-fmi2"
 MASTERS = [  # model, kind, parameters, examples; the first by default
     *((m, k, {}, 12) for m in ("clutch", "gearmesh", "transmission") for k in (NATIVE, PYTHON)),
     ("clutch", "native-fmi3", {}, 12),
-    *(("washer", k, {"fidelity": r}, n) for k in (NATIVE, PYTHON) for r, n in RUNGS.items()),
+    *(("washer", k, {"fidelity": r}, n) for k in (NATIVE, PYTHON) for r, n in LEVELS.items()),
 ]
 
 

@@ -39,8 +39,8 @@ def test_a_built_map_serves_and_lies_alone_in_its_folder(built):
 
 def test_check_measures_it_again(built, capsys):
     assert main(["map", "check", str(built), "--points", "4", "--json"]) == 0
-    card = json.loads(capsys.readouterr().out)
-    assert card["held_out"]["torque"] < 1e-3 and card["built_from"] == "field"
+    metadata = json.loads(capsys.readouterr().out)
+    assert metadata["held_out"]["torque"] < 1e-3 and metadata["built_from"] == "field"
 
 
 def test_list_names_maps_with_box_and_errors(built, capsys, monkeypatch):

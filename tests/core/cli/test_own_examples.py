@@ -41,7 +41,7 @@ def test_the_part_of_the_page_is_the_file():
     assert load_part(OWN / "mine.toml").limits["face_pressure"] == 7e6
 
 
-def test_the_scene_takes_its_courses_from_its_files():
+def test_the_scene_takes_its_profiles_from_its_files():
     found = load_scene(OWN / "my-scene.toml")
     assert sum("of trace.csv" in text for text in found.notes) == 3
     assert found.vehicle.drag_area == pytest.approx(2.0 * 0.41 / 1.2, rel=0.05)

@@ -38,7 +38,7 @@ def test_a_command_solves_the_part(mine, capsys):
     assert told["friction_torque"] == expected.friction_torque
 
 
-def test_a_command_and_a_sweep_take_the_part_s_rung_unless_another_is_asked_for(mine, capsys):
+def test_a_command_and_a_sweep_take_the_part_s_level_unless_another_is_asked_for(mine, capsys):
     mine.write_text(mine.read_text().replace('fidelity = "field"', 'fidelity = "fine"'))
     torques = []
     for words in ([], ["--fidelity", "fine"], ["--fidelity", "field"]):

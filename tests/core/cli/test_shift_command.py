@@ -120,7 +120,7 @@ def test_a_summary_names_lock_and_report_and_files_that_were_there_stay(tmp_path
     assert (tmp_path / "notes.txt").read_text() == "mine"
 
 
-def test_a_tolerance_is_answered_with_a_rung_and_its_reason_for_every_part(tmp_path, capsys):
+def test_a_tolerance_is_answered_with_a_level_and_its_reason_for_every_part(tmp_path, capsys):
     words = ["shift", "--scene", "msl", "--step", "4 ms", "--out", str(tmp_path / "r")]
     assert main([*words, "--fidelity", "auto:0.01"]) == 0
     text, err = capsys.readouterr()
@@ -130,7 +130,7 @@ def test_a_tolerance_is_answered_with_a_rung_and_its_reason_for_every_part(tmp_p
         assert any(line.startswith(f"{part}: ") for line in text.splitlines()), part
     assert "clutch: field, compared with fine at" in text
     page = (tmp_path / "r" / "report.html").read_text("utf-8")
-    assert 'id="rungs"' in page
+    assert 'id="levels"' in page
 
 
 SCATTERED = """

@@ -23,7 +23,7 @@ def test_paper_like_sample_has_friction_of_the_paper():
     assert [round(at[n], 4) for n in (600, 1500, 3000)] == [0.0848, 0.0498, 0.0374]
 
 
-def test_closed_rung_has_the_constant_coefficient():
+def test_closed_level_has_the_constant_coefficient():
     pack = ClutchParams(constant_friction=0.2, friction_temperature_slope=0.0)
     r = solve_clutch(pack, load=10.0, speed=3.0, fidelity="closed")
     assert r.friction_coefficient == 0.2 and r.fidelity == "closed"
@@ -37,7 +37,7 @@ def test_arrays_are_taken_and_a_scalar_stays_a_scalar():
 
 @pytest.mark.parametrize("fidelity", ["closed", "stribeck", "field", "fine"])
 @pytest.mark.parametrize("law", ["wang", "constant", "table"])
-def test_every_law_on_every_rung_changes_with_the_temperature_and_stays_below_its_range(
+def test_every_law_on_every_level_changes_with_the_temperature_and_stays_below_its_range(
     law, fidelity
 ):
     pack = ClutchParams(friction_law=law, friction_temperature_slope=-2e-3)
@@ -92,7 +92,7 @@ def test_the_steady_temperature_balances_cooling_and_friction(load, speed, oil):
     assert r.friction_torque == pytest.approx(r.contact_torque + r.viscous_torque, rel=1e-15)
 
 
-def test_the_rungs_differ_by_what_they_leave_out():
+def test_the_levels_differ_by_what_they_leave_out():
     at = {"load": 5898.0, "speed": 50.0}
     stribeck, field = (solve_clutch(PACK, **at, fidelity=f) for f in ("stribeck", "field"))
     assert 297.15 < stribeck.temperature == field.temperature

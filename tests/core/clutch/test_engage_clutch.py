@@ -9,7 +9,7 @@ PACK = ClutchParams()
 T = np.linspace(0.0, 0.2, 21)
 
 
-def test_one_number_stands_for_a_constant_course():
+def test_one_number_stands_for_a_constant_profile():
     one = engage_clutch(PACK, time=T, load=5000.0, speed=100.0)
     many = engage_clutch(PACK, time=T, load=np.full(21, 5000.0), speed=np.full(21, 100.0))
     assert (one.friction_torque == many.friction_torque).all()
@@ -27,7 +27,7 @@ def test_points_are_samples_and_no_steps():
 
 
 @pytest.mark.parametrize("fidelity", ["closed", "stribeck", "field"])
-def test_every_rung_answers_with_the_same_fields(fidelity):
+def test_every_level_answers_with_the_same_fields(fidelity):
     e = engage_clutch(PACK, time=T, load=5000.0, speed=100.0, fidelity=fidelity)
     assert (e.status, e.fidelity, len(e.regime)) == (Status.OK, fidelity, 21)
     arrays = [v for v in e.as_dict().values() if isinstance(v, list) and v is not e.regime]
@@ -57,9 +57,9 @@ def test_a_cold_release_is_told_with_its_drag_beside_a_warm_one():
     assert cold.friction_torque > 10.0 * warm.friction_torque > 1.0
     assert cold.energy > 5.0 * warm.energy and cold.open_after > 5.0 * warm.open_after
     time = [0.0, 0.1, 0.101, 0.201, 0.3]
-    course = {"time": time, "load": [5e3, 5e3, 0.0, 0.0, 0.0], "speed": 100.0}
+    profile = {"time": time, "load": [5e3, 5e3, 0.0, 0.0, 0.0], "speed": 100.0}
     pack = ClutchParams(starts_pressed=True)
-    told = engage_clutch(pack, **course, oil_temperature=253.15).warnings
+    told = engage_clutch(pack, **profile, oil_temperature=253.15).warnings
     assert len(told) == 1 and "let go at 0.101 s with oil of -20 °C: 0.1 s later" in told[0]
-    for oil, rung in ((353.15, "field"), (253.15, "stribeck")):
-        assert engage_clutch(pack, **course, oil_temperature=oil, fidelity=rung).warnings == ()
+    for oil, level in ((353.15, "field"), (253.15, "stribeck")):
+        assert engage_clutch(pack, **profile, oil_temperature=oil, fidelity=level).warnings == ()

@@ -12,11 +12,11 @@ from thrustwasher.ladder.error_table import load_tables
 POINT = {"load": 3000.0, "speed": 50.0, "oil_temperature": 350.0}
 
 
-@pytest.mark.parametrize("rung", SPEC.rungs)
+@pytest.mark.parametrize("level", SPEC.levels)
 @pytest.mark.parametrize("law", FRICTION_LAWS)
-def test_the_torque_of_a_settled_pack_is_as_the_scale(rung, law):
+def test_the_torque_of_a_settled_pack_is_as_the_scale(level, law):
     plain, half = (
-        solve_clutch(ClutchParams(friction_law=law, friction_scale=k), **POINT, fidelity=rung)
+        solve_clutch(ClutchParams(friction_law=law, friction_scale=k), **POINT, fidelity=level)
         for k in (1.0, 0.5)
     )
     assert half.friction_torque == pytest.approx(0.5 * plain.friction_torque, rel=1e-12)

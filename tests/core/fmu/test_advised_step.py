@@ -40,9 +40,9 @@ def received(t, h):
 
 def test_over_the_clutchs_step_the_capacity_moves_by_one_percent():
     """The film settled and the coefficient constant the capacity is in proportion to the load."""
-    rung = {"fidelity": "closed", "friction_temperature_slope": 0.0}
+    level = {"fidelity": "closed", "friction_temperature_slope": 0.0}
     for step in STEPS:
-        found = asked("clutch", step, pressed(1e4), **rung)
+        found = asked("clutch", step, pressed(1e4), **level)
         assert found == pytest.approx(0.01 * (2000.0 + 1e4 * END) / 1e4, rel=1e-3)
 
 

@@ -110,9 +110,9 @@ def test_an_input_that_leaves_box_or_verified_range_is_told_once_and_solved(tmp_
     path.write_text(BOXED)
     (native,) = build([str(path)], out=tmp_path, platforms=["linux64"])
     mesh = Listener(native)
-    course = [(40.0, 300.0), (60.0, 300.0), (61.0, 430.0), (40.0, 430.0), (60.0, 300.0)]
+    profile = [(40.0, 300.0), (60.0, 300.0), (61.0, 430.0), (40.0, 430.0), (60.0, 300.0)]
     mesh.begin(load=40.0, speed=180.0, oil_temperature=300.0)
-    for i, (load, oil) in enumerate(course):
+    for i, (load, oil) in enumerate(profile):
         mesh.set(load=load, oil_temperature=oil)
         mesh.fmu.doStep(i * H, H)
     said = mesh.heard("logStatusWarning")

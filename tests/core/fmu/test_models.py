@@ -11,7 +11,7 @@ from thrustwasher.model.registry import all_specs, find_spec
 
 H = 1e-3
 NAMES = [spec.name for spec in all_specs()]
-# Only by the heat of a starved gap, on a step along a straight course of inputs.
+# Only by the heat of a starved gap, on a step along a straight profile of inputs.
 FILM = "film_ratio film_thickness contact_torque contact_share viscosity friction_coefficient"
 UNSEEN = {"WetClutch": {("drum_speed", name) for name in FILM.split()}}
 # Parameters under which different inputs act at once.

@@ -18,7 +18,7 @@ STARTS = {
 }
 
 
-def course(model, t):
+def profile(model, t):
     """Return all inputs, smooth in time."""
     wave = 1.0 + 0.3 * math.sin(20.0 * t)
     names = [s.name for s in find_spec(model).inputs]
@@ -26,16 +26,16 @@ def course(model, t):
 
 
 def rates(model, t):
-    """Return the rates with which a step from ``t`` ends where the course does."""
-    pairs = zip(course(model, t), course(model, t + H), strict=True)
+    """Return the rates with which a step from ``t`` ends where the profile does."""
+    pairs = zip(profile(model, t), profile(model, t + H), strict=True)
     return [(b - a) / H for a, b in pairs]
 
 
 def run(instance, model):
     """Return the outputs after 20 steps with rates."""
-    instance.initialize(0.0, dict(zip(instance.input_names, course(model, 0.0), strict=True)))
+    instance.initialize(0.0, dict(zip(instance.input_names, profile(model, 0.0), strict=True)))
     for i in range(20):
-        instance.set_inputs(course(model, i * H))
+        instance.set_inputs(profile(model, i * H))
         instance.set_rates(rates(model, i * H))
         instance.step(i * H, H)
     return instance.outputs()
@@ -65,14 +65,14 @@ def test_fmi_3_gets_the_inputs_at_the_end_of_a_step_in_a_callback(model, tmp_pat
 
     def at_time(_, time, *others):
         if others[0]:  # values are requested
-            fmu.setFloat64(wanted, course(model, time))
+            fmu.setFloat64(wanted, profile(model, time))
 
     fmu.instantiate(intermediateUpdate=at_time, requiredIntermediateVariables=wanted)
     fmu.enterInitializationMode(startTime=0.0)
-    fmu.setFloat64(wanted, course(model, 0.0))
+    fmu.setFloat64(wanted, profile(model, 0.0))
     fmu.exitInitializationMode()
     for i in range(20):
-        fmu.setFloat64(wanted, course(model, i * H))
+        fmu.setFloat64(wanted, profile(model, i * H))
         fmu.doStep(i * H, H)
     found = fmu.getFloat64([v.valueReference for v in outputs])
     got = dict(zip([v.name for v in outputs], found, strict=True))

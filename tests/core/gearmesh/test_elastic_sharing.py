@@ -153,7 +153,7 @@ def outputs(par, inputs, state, dt):
 @pytest.mark.parametrize("torque", [3.0, 20.0, 61.0, 183.4, 500.0])
 @pytest.mark.parametrize("law", ["iso", "mixed"])
 def test_derivative_follows_the_shares(law, torque):
-    """Against central differences, in the middle of a course, of all that is no integral."""
+    """Against central differences, in the middle of a profile, of all that is no integral."""
     par, none = prepare(relieved(friction_law=law), "field"), np.zeros(L.NSTATE)
     par[L.P_THERMAL_MODE] = 2.0
     _, _, state = outputs(par, [150.0, 190.0, 360.0], none, 1.0)

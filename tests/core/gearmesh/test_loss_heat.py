@@ -103,7 +103,7 @@ def flash_at(params, pair, rho, friction=1.0):
 
 
 @pytest.mark.parametrize("name", ["sun", "ring"])
-@pytest.mark.parametrize("fidelity", SPEC.rungs)
+@pytest.mark.parametrize("fidelity", SPEC.levels)
 def test_loss_and_flash_are_those_of_the_closed_forms(name, fidelity):
     params, pair = PAIRS[name]
     r = at(params, fidelity=fidelity, friction_law="constant")

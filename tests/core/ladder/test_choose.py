@@ -6,18 +6,18 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from synthetic import BOX, WHOLE, put, rung
+from synthetic import BOX, WHOLE, level, put
 
 import thrustwasher
 from thrustwasher import GearMeshParams, ParameterError, SolveError, WasherParams
 from thrustwasher.ladder import choose as home
 from thrustwasher.ladder import error_table
-from thrustwasher.ladder.choose import choose, rungs_of
-from thrustwasher.ladder.compare_rungs import Comparison, points_of, rows_to_compare
+from thrustwasher.ladder.choose import choose, levels_of
+from thrustwasher.ladder.compare_levels import Comparison, points_of, rows_to_compare
 from thrustwasher.ladder.error_table import Axis
 from thrustwasher.model.registry import spec_of
 
-LADDER = (rung("map", 2e-2), rung("field", 5e-3), rung("fine", 4e-4))
+LADDER = (level("map", 2e-2), level("field", 5e-3), level("fine", 4e-4))
 OWN = WasherParams(roughness=5.1e-7)
 
 
@@ -25,8 +25,8 @@ OWN = WasherParams(roughness=5.1e-7)
 def given(tmp_path, monkeypatch):
     """Return a function that puts levels in the place of the shipped tables."""
 
-    def give(*rungs, **options):
-        put(tmp_path, monkeypatch, *rungs, **options)
+    def give(*levels, **options):
+        put(tmp_path, monkeypatch, *levels, **options)
 
     give(*LADDER)
     yield give
@@ -50,16 +50,16 @@ def test_the_first_that_holds_is_taken_with_its_error_and_the_reasons():
     ]
 
 
-def test_a_larger_tolerance_never_takes_a_dearer_rung(given):
+def test_a_larger_tolerance_never_takes_a_dearer_level(given):
     """Errors need not fall from level to level: a map may err less than the mesh after it."""
-    given(rung("map", 6e-3), rung("field", 0.1), rung("fine", 5e-3))
+    given(level("map", 6e-3), level("field", 0.1), level("fine", 5e-3))
     order = ["map", "field", "fine"]
     found = [order.index(taken(tol)) for tol in (7.6e-3, 9.1e-3, 0.05, 0.2)]
     assert found == sorted(found, reverse=True) == [2, 0, 0, 0]
 
 
 def test_only_regions_that_the_box_touches_count(given):
-    given(rung("field", [[1e-3, 0.5], [0.5, 0.5]]), rung("fine", 1e-4))
+    given(level("field", [[1e-3, 0.5], [0.5, 0.5]]), level("fine", 1e-4))
     light = {**BOX, "load": (30.0, 150.0), "speed": (-200.0, -100.0)}
     assert taken(0.01, light) == "field"
     assert taken(0.01, {**light, "speed": (-600.0, -100.0)}) == "fine"
@@ -86,21 +86,21 @@ def test_a_temperature_is_chosen_for_in_kelvin_and_safety_is_a_factor():
 
 
 def test_beside_a_fold_its_own_error_is_told(given):
-    given(rung("field", 1e-3, beside_fold=0.02))
+    given(level("field", 1e-3, beside_fold=0.02))
     assert "within 5 % of a fold's load: 3 %" in str(choose("washer", BOX, tol=0.01))
 
 
-def test_a_stale_rung_is_passed_over_and_named(given):
-    given(rung("map", 1e-3, sources="0" * 64), rung("field", 5e-3))
+def test_a_stale_level_is_passed_over_and_named(given):
+    given(level("map", 1e-3, sources="0" * 64), level("field", 5e-3))
     choice = choose("washer", BOX, tol=0.01)
     assert choice.fidelity == "field" and "not counted: map: the kernels have changed" in str(
         choice
     )
 
 
-def test_a_rung_whose_box_is_left_is_passed_over(given):
+def test_a_level_whose_box_is_left_is_passed_over(given):
     small = {**WHOLE, "load": Axis(20.0, 200.0, "N", "log")}
-    given(rung("map", 1e-3, box=small), rung("field", 5e-3))
+    given(level("map", 1e-3, box=small), level("field", 5e-3))
     assert taken(0.01) == "field"
     assert taken(0.01, {**BOX, "load": (30.0, 200.0)}) == "map"
 
@@ -117,23 +117,23 @@ def compared(monkeypatch, differences):
         return differences[one]
 
     monkeypatch.setattr(Comparison, "difference", difference)
-    monkeypatch.setattr(home, "rungs_of", lambda *_: ["map", "field", "fine"])
+    monkeypatch.setattr(home, "levels_of", lambda *_: ["map", "field", "fine"])
     return asked
 
 
 @pytest.mark.parametrize(
-    ("tol", "rung", "error"),
+    ("tol", "level", "error"),
     [(0.041, "map", 0.04), (0.021, "field", 0.02), (0.019, "fine", math.inf)],
 )
-def test_the_first_that_the_one_above_confirms_is_taken(monkeypatch, tol, rung, error):
+def test_the_first_that_the_one_above_confirms_is_taken(monkeypatch, tol, level, error):
     asked = compared(monkeypatch, {"map": 0.02, "field": 0.01})
     choice = choose("washer", BOX, tol=tol, params=OWN)
-    assert (choice.fidelity, choice.is_verified) == (rung, False)
+    assert (choice.fidelity, choice.is_verified) == (level, False)
     assert choice.error == pytest.approx(error) and asked[0] == ("map", "field", 30)
     assert "no table of errors speaks here" in choice.reasons[0]
 
 
-def test_a_single_point_is_solved_once_with_each_rung(monkeypatch):
+def test_a_single_point_is_solved_once_with_each_level(monkeypatch):
     point = {"load": 300.0, "speed": 545.0, "tilt": 2e-3, "oil_temperature": 300.0}
     solved = []
     value = Comparison._value
@@ -142,7 +142,7 @@ def test_a_single_point_is_solved_once_with_each_rung(monkeypatch):
     )
     choice = choose("washer", point, tol=0.05, params=OWN)
     assert choice.fidelity == "field" and 0.0 < choice.error < 0.05
-    assert [rung for rung, _ in solved] == ["field", "fine"]
+    assert [level for level, _ in solved] == ["field", "fine"]
     assert choose("washer", point, tol=0.05, params=OWN) == choice
 
 
@@ -171,12 +171,12 @@ def test_rows_to_compare_hold_the_extremes_of_every_input():
     assert len(rows_to_compare(rows[:3])) == 3
 
 
-def test_a_rung_that_differs_with_some_parameters_only_is_asked_then():
+def test_a_level_that_differs_with_some_parameters_only_is_asked_then():
     mesh = spec_of("gearmesh")
-    assert rungs_of(mesh, GearMeshParams()) == ["field"]
-    assert rungs_of(mesh, GearMeshParams.preset("paper")) == ["field", "fine"]
-    assert rungs_of(spec_of("washer"), WasherParams()) == ["map", "field", "fine"]
-    assert rungs_of(spec_of("washer"), OWN) == ["field", "fine"], "it has no map"
+    assert levels_of(mesh, GearMeshParams()) == ["field"]
+    assert levels_of(mesh, GearMeshParams.preset("paper")) == ["field", "fine"]
+    assert levels_of(spec_of("washer"), WasherParams()) == ["map", "field", "fine"]
+    assert levels_of(spec_of("washer"), OWN) == ["field", "fine"], "it has no map"
 
 
 @pytest.mark.parametrize(

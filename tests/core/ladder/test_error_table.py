@@ -4,7 +4,7 @@ import json
 from dataclasses import replace
 
 import pytest
-from synthetic import film_ratios, put, rung, table
+from synthetic import film_ratios, level, put, table
 
 from thrustwasher import ParameterError, WasherParams, solve_washer
 from thrustwasher.ladder import error_table as home
@@ -18,7 +18,7 @@ OLD = "0" * 64
 @pytest.fixture
 def given(tmp_path, monkeypatch):
     """Return a function that puts levels in the place of the shipped tables."""
-    yield lambda *rungs, **options: put(tmp_path, monkeypatch, *rungs, **options)
+    yield lambda *levels, **options: put(tmp_path, monkeypatch, *levels, **options)
     home.forget()
 
 
@@ -27,7 +27,7 @@ def estimate(fidelity="field", params=None, point=POINT, **options):
 
 
 def test_tables_come_back_from_their_file_as_they_were(tmp_path):
-    made = (table(rung(film=1e-3, contact=2e-3)), table(rung("fine"), name="other"))
+    made = (table(level(film=1e-3, contact=2e-3)), table(level("fine"), name="other"))
     write_tables(made, tmp_path / "x.json")
     assert read_tables(tmp_path / "x.json") == made
 
@@ -35,15 +35,15 @@ def test_tables_come_back_from_their_file_as_they_were(tmp_path):
 @pytest.mark.parametrize(
     ("edit", "said"),
     [
-        (lambda r: r["tables"][0].pop("rungs"), "'rungs'"),
+        (lambda r: r["tables"][0].pop("levels"), "'levels'"),
         (lambda r: r["tables"][0].update(colour="red"), "'colour'"),
-        (lambda r: r["tables"][0]["rungs"][0].pop("call"), "'call'"),
-        (lambda r: r["tables"][0].update(rungs=[1.0]), "no attribute"),
+        (lambda r: r["tables"][0]["levels"][0].pop("call"), "'call'"),
+        (lambda r: r["tables"][0].update(levels=[1.0]), "no attribute"),
         (lambda r: r.update(schema=2), "schema = 2"),
     ],
 )
 def test_a_file_of_another_version_is_refused_with_file_and_key(given, edit, said):
-    path = given(rung())
+    path = given(level())
     raw = json.loads(path.read_text())
     edit(raw)
     path.write_text(json.dumps(digests.sealed(raw)))
@@ -53,7 +53,7 @@ def test_a_file_of_another_version_is_refused_with_file_and_key(given, edit, sai
 
 
 def test_a_file_that_was_changed_since_it_was_written_is_refused(given):
-    path = given(rung())
+    path = given(level())
     text = path.read_text()
     for before, after in (("0.005", "0.004"), ('"linear"', '"log"'), ('"check"', '"other"')):
         path.write_text(text.replace(before, after, 1))
@@ -63,7 +63,7 @@ def test_a_file_that_was_changed_since_it_was_written_is_refused(given):
 
 
 def test_broken_files_are_refused_with_a_reason_and_the_others_are_read(given, tmp_path):
-    given(rung())
+    given(level())
     (tmp_path / "broken.json").write_text("{ not JSON")
     (tmp_path / "bytes.json").write_bytes(b"\xff\xfe\x00")
     assert set(home.refused_files()) == {"broken.json", "bytes.json"}
@@ -72,7 +72,7 @@ def test_broken_files_are_refused_with_a_reason_and_the_others_are_read(given, t
 
 
 def test_a_table_speaks_for_its_own_parameters_only(given):
-    given(rung())
+    given(level())
     other = replace(WasherParams(), dry_friction=0.2)
     assert home.load_tables("washer", other) == []
     assert estimate(params=other) is None
@@ -85,16 +85,16 @@ def test_a_table_speaks_for_its_own_parameters_only(given):
     ("stale", "said"),
     [({"sources": OLD}, "kernels have changed"), ({"files": ("maps/x.twm",)}, "maps/x.twm")],
 )
-def test_a_rung_for_other_kernels_or_files_is_stale_and_says_how_to_renew(given, stale, said):
-    given(rung(**stale), rung("fine", 1e-3))
+def test_a_level_for_other_kernels_or_files_is_stale_and_says_how_to_renew(given, stale, said):
+    given(level(**stale), level("fine", 1e-3))
     (made,) = home.load_tables("washer")
-    assert said in made.stale(made.rungs[0]) and made.stale(made.rungs[1]) is None
-    assert "python -m lab.verify washer" in made.stale(made.rungs[0])
+    assert said in made.stale(made.levels[0]) and made.stale(made.levels[1]) is None
+    assert "python -m lab.verify washer" in made.stale(made.levels[0])
     assert estimate() is None and estimate("fine") == 1.5e-3
 
 
 def test_the_error_is_that_of_the_region_and_none_outside(given):
-    given(rung("field", [[1e-3, 2e-3], [3e-3, 4e-3]]))
+    given(level("field", [[1e-3, 2e-3], [3e-3, 4e-3]]))
     expected = {
         (100.0, 500.0): 2e-3, (100.0, -500.0): 2e-3, (2000.0, 500.0): 4e-3, (200.0, 60.0): 3e-3,
         (19.0, 500.0): None, (100.0, 1500.0): None,
@@ -107,7 +107,7 @@ def test_the_error_is_that_of_the_region_and_none_outside(given):
 
 
 def test_the_film_ratio_of_a_result_narrows_its_regions_error_but_never_widens_it(given):
-    given(rung("field", 2e-3, film_ratios(1e-4, 8e-3, 2e-4)))
+    given(level("field", 2e-3, film_ratios(1e-4, 8e-3, 2e-4)))
     expected = {1.0: 1e-4, 3.5: 2e-3, 4.9: 2e-3, 5.1: 2e-4, 1e8: 2e-4, None: 2e-3}
     for ratio, worst in expected.items():
         assert estimate(film_ratio=ratio) == pytest.approx(1.5 * worst)
@@ -115,7 +115,7 @@ def test_the_film_ratio_of_a_result_narrows_its_regions_error_but_never_widens_i
 
 
 def test_a_branch_has_its_own_chart_and_a_mesh_asks_its_solution_whatever_the_speeds_sign(given):
-    given(rung(film=1e-3, contact=4e-2))
+    given(level(film=1e-3, contact=4e-2))
     for options, worst in (({"branch": "film"}, 1e-3), ({"branch": "contact"}, 4e-2), ({}, 4e-2)):
         assert estimate(**options) == pytest.approx(1.5 * worst)
     at = {"load": 300.0, "tilt": 2e-3}
@@ -127,7 +127,7 @@ def test_a_branch_has_its_own_chart_and_a_mesh_asks_its_solution_whatever_the_sp
     assert solve_washer(WasherParams(), **at, speed=953.0, fidelity="fine").error_estimate is None
 
 
-def test_what_a_rung_imports_makes_it_stale_and_nothing_else():
+def test_what_a_level_imports_makes_it_stale_and_nothing_else():
     from thrustwasher.model.registry import find_model
 
     files = digests.closure(*find_model("washer").ladder.kernels["field"])

@@ -15,27 +15,27 @@ PARAMS, BOX = WasherParams(), {"load": (20.0, 100.0)}
 
 
 class Tables:
-    """A map that is built by a call; ``card`` is what it says of itself."""
+    """A map that is built by a call; ``metadata`` is what it says of itself."""
 
-    def __init__(self, **card):
-        self.card, self.built = card, 0
+    def __init__(self, **metadata):
+        self.metadata, self.built = metadata, 0
 
     def box(self, params):
         from thrustwasher.errors import ParameterError
 
-        if not self.card:
+        if not self.metadata:
             raise ParameterError("there is no map")
         return BOX
 
     def find(self, params):
-        return SimpleNamespace(card=self.card)
+        return SimpleNamespace(metadata=self.metadata)
 
     def least(self, name):
         return 0.0
 
     def build(self, params, box, tol, workers, progress):
         self.built += 1
-        self.card = {"tolerance": tol}
+        self.metadata = {"tolerance": tol}
 
 
 @pytest.fixture(autouse=True)
@@ -60,7 +60,7 @@ def test_one_that_another_run_built_meanwhile_is_taken():
 
     def other_ends(text):
         said.append(text)
-        tables.card = {"tolerance": 0.01}
+        tables.metadata = {"tolerance": 0.01}
         held.close()
 
     ensure(tables, PARAMS, BOX, 0.01, None, begin=lambda: said.append("begins"), say=other_ends)

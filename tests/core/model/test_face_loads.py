@@ -65,9 +65,9 @@ def test_over_time_they_are_columns_with_the_energy():
     np.testing.assert_allclose(found.power_per_area, found.heat_flux)
     assert {*LIMITED} <= {*found.to_pandas().columns}
     hot = WasherParams(thermal_mode="transient")
-    course = follow_washer(hot, time=[0.0, 0.5, 1.0], load=300.0, speed=545.0, tilt=0.002)
-    assert course.pressure_velocity[0] == course.face_pressure[0] * course.sliding_speed[0]
-    assert course.energy_per_area[-1] > 0.0
+    profile = follow_washer(hot, time=[0.0, 0.5, 1.0], load=300.0, speed=545.0, tilt=0.002)
+    assert profile.pressure_velocity[0] == profile.face_pressure[0] * profile.sliding_speed[0]
+    assert profile.energy_per_area[-1] > 0.0
 
 
 def test_limits_of_a_part_are_warnings_where_they_are_passed(tmp_path, capsys):

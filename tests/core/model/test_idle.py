@@ -9,11 +9,11 @@ from thrustwasher.model.registry import all_models
 
 
 @pytest.mark.parametrize("model", [m.key for m in all_models()])
-def test_defaults_and_presets_have_nothing_idle_on_any_rung(model):
+def test_defaults_and_presets_have_nothing_idle_on_any_level(model):
     spec = find_part(model).spec
     for part in (find_part(model), *preset_parts(spec).values()):
-        for rung in ("", *spec.rungs):
-            assert idle_warnings(model, part.params, rung) == ()
+        for level in ("", *spec.levels):
+            assert idle_warnings(model, part.params, level) == ()
 
 
 PLOUGHED = ClutchParams(plough_weight=0.2, stick_speed=2.0)
@@ -26,9 +26,9 @@ IDLE = [
 ]
 
 
-@pytest.mark.parametrize(("model", "params", "rung", "value", "reader"), IDLE)
-def test_a_value_nobody_reads_is_told_with_what_would_read_it(model, params, rung, value, reader):
-    (line,) = idle_warnings(model, params, rung)
+@pytest.mark.parametrize(("model", "params", "level", "value", "reader"), IDLE)
+def test_a_value_nobody_reads_is_told_with_what_would_read_it(model, params, level, value, reader):
+    (line,) = idle_warnings(model, params, level)
     assert line.startswith(value) and reader in line and "has no effect: read by" in line
 
 
@@ -41,7 +41,7 @@ def test_a_value_that_is_read_is_not_told():
     )
 
 
-def test_a_rung_that_passes_the_law_over_says_so_in_its_result():
+def test_a_level_that_passes_the_law_over_says_so_in_its_result():
     params = ClutchParams(table_friction_0=0.05)
     assert solve_clutch(params, load=1e3, speed=2.0, fidelity="field").warnings == ()
     (line,) = solve_clutch(params, load=1e3, speed=2.0, fidelity="closed").warnings

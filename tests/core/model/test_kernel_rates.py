@@ -29,17 +29,17 @@ CASES = [
         [900.0, 0.0, 1.0, 1.0, 0.0, 4e6, -5e5, -900.0],
     ),
 ]
-each = pytest.mark.parametrize(("model", "changes", "rung", "start", "rates"), CASES)
+each = pytest.mark.parametrize(("model", "changes", "level", "start", "rates"), CASES)
 H = 0.01
 
 
 class Unit:
     """A kernel with its arrays and time."""
 
-    def __init__(self, model, changes, rung, start):
+    def __init__(self, model, changes, level, start):
         self.spec = find_spec(model)
         self.k = k = kernel_of(self.spec)
-        self.par = filled(self.spec, self.spec.params(**changes), rung, k.NPAR, k.derive)
+        self.par = filled(self.spec, self.spec.params(**changes), level, k.NPAR, k.derive)
         self.state, self.work = np.zeros(k.NSTATE), np.full(k.NWORK, np.nan)
         self.out, self.iout = np.zeros(k.NOUT), np.zeros(k.NIOUT, np.int32)
         self.inputs = np.array([start.get(s.name, s.start) for s in self.spec.inputs])
@@ -68,16 +68,16 @@ def test_clutch_and_transmission_take_rates_of_all_their_inputs():
 
 
 @each
-def test_rates_of_zero_are_none_to_the_bit(model, changes, rung, start, rates):
-    one, other = (Unit(model, changes, rung, start) for _ in range(2))
+def test_rates_of_zero_are_none_to_the_bit(model, changes, level, start, rates):
+    one, other = (Unit(model, changes, level, start) for _ in range(2))
     for dt in (H, 0.0, 1e-3):
         assert one.step(dt) == other.step(dt, [0.0]) == Status.OK
         assert one.shown() == other.shown()
 
 
 @each
-def test_what_a_step_shows_belongs_to_the_inputs_at_its_end(model, changes, rung, start, rates):
-    unit = Unit(model, changes, rung, start)
+def test_what_a_step_shows_belongs_to_the_inputs_at_its_end(model, changes, level, start, rates):
+    unit = Unit(model, changes, level, start)
     assert unit.step(H, rates) == Status.OK
     stepped, flags = unit.out.copy(), unit.iout.copy()
     assert unit.step(0.0) == Status.OK
@@ -86,8 +86,8 @@ def test_what_a_step_shows_belongs_to_the_inputs_at_its_end(model, changes, rung
 
 
 @each
-def test_a_straight_course_may_be_cut_anywhere(model, changes, rung, start, rates):
-    whole, cut, held = (Unit(model, changes, rung, start) for _ in range(3))
+def test_a_straight_profile_may_be_cut_anywhere(model, changes, level, start, rates):
+    whole, cut, held = (Unit(model, changes, level, start) for _ in range(3))
     assert whole.step(H, rates) == Status.OK
     for share in (0.25, 0.35, 0.4):
         assert cut.step(share * H, rates) == Status.OK
@@ -103,28 +103,28 @@ def test_a_straight_course_may_be_cut_anywhere(model, changes, rung, start, rate
 
 @each
 @pytest.mark.parametrize("rate", [math.nan, math.inf, -1e300])
-def test_a_rate_that_is_no_good_leaves_no_trace(model, changes, rung, start, rates, rate):
-    unit = Unit(model, changes, rung, start)
+def test_a_rate_that_is_no_good_leaves_no_trace(model, changes, level, start, rates, rate):
+    unit = Unit(model, changes, level, start)
     before = unit.state.tobytes()
     place = 0 if model == "clutch" else 4  # load, command: both have a range
     assert unit.step(H, [0.0] * place + [rate]) == Status.BAD_INPUT
     assert unit.state.tobytes() == before
 
 
-def course(t):
+def profile(t):
     """Return load [N] and slip [rad/s] of a clutch, smooth in time."""
     return 3000.0 - 2000.0 * math.cos(9.0 * t), 60.0 + 60.0 * math.cos(6.0 * t)
 
 
-def energy(rung, n, moving):
+def energy(level, n, moving):
     """Return the heat [J] of a clutch over 0.2 s in n steps."""
     unit, h = (
-        DirectInstance(find_spec("clutch"), parameters={"fidelity": rung, "holding": "off"}),
+        DirectInstance(find_spec("clutch"), parameters={"fidelity": level, "holding": "off"}),
         0.2 / n,
     )
-    unit.initialize(0.0, dict(zip(["load", "speed"], course(0.0), strict=True)))
+    unit.initialize(0.0, dict(zip(["load", "speed"], profile(0.0), strict=True)))
     for i in range(n):
-        now, ahead = course(i * h), course((i + 1) * h)
+        now, ahead = profile(i * h), profile((i + 1) * h)
         unit.set_inputs(now)
         if moving:
             unit.set_rates([(b - a) / h for a, b in zip(now, ahead, strict=True)])
@@ -132,9 +132,9 @@ def energy(rung, n, moving):
     return unit.get(["energy"])[0]
 
 
-@pytest.mark.parametrize("rung", ["closed", "stribeck", "field"])
-def test_with_rates_the_error_falls_with_the_square_of_the_step(rung):
-    true = energy(rung, 4000, True)
+@pytest.mark.parametrize("level", ["closed", "stribeck", "field"])
+def test_with_rates_the_error_falls_with_the_square_of_the_step(level):
+    true = energy(level, 4000, True)
     for moving, low, high in ((False, 0.5, 1.2), (True, 1.7, 4.0)):
-        errors = [abs(energy(rung, n, moving) - true) for n in (20, 80)]
+        errors = [abs(energy(level, n, moving) - true) for n in (20, 80)]
         assert low < math.log(errors[0] / errors[1]) / math.log(4.0) < high

@@ -7,7 +7,7 @@ from thrustwasher.clutch.kernels import layout as clutch
 from thrustwasher.errors import ParameterError
 from thrustwasher.gearmesh.kernels.mesh_point import HOT_FILM
 from thrustwasher.gearmesh.parameters import SPEC
-from thrustwasher.model.registry import find_spec, models_with_cards, models_with_points
+from thrustwasher.model.registry import find_spec, models_with_error_tables, models_with_points
 from thrustwasher.studio.report.model_plots import FIGURES
 from thrustwasher.studio.verification.reference_cache import SOURCES
 from thrustwasher.washer.kernels import layout as washer
@@ -38,7 +38,7 @@ def test_what_is_no_model_is_refused_with_those_there_are(name, why):
 def test_what_lies_above_the_models_has_all_that_offer_it():
     plotted = {key for key, model in models_with_points().items() if model.command.plot}
     assert FIGURES.keys() == plotted
-    assert SOURCES.keys() == CHARTS.keys() == models_with_cards().keys()
+    assert SOURCES.keys() == CHARTS.keys() == models_with_error_tables().keys()
 
 
 @pytest.mark.parametrize(

@@ -93,7 +93,7 @@ BROKEN = {
         {"planets": 8},
         {"piston_inner_radius": 0.05},
         {"piston_supply_radius": 0.05},
-        *({f"{name}_points": 2} for name in transmission_params.COURSES),
+        *({f"{name}_points": 2} for name in transmission_params.PROFILES),
         {"sun_bearing_shaft_2": "sun"},
         {"ring_bearing_shaft_1": "case"},
         {"sun_bearing_coefficient": 0.1, "sun_bearing_mean_radius": 0.5},
@@ -142,12 +142,12 @@ def test_python_refuses_with_the_text_of_that_rule(spec, number, change):
         assert str(said.value) == rule.text.format(**values)
 
 
-def test_bodies_store_heat_in_rungs_that_have_bodies():
+def test_bodies_store_heat_in_levels_that_have_bodies():
     spec = washer_params.SPEC
     par = numbers(spec, {"thermal_mode": "transient"})
-    for number, rung in enumerate(spec.fidelities, 1):
+    for number, level in enumerate(spec.fidelities, 1):
         par[kernel_of(spec).N_PARAM - 1] = number
-        assert (kernel_of(spec).broken_rule(par) == 0) == (rung != "map")
+        assert (kernel_of(spec).broken_rule(par) == 0) == (level != "map")
 
 
 @pytest.mark.parametrize("spec", SPECS, ids=lambda s: s.key)

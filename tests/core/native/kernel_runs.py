@@ -93,10 +93,10 @@ def parameters(model: str) -> list[float]:
     return [v.start for v in interface(find_spec(model)).parameters]
 
 
-def course(model: str, steps: int) -> tuple[np.ndarray, float]:
+def profile(model: str, steps: int) -> tuple[np.ndarray, float]:
     """Return inputs (steps, n) along the model's reference run, and the step size [s]."""
     spec = find_spec(model)
-    rows = np.array(spec.course or [(0.0, *(s.start for s in spec.inputs))])
+    rows = np.array(spec.profile or [(0.0, *(s.start for s in spec.inputs))])
     dt = spec.stop_time / steps
     times = dt * np.arange(1, steps + 1)
     return np.column_stack([np.interp(times, rows[:, 0], row) for row in rows.T[1:]]), dt

@@ -6,7 +6,7 @@ import sys
 import needed
 import pytest
 from children import child
-from kernel_runs import MODELS, Native, Run, anything, course, parameters
+from kernel_runs import MODELS, Native, Run, anything, parameters, profile
 
 from thrustwasher.native.link import this_level, this_platform
 
@@ -31,7 +31,7 @@ def test_both_levels_are_equal_to_the_bit_failures_too(model):
         pytest.skip("this CPU has no AVX2")
     runs = [Run(Native(model, level)) for level in ("v2", "v3")]
     assert [run.start(parameters(model)) for run in runs] == [0, 0]
-    rows, dt = course(model, STEPS)
+    rows, dt = profile(model, STEPS)
     for i, row in enumerate([*rows, *anything(model, TRIES)]):
         for h in (dt,) if i < STEPS else (0.0, dt):
             status = [run.step(row, i * dt, h) for run in runs]
@@ -45,13 +45,13 @@ SOURCE = """
 import sys
 sys.path[:0] = {path!r}
 import numpy as np
-from kernel_runs import Native, Python, Run, course, parameters
+from kernel_runs import Native, Python, Run, profile, parameters
 from thrustwasher.numerics.jit import way
 assert way() == "python"
 model = {model!r}
 runs = Run(Python(model)), Run(Native(model, {level!r}))
 assert [run.start(parameters(model)) for run in runs] == [0, 0]
-rows, dt = course(model, 10)
+rows, dt = profile(model, 10)
 rows = rows[:{steps}]
 def same(what):
     a, b = (getattr(run, what) for run in runs)
@@ -71,7 +71,7 @@ print("same")
 """
 
 
-# Steps of a tenth of the course, the fourth with derivatives; plain Python takes minutes for some.
+# Steps of a tenth of the profile, the fourth with derivatives; plain Python takes minutes for some.
 LONG = {"washer", "clutch"}
 
 
@@ -93,9 +93,9 @@ def test_the_numbers_are_those_of_the_source(model, steps):
 HARSH = """
 import ctypes, sys
 sys.path[:0] = {path!r}
-from kernel_runs import Native, Run, course, parameters
+from kernel_runs import Native, Run, profile, parameters
 libm = ctypes.CDLL("libm.so.6")
-native, (rows, dt) = Native("gearmesh", {level!r}), course("gearmesh", 3)
+native, (rows, dt) = Native("gearmesh", {level!r}), profile("gearmesh", 3)
 def results():
     run = Run(native)
     run.start(parameters("gearmesh"))

@@ -30,9 +30,9 @@ HERE = Path(__file__).parent
 needs_gcc = pytest.mark.skipif(
     sys.platform != "linux" or not shutil.which("gcc"), reason="needs Linux with glibc, and gcc"
 )
-RUNGS = [(spec, rung) for spec in all_specs() for rung in spec.rungs]
+LEVELS = [(spec, level) for spec in all_specs() for level in spec.levels]
 SLOW = {"washer-field": 100, "washer-fine": 1000, "washer-map": 10}  # times the cost of others
-IDS = [f"{spec.key}-{rung}" for spec, rung in RUNGS]
+IDS = [f"{spec.key}-{level}" for spec, level in LEVELS]
 # Next to the level: what else steps go through.
 WAYS = {
     "washer-field": {"thermal_mode": 2},
@@ -53,7 +53,7 @@ WASHER_STACK = 64 * 1024  # in the library, whose compiled kernels have large fr
 IN_SHORT = {"sump-lumped"}  # the rest of the C sources takes a minute to write and compile
 IN_C = [
     pytest.param(*r, id=i, marks=() if i in IN_SHORT else pytest.mark.slow)
-    for r, i in zip(RUNGS, IDS, strict=True)
+    for r, i in zip(LEVELS, IDS, strict=True)
 ]
 
 
@@ -87,12 +87,12 @@ def library(spec, fmi=2):
     return folder, folder / "binaries" / "linux64" / f"{spec.name}.so"
 
 
-def script(spec, rung, n, also, found):
+def script(spec, level, n, also, found):
     """Return what trap.c reads; ``found``: folder and library of the FMU."""
     folder, file = found
     guid = re.search(r'guid="(\w+)"', (folder / "modelDescription.xml").read_text("utf-8"))[1]
     shown, known = interface(spec), ranges()[spec.key]
-    given = {"fidelity": list(spec.fidelities).index(rung) + 1, **also}
+    given = {"fidelity": list(spec.fidelities).index(level) + 1, **also}
     lines = [file, guid, (folder / "resources").as_uri(), len(shown.inputs)]
     for v in shown.inputs:
         low, high, law = known.get(v.name, (v.start, v.start, "stay"))
@@ -108,10 +108,10 @@ def script(spec, rung, n, also, found):
     return "\n".join(map(str, lines))
 
 
-def walked(host, spec, rung, n, also=(), found=None):
+def walked(host, spec, level, n, also=(), found=None):
     """Return what trap.c counted in ``n`` steps of a level."""
-    n = max(20, n // SLOW.get(f"{spec.key}-{rung}", 1))
-    text = script(spec, rung, n, dict(also), found or library(spec))
+    n = max(20, n // SLOW.get(f"{spec.key}-{level}", 1))
+    text = script(spec, level, n, dict(also), found or library(spec))
     done = subprocess.run([host], input=text, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     lines = [line.split() for line in done.stdout.splitlines()]
@@ -127,37 +127,37 @@ def judge(found, n):
 
 @needs_gcc
 @sizes(2_000, 100_000)
-@pytest.mark.parametrize(("spec", "rung"), RUNGS, ids=IDS)
+@pytest.mark.parametrize(("spec", "level"), LEVELS, ids=IDS)
 @pytest.mark.slow
-def test_steps_of_a_rung_call_for_nothing_and_show_no_nan(host, spec, rung, n):
-    judge(walked(host, spec, rung, n), n)
+def test_steps_of_a_level_call_for_nothing_and_show_no_nan(host, spec, level, n):
+    judge(walked(host, spec, level, n), n)
 
 
 @needs_gcc
 @sizes(2_000, 100_000)
 @pytest.mark.parametrize(("name", "also"), OTHERS)
 def test_steps_in_other_ways_call_for_nothing(host, name, also, n):
-    spec, rung = RUNGS[IDS.index(name)]
-    judge(walked(host, spec, rung, n, also), n)
+    spec, level = LEVELS[IDS.index(name)]
+    judge(walked(host, spec, level, n, also), n)
 
 
 @needs_gcc
 @sizes(2_000, 20_000)
-@pytest.mark.parametrize(("spec", "rung"), RUNGS, ids=IDS)
+@pytest.mark.parametrize(("spec", "level"), LEVELS, ids=IDS)
 @pytest.mark.slow
-def test_a_step_takes_little_stack(host, spec, rung, n):
+def test_a_step_takes_little_stack(host, spec, level, n):
     """The washer's kernel alone has a frame of 25 kB in the library."""
-    at_start, in_steps = map(int, walked(host, spec, rung, n)["stack"])
+    at_start, in_steps = map(int, walked(host, spec, level, n)["stack"])
     most = WASHER_STACK if spec.key == "washer" else STACK
     assert 0 < at_start <= most and 0 < in_steps <= most
 
 
 @needs_gcc
-@pytest.mark.parametrize(("spec", "rung"), IN_C)
+@pytest.mark.parametrize(("spec", "level"), IN_C)
 @pytest.mark.slow
-def test_a_step_of_the_c_sources_takes_little_stack(host, of_sources, spec, rung):
+def test_a_step_of_the_c_sources_takes_little_stack(host, of_sources, spec, level):
     """The washer too: most of its stack lies in the instance."""
-    found = walked(host, spec, rung, 2_000, found=of_sources(spec.name))
+    found = walked(host, spec, level, 2_000, found=of_sources(spec.name))
     at_start, in_steps = map(int, found["stack"])
     assert 0 < at_start <= STACK and 0 < in_steps <= STACK
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import needed
 import numpy as np
 import pytest
-from kernel_runs import MODELS, Python, Run, course, parameters
+from kernel_runs import MODELS, Python, Run, parameters, profile
 
 import thrustwasher
 from thrustwasher.errors import EnvironmentProblem
@@ -49,9 +49,9 @@ def test_a_module_that_needs_something_is_refused():
 
 @node
 @each
-def test_a_course_in_webassembly_is_the_one_in_python(model):
+def test_a_profile_in_webassembly_is_the_one_in_python(model):
     spec, k = find_spec(model), kernel_of(find_spec(model))
-    inputs, dt = course(model, STEPS)
+    inputs, dt = profile(model, STEPS)
     entries = web_functions(spec.kernel, ("derive", "step"))
     given = {
         "script": SCRIPT.as_uri(),

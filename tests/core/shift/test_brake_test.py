@@ -99,7 +99,7 @@ def test_shear_of_cold_oil_shortens_braking_where_the_film_moves():
     assert lock == pytest.approx(after[1], rel=0.03)  # the shear is in the law already
 
 
-def test_the_course_is_free_braking_locked():
+def test_the_profile_is_free_braking_locked():
     r = shift("brake-test")
     assert [p.name for p in r.phases] == ["free", "braking", "locked"]
     assert [e.kind for e in r.events] == ["ramp_start", "ramp_end", "brake_locked"]

@@ -77,7 +77,7 @@ def test_a_pack_that_lets_go_before_the_kiss_point_leaves_no_torque_phase():
     assert all(a[2] == b[1] for a, b in pairwise(phases))
 
 
-def test_phases_of_courses_end_at_kiss_point_unloaded_brake_and_lock_up():
+def test_phases_of_profiles_end_at_kiss_point_unloaded_brake_and_lock_up():
     phases, kinds = phases_of(0.3925)
     names = [name for name, *_ in phases]
     assert names == ["first gear", "fill", "torque phase", "inertia phase", "locked"]

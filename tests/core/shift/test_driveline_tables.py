@@ -4,7 +4,7 @@ import pytest
 from scene_runs import changed
 
 from thrustwasher.shift import load_scene
-from thrustwasher.transmission.parameters import course_points
+from thrustwasher.transmission.parameters import profile_points
 from thrustwasher.transmission.vehicle import Vehicle
 
 CAR = {"mass": 1650.0, "wheel_radius": 0.32, "final_drive": 3.2, "wheel_inertia": 4.8}
@@ -29,8 +29,8 @@ def test_the_ring_driven_scene_is_read():
     gearbox = scene.parts["transmission"].params
     assert gearbox.ratio == pytest.approx(38.0 / 74.0) and gearbox.actuation == "pressure"
     assert gearbox.carrier_inertia == pytest.approx(16.96875)
-    assert course_points(gearbox, "clutch_pressure")[1] == (0.11, 4e4)
-    assert course_points(gearbox, "engine_torque")[-1] == (0.87, 253.0)
+    assert profile_points(gearbox, "clutch_pressure")[1] == (0.11, 4e4)
+    assert profile_points(gearbox, "engine_torque")[-1] == (0.87, 253.0)
     assert (scene.engaging, scene.shift_start, scene.kiss_end) == ("clutch", 0.1, 0.2)
     assert not scene.alone
 

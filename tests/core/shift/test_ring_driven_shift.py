@@ -23,7 +23,7 @@ def run():
     return shift("planetary")
 
 
-def test_the_phases_are_those_of_the_courses(run):
+def test_the_phases_are_those_of_the_profiles(run):
     names = [p.name for p in run.phases]
     assert names == ["first gear", "fill", "torque phase", "inertia phase", "locked"]
     figures = run.figures

@@ -11,7 +11,7 @@ from thrustwasher.model.oil import viscosity_of
 from thrustwasher.shift import builtin_scenes, load_scene, with_fidelities
 from thrustwasher.shift.scene.places import scene_places, scene_scatter
 from thrustwasher.shift.scene.variation import scene_text, varied_scene
-from thrustwasher.transmission.parameters import course_points
+from thrustwasher.transmission.parameters import profile_points
 
 # Path, a value, where the scene has it.
 PATHS = [
@@ -40,7 +40,7 @@ FACTORS = ("engine.torque_scale", "pressure.clutch.scale", "pressure.brake.scale
 
 
 def points(scene, name):
-    return course_points(scene.parts["transmission"].params, name)
+    return profile_points(scene.parts["transmission"].params, name)
 
 
 @pytest.mark.parametrize(("path", "value", "found"), PATHS, ids=[p[0] for p in PATHS])

@@ -58,8 +58,8 @@ def test_a_pulse_that_begins_and_ends_with_the_steps_is_squeezed_by_as_much_as_i
 
 def test_heat_never_comes_back_and_nothing_is_below_the_oil():
     for step in (1e-3, 0.1, 1.0):
-        for course in ("held", "linear"):
-            shown = run(step, 1, input_profile=course)
+        for profile in ("held", "linear"):
+            shown = run(step, 1, input_profile=profile)
             heats = [s["energy"] for s in shown]
             assert heats == sorted(heats)
             assert all(s["temperature"] >= OIL for s in shown)

@@ -55,10 +55,12 @@ def test_the_bracketed_root_is_found_everywhere(bulk, rise, power):
 
 @pytest.mark.parametrize("power", [10.0, 1e3, 7500.0, 5e4])
 @pytest.mark.parametrize("celsius", [-39.0, 26.7, 120.0])
-@pytest.mark.parametrize("rung", ["field", "fine"])
-def test_the_mesh_is_solved_from_cold_oil_to_hot_and_from_little_heat_to_much(rung, celsius, power):
+@pytest.mark.parametrize("level", ["field", "fine"])
+def test_the_mesh_is_solved_from_cold_oil_to_hot_and_from_little_heat_to_much(
+    level, celsius, power
+):
     r = solve_gearmesh(
-        GearMeshParams(), power=power, speed=300.0, fidelity=rung, oil_temperature=celsius + 273.15
+        GearMeshParams(), power=power, speed=300.0, fidelity=level, oil_temperature=celsius + 273.15
     )
     assert not r.status.is_failure
     assert math.isfinite(r.film_temperature) and r.friction_torque > 0.0

@@ -74,7 +74,7 @@ def test_no_shipped_scene_hands_over_torques_and_no_default_does():
         assert scene.master == "gauss-seidel", path.stem
 
 
-def test_default_rungs_are_solved_and_not_looked_up_or_closed():
+def test_default_levels_are_solved_and_not_looked_up_or_closed():
     from thrustwasher.clutch import parameters
     from thrustwasher.gearmesh import parameters as gearmesh_params
     from thrustwasher.washer import parameters as washer_params
@@ -141,9 +141,9 @@ def test_the_washers_film_stops_on_the_residual_on_every_mesh():
 def test_located_lock_up_is_exact_whatever_the_step():
     clutch = k.Clutch()
     for step in (1e-4, 7e-3, 5e-2):
-        course = k.located(clutch, step)
-        assert course.energy == pytest.approx(clutch.slip_energy, rel=1e-9)
-        assert course.slip[-1] == 0.0
+        profile = k.located(clutch, step)
+        assert profile.energy == pytest.approx(clutch.slip_energy, rel=1e-9)
+        assert profile.slip[-1] == 0.0
 
 
 def test_gauss_seidel_bears_steps_twice_as_long_as_jacobi():

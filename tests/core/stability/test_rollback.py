@@ -85,7 +85,7 @@ def run(made, points, first=0):
 
 @pytest.mark.parametrize("name", MODELS)
 @pytest.mark.slow
-def test_a_course_gone_back_over_is_the_course_gone_straight(name):
+def test_a_profile_gone_back_over_is_the_profile_gone_straight(name):
     made, points = begun(name, 1)
     straight = run(made, points)
     back, _ = begun(name, 1)

@@ -56,7 +56,7 @@ def test_a_short_overload_is_survived_and_a_long_one_is_not():
         assert solve_washer(STEADY, load=1.3 * fold, **AT).distress
 
 
-def test_a_course_can_be_written_as_json():
+def test_a_time_history_can_be_written_as_json():
     c = follow_washer(IN_TIME, time=[0.0, 0.1], load=300.0, **AT)
     written = c.as_dict()
     assert written["status"] == ["OK", "OK"] and written["thermal_mode"] == "transient"

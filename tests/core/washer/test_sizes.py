@@ -53,7 +53,7 @@ def test_a_face_below_a_millimetre_is_as_on_the_finer_mesh(width):
     radii = {"inner_radius": 0.0227 - width, "gear_inner_radius": 0.0227 - 0.5 * width}
     narrow = WasherParams(outer_radius=0.0227, **radii)
     point = {"load": 5.0, "speed": 300.0, "tilt": 0.001}
-    usual, fine = (solve_washer(narrow, **point, fidelity=rung) for rung in ("field", "fine"))
+    usual, fine = (solve_washer(narrow, **point, fidelity=level) for level in ("field", "fine"))
     assert usual.friction_torque == pytest.approx(fine.friction_torque, rel=2e-3)
 
 

@@ -108,7 +108,7 @@ def test_converged_points_are_met_within_the_stated_error(name, fidelity):
     assert r.fluid_load == pytest.approx(fluid, abs=d_fluid)
     assert r.washer_tilt_x / 0.002 == pytest.approx(gx, abs=d_tilt)
     assert r.washer_tilt_y / 0.002 == pytest.approx(gy, abs=d_tilt)
-    assert r.error_estimate is None  # no card was measured for the paper's parameters
+    assert r.error_estimate is None  # no verification table for the paper's parameters
 
 
 @pytest.mark.parametrize("name", CONVERGED)

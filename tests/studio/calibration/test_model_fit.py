@@ -243,7 +243,7 @@ OTHER = {"load": 200.0, "friction_torque": 0.2}
         (OTHER, {"at": {"roughness": 4.321e-7}}, "no map was made for these parameters"),
     ],
 )
-def test_points_without_a_solution_and_rungs_of_no_use_are_named(data, more, message):
+def test_points_without_a_solution_and_levels_of_no_use_are_named(data, more, message):
     """A map is for one roughness: that a changed one has no solution tells nothing of it."""
     with pytest.raises((SolveError, ParameterError), match=message):
         calibrate("washer", data, **{"fit": "heat_split", "fidelity": "map", **more})

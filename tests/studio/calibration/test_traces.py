@@ -19,8 +19,8 @@ from thrustwasher import (
     calibrate_traces,
     engage_clutch,
 )
-from thrustwasher.studio.calibration.engagement import pack_course, trace_fit
-from thrustwasher.studio.calibration.engagement.pack_course import walk_pack
+from thrustwasher.studio.calibration.engagement import pack_history, trace_fit
+from thrustwasher.studio.calibration.engagement.pack_history import walk_pack
 from thrustwasher.studio.calibration.engagement.traced_pack import traced_pack
 from thrustwasher.studio.calibration.identifiability import information
 from thrustwasher.studio.calibration.traces.binned import binned, smoothed
@@ -36,7 +36,7 @@ TRUTH = {"friction_scale": 0.92, "permeability": 3e-13}
 WORN = ClutchParams(**TRUTH)
 
 
-def course(n=301, ends=0.6):
+def history(n=301, ends=0.6):
     """Return a ramp of the load and a slip that runs out."""
     time = np.linspace(0.0, ends, n)
     load = 5000.0 * np.clip((time - 0.05) / 0.1, 0.0, 1.0)
@@ -45,7 +45,7 @@ def course(n=301, ends=0.6):
 
 def recorded(pack=WORN, noise=1.5, seed=1, way=None):
     """Return a recording of a pack's torque, with noise [N m]."""
-    way = way or course()
+    way = way or history()
     made = engage_clutch(pack, **way, oil_temperature=OIL).friction_torque
     scatter = noise * np.random.default_rng(seed).standard_normal(len(made))
     return {**way, "oil_temperature": OIL, "friction_torque": made + scatter}
@@ -53,7 +53,7 @@ def recorded(pack=WORN, noise=1.5, seed=1, way=None):
 
 def wheel(n=601, seed=1, **around):
     """Return a recording of a wheel that a pack stops; its slip comes out of the balance."""
-    way = course(n) | {"speed": np.full(n, 300.0)}
+    way = history(n) | {"speed": np.full(n, 300.0)}
     rig = replace(traced_pack(WORN), inertia=0.25, **around)
     inputs = {n: np.broadcast_to(x, way["time"].shape) for n, x in way.items() if n != "time"}
     inputs |= {"oil_temperature": np.full(n, OIL), "drum_speed": np.zeros(n)}
@@ -77,7 +77,7 @@ def holds(found, truth):
 
 
 def test_a_recording_without_noise_gives_the_parameters_back():
-    found = calibrate_traces(PACK, recorded(noise=0.0, way=course(201)), fit=tuple(TRUTH))
+    found = calibrate_traces(PACK, recorded(noise=0.0, way=history(201)), fit=tuple(TRUTH))
     assert values(found) == pytest.approx(TRUTH, rel=1e-5)
     assert {name: getattr(found.params, name) for name in TRUTH} == values(found)
     assert type(found.params) is ClutchParams and not found.warnings
@@ -214,7 +214,7 @@ def test_slip_that_was_not_recorded_is_found_by_the_torque():
 
 @pytest.mark.slow
 def test_a_noisy_first_temperature_does_not_shift_all_that_follow():
-    way, truth, held = course(), {"friction_scale": 0.92}, 0
+    way, truth, held = history(), {"friction_scale": 0.92}, 0
     exact = engage_clutch(WORN, **way, oil_temperature=OIL).temperature
     for seed in range(5):
         noisy = exact + 0.3 * np.random.default_rng(seed).standard_normal(301)
@@ -256,7 +256,7 @@ def test_energy_of_the_wheel_goes_into_the_pack_and_the_drag():
 
 
 def test_torque_at_the_hub_has_its_inertia_times_acceleration():
-    way = course()
+    way = history()
     hub = recorded(noise=0.0, way=way)
     hub["friction_torque"] = hub["friction_torque"] - 0.005 * 300.0 / 0.6
     at_hub = calibrate_traces(
@@ -271,7 +271,7 @@ def test_torque_at_the_hub_has_its_inertia_times_acceleration():
 
 @pytest.mark.slow
 def test_temperature_and_torque_are_fitted_together():
-    way = course()
+    way = history()
     made = engage_clutch(replace(WORN, heat_transfer=3000.0), **way, oil_temperature=OIL)
     rng = np.random.default_rng(3)
     data = {
@@ -293,16 +293,16 @@ def test_temperature_and_torque_are_fitted_together():
 
 @pytest.mark.slow
 def test_several_recordings_count_like_one_another():
-    light = course()
+    light = history()
     light["load"] = 0.4 * light["load"]
     both = calibrate_traces(PACK, [recorded(), recorded(seed=2, way=light)], fit=tuple(TRUTH))
     alone = calibrate_traces(PACK, recorded(), fit=tuple(TRUTH))
     assert both.engagements == 2 and "2 engagements in 2 recordings" in str(both)
     for name in TRUTH:
         assert both[name].standard_error < alone[name].standard_error
-    courses = both.courses()
-    assert [c.recording for c in courses] == ["recording 1", "recording 2"]
-    assert all(len(c.time) == len(c.measured) == len(c.computed) for c in courses)
+    histories = both.histories()
+    assert [c.recording for c in histories] == ["recording 1", "recording 2"]
+    assert all(len(c.time) == len(c.measured) == len(c.computed) for c in histories)
 
 
 @pytest.mark.slow
@@ -319,7 +319,7 @@ def test_engagements_written_one_after_the_other_are_parted(gap):
 
 
 def test_a_pack_that_stays_pressed_starts_settled():
-    way = {n: x[100:] for n, x in course().items()}
+    way = {n: x[100:] for n, x in history().items()}
     made = engage_clutch(replace(WORN, starts_pressed=True), **way, oil_temperature=OIL)
     data = {**way, "oil_temperature": OIL, "friction_torque": made.friction_torque}
     found = calibrate_traces(PACK, data, fit=["friction_scale"], at={"permeability": 3e-13})
@@ -335,15 +335,15 @@ def test_what_torque_cannot_tell_is_named():
 
 
 @pytest.mark.slow
-def test_means_follow_the_course_and_not_the_number_of_rows(monkeypatch):
-    sizes, steps, advance = [], [], pack_course.clutch_advance.advance
-    recordings = {n: recorded(way=course(n)) for n in (20_001, 200_001)}
+def test_means_follow_the_history_and_not_the_number_of_rows(monkeypatch):
+    sizes, steps, advance = [], [], pack_history.clutch_advance.advance
+    recordings = {n: recorded(way=history(n)) for n in (20_001, 200_001)}
 
     def counted(*words):
         steps[-1] += 1
         return advance(*words)
 
-    monkeypatch.setattr(pack_course.clutch_advance, "advance", counted)
+    monkeypatch.setattr(pack_history.clutch_advance, "advance", counted)
     for n, data in recordings.items():
         steps.append(0)
         found = calibrate_traces(PACK, data, fit=["friction_scale"], at={"permeability": 3e-13})
@@ -356,7 +356,7 @@ def test_means_follow_the_course_and_not_the_number_of_rows(monkeypatch):
 
 @pytest.mark.slow
 def test_a_long_recording_takes_the_memory_of_a_few_copies_of_its_rows():
-    few, many = course(10_001), course(110_001)
+    few, many = history(10_001), history(110_001)
     peaks = []
     for way in (few, many):
         data = {**way, "oil_temperature": OIL, "friction_torque": way["load"] / 30.0}
@@ -371,13 +371,13 @@ def test_a_long_recording_takes_the_memory_of_a_few_copies_of_its_rows():
 
 @pytest.mark.slow
 def test_rows_closer_in_time_than_the_clock_tells_are_taken_together():
-    data = recorded(way=course(2401))
+    data = recorded(way=history(2401))
     data["time"] = np.round(data["time"], 3)  # four rows to a tick
     found = calibrate_traces(PACK, data, fit=tuple(TRUTH))
     assert values(found) == pytest.approx(TRUTH, rel=0.1)
 
 
-def test_scatter_of_rows_is_told_beside_their_course():
+def test_scatter_of_rows_is_told_beside_their_history():
     x = np.linspace(0.0, 1.0, 5001)
     noise = np.random.default_rng(5).standard_normal(5001)
     assert row_scatter(np.exp(x) + 0.01 * noise) == pytest.approx(0.01, rel=0.05)
@@ -409,7 +409,7 @@ def test_95_percent_intervals_hold_with_scatter_of_the_pressure(monkeypatch):
 
 
 def test_recorded_inputs_are_smoothed_where_they_scatter_and_only_there():
-    """A straight line stays, corners of an exact course too; scatter is averaged."""
+    """A straight line stays, corners of an exact history too; scatter is averaged."""
     time = np.sort(np.random.default_rng(1).uniform(0.0, 1.0, 4001))
     even = np.linspace(0.0, 1.0, 4001)
     noise = np.random.default_rng(2).standard_normal(4001)
@@ -447,7 +447,7 @@ def holed(name):
 
 
 def out_of_order():
-    time = course()["time"].copy()
+    time = history()["time"].copy()
     time[[40, 41]] = time[[41, 40]]
     return time
 
@@ -493,7 +493,7 @@ def out_of_order():
         ([], {}, "recordings: none"),
         (3.0, {}, "recordings: float"),
         ([3.0], {}, "columns by their names"),
-        ({n: x[:3] for n, x in course().items()}, {}, "3 rows"),
+        ({n: x[:3] for n, x in history().items()}, {}, "3 rows"),
     ],
 )
 def test_a_recording_that_cannot_be_used_is_refused_by_name(data, more, words):
@@ -524,14 +524,14 @@ def test_the_result_is_plain_data_a_table_and_a_picture():
 
 def test_a_recording_that_a_pack_cannot_be_stepped_along_is_named(monkeypatch):
     data = {"rig 3.csv": recorded()}
-    monkeypatch.setattr(pack_course.clutch_advance, "advance", lambda *_: int(Status.NOT_FINITE))
+    monkeypatch.setattr(pack_history.clutch_advance, "advance", lambda *_: int(Status.NOT_FINITE))
     with pytest.raises(SolveError, match=r"rig 3\.csv: the part cannot be stepped along it"):
         calibrate_traces(PACK, data, fit=["friction_scale"])
 
 
 def offset(shift):
     """Return a recording that begins and ends with an open pack, its torque off by an offset."""
-    way = course()
+    way = history()
     way["load"] = np.where(way["time"] < 0.1, 0.0, way["load"])
     data = recorded(way=way)
     return data | {"friction_torque": data["friction_torque"] + shift}

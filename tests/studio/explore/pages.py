@@ -48,7 +48,7 @@ def wasm_file(kernel):
     return file
 
 
-def answers(model, tasks, *, params=None, rung=None):
+def answers(model, tasks, *, params=None, level=None):
     """Return what the worker answers to its tasks, the parameters set first, and the seconds."""
     spec, view = find_model(model).spec, VIEWS[model]
     module = wasm_file(spec.kernel)
@@ -58,7 +58,7 @@ def answers(model, tasks, *, params=None, rung=None):
         "scripts": [(WEB / name).as_uri() for name in ("kernel.js", own)],
         "about": about(model)["worker"],
         "module": str(module),
-        "tasks": [["set", numbers, rung or spec.default_fidelity], *tasks],
+        "tasks": [["set", numbers, level or spec.default_fidelity], *tasks],
     }
     done = subprocess.run(
         ["node", *NODE, str(HERE / "worker_run.mjs")],

@@ -67,12 +67,12 @@ def scene_file(folder, base, profiles):
     return path
 
 
-def python_run(path, rungs):
+def python_run(path, levels):
     """Return the run of Python's loop, without the checks after it."""
-    scene = with_fidelities(load_scene(str(path)), rungs)
+    scene = with_fidelities(load_scene(str(path)), levels)
     return cosimulate(scene, {n: instance_of(n, p) for n, p in scene.parts.items()})
 
 
-def python_figures(path, rungs):
+def python_figures(path, levels):
     """Return the figures that Python's loop gives."""
-    return started(python_run(path, rungs))
+    return started(python_run(path, levels))

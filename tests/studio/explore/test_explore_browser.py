@@ -18,7 +18,7 @@ from thrustwasher import (
     solve_train,
     solve_washer,
 )
-from thrustwasher.ladder.error_table import SAFETY, fresh_rungs
+from thrustwasher.ladder.error_table import SAFETY, fresh_levels
 from thrustwasher.model.part_file import find_part
 from thrustwasher.studio.verification.reference_clutch import HELD, RISE, TIMES
 
@@ -212,8 +212,8 @@ def test_a_browser_without_it_shows_the_values_of_the_start(opened, model, look)
     page = opened(model, ready="", **look).page
     looks_still(page)
     said = page.text_content("#state")
-    error = "not verified" if model in ("losses", "train") else "at most"  # without cards
-    assert f"Fidelity level {about(model)['rung']}; verified error of the torque: {error}" in said
+    error = "not verified" if model in ("losses", "train") else "at most"  # without tables
+    assert f"Fidelity level {about(model)['level']}; verified error of the torque: {error}" in said
     assert "of the start: " in said
     assert ("has no WebAssembly" in said) is ("init" in look)
     if "init" in look:
@@ -246,13 +246,13 @@ def test_the_washers_four_discs_have_colours_scales_and_units(opened):
             assert colours > 50
 
 
-@pytest.mark.parametrize("rung", ["field", "fine"])
-def test_the_clutch_says_the_error_of_its_cards_engagement(opened, rung):
+@pytest.mark.parametrize("level", ["field", "fine"])
+def test_the_clutch_says_the_error_of_its_cards_engagement(opened, level):
     at = {"load": 4000.0, "speed": 200.0, "oil_temperature": 330.0}
     ramp = "[0,1000,4000,4000,4000,4000,4000,4000,4000]"
-    address = f"#speed=200&oil_temperature=330&fidelity={rung}&ramp={ramp}"
+    address = f"#speed=200&oil_temperature=330&fidelity={level}&ramp={ramp}"
     box = {name: (value, value) for name, value in at.items()}
-    known = fresh_rungs("clutch", ClutchParams())[rung]
+    known = fresh_levels("clutch", ClutchParams())[level]
     error = 100 * SAFETY * known.worst("friction_torque", box, "engagement")
     said = opened("clutch", address).page.text_content("#state")
     assert f"(load up in {RISE} s, slip down from {HELD} to {TIMES[-1]} s, drum at rest" in said

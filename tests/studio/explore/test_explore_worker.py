@@ -86,14 +86,14 @@ def test_a_branch_that_is_asked_for_is_kept_fresh_and_its_absence_is_told():
     assert lost["missing"] and lost["outputs"]["branch"] == "film"
 
 
-@pytest.mark.parametrize("rung", ["field", "fine"])
+@pytest.mark.parametrize("level", ["field", "fine"])
 @pytest.mark.parametrize(("conduction", "oil_cooling"), [("carrier", True), ("all", False)])
 @pytest.mark.slow
-def test_fields_are_those_of_python(rung, conduction, oil_cooling):
+def test_fields_are_those_of_python(level, conduction, oil_cooling):
     params = WasherParams(conduction=conduction, oil_cooling=oil_cooling)
     point = [600.0, 700.0, 2e-3, 320.0, 0.0]
-    (got,), _ = answers("washer", [["solve", point, True, ""]], params=params, rung=rung)
-    wanted = solve_washer(params, **dict(zip(NAMES, point, strict=True)), fidelity=rung).fields()
+    (got,), _ = answers("washer", [["solve", point, True, ""]], params=params, level=level)
+    wanted = solve_washer(params, **dict(zip(NAMES, point, strict=True)), fidelity=level).fields()
     for name in ("radius", "angle"):
         np.testing.assert_allclose(got["fields"][name], getattr(wanted, name), rtol=1e-12)
     for name in ("film_thickness", "pressure", "contact_pressure", "washer_temperature"):
@@ -199,11 +199,11 @@ def test_the_page_has_no_figure_where_python_has_none(preset):
     assert "micropitting_safety" in none and (preset or got["path"]["micropitting"] is None)
 
 
-@pytest.mark.parametrize("rung", ["field", "fine", "closed"])
-def test_an_engagement_under_a_drawn_ramp_is_that_of_python(rung):
+@pytest.mark.parametrize("level", ["field", "fine", "closed"])
+def test_an_engagement_under_a_drawn_ramp_is_that_of_python(level):
     ramp = [0.0, 1000.0, 4000.0, 3000.0, 5000.0, 5000.0, 5500.0, 5000.0, 5000.0]
     task = ["solve", [120.0, 340.0, 0.0, 0.6], True, "", {"ramp": ramp}]
-    (got,), _ = answers("clutch", [task], rung=rung)
+    (got,), _ = answers("clutch", [task], level=level)
     time = np.linspace(0.0, 0.6, about("clutch")["points"] + 1)
     wanted = engage_clutch(
         ClutchParams(),
@@ -211,7 +211,7 @@ def test_an_engagement_under_a_drawn_ramp_is_that_of_python(rung):
         load=np.interp(time, np.linspace(0.0, 0.6, 9), ramp),
         speed=120.0 * (1.0 - time / 0.6),
         oil_temperature=340.0,
-        fidelity=rung,
+        fidelity=level,
     )
     for name in ("friction_torque", "temperature", "film_ratio", "energy", "oil_heat"):
         there = getattr(wanted, name)

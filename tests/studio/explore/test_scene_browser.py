@@ -39,14 +39,14 @@ def figure(page, name):
     return float(page.get_attribute(f"#{name}", "value"))
 
 
-def on_own_rung(page):
+def on_own_level(page):
     """Wait until the washers are solved on their own level."""
     page.wait_for_function("() => document.querySelector('#washer_level').value === 'field'")
     return page
 
 
-def test_it_opens_with_the_figures_of_python_on_the_washers_own_rung(opened):
-    page = on_own_rung(opened())
+def test_it_opens_with_the_figures_of_python_on_the_washers_own_level(opened):
+    page = on_own_level(opened())
     for name, value in started(nominal("planetary")).items():
         assert figure(page, name) == pytest.approx(value, rel=1e-9, abs=1e-9)
     assert figure(page, "run_count") >= 2
@@ -68,7 +68,7 @@ def test_a_point_is_dragged_and_the_figures_follow(opened):
     assert page.text_content("#a-lock_time").startswith("A 830.7 ms")
     page.click("#reset")
     page.wait_for_function("() => location.hash === ''")
-    on_own_rung(page)
+    on_own_level(page)
     assert figure(page, "lock_time") == pytest.approx(0.83072415500, abs=1e-8)
 
 
@@ -80,7 +80,7 @@ def test_a_point_moves_by_keys(opened):
 
 
 def test_the_saved_scene_gives_the_lock_up_of_the_page(opened, tmp_path):
-    page = on_own_rung(opened(address=f"#{KISS}"))
+    page = on_own_level(opened(address=f"#{KISS}"))
     with page.expect_download() as download:
         page.click("#save")
     path = tmp_path / "tuned.toml"
@@ -189,13 +189,13 @@ def test_a_command_scene_has_its_ramp(opened):
 
 @pytest.mark.parametrize("look", LOOKS)
 def test_everyone_can_use_it_and_nothing_scrolls_sideways(opened, look):
-    page = on_own_rung(opened(**LOOKS[look]))
+    page = on_own_level(opened(**LOOKS[look]))
     assert faults(page) == []
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
 
 
 def test_every_plot_has_at_least_three_ticks(opened):
-    page = on_own_rung(opened())
+    page = on_own_level(opened())
     ticks = page.evaluate(
         """() => [...document.querySelectorAll('#layout svg')].map((svg) =>
           [...svg.querySelectorAll('text.tick')].filter((t) =>
@@ -225,7 +225,7 @@ TIE_UP = "0.1:0,0.11:40000,0.2:40000,0.422:561000,0.79:341000,0.865:346000,0.935
 
 
 def test_the_warnings_are_those_of_the_run_that_is_displayed(opened):
-    page = on_own_rung(opened(address=f"#clutch_pressure={TIE_UP}"))
+    page = on_own_level(opened(address=f"#clutch_pressure={TIE_UP}"))
     head = page.text_content("#warnings-head")
     assert head == "Warnings of this run: 1"
     assert page.text_content("#warnings li").startswith("Tie-up: from ")

@@ -63,11 +63,11 @@ def study(**changes: object) -> ScatterResult:
     film, heat = 0.4 / SHARE, 11e3 + 50.0 * (OIL - 353.15)
     lock, jerk = 0.84 + 0.002 * (OIL - 353.15), np.full(N, 12.0)
     time = np.linspace(0.0, 2.5, 21)
-    course = np.outer(np.array([0.8, 1.0, 1.2]), 200.0 * np.clip(time, 0.0, 1.0))
+    profile = np.outer(np.array([0.8, 1.0, 1.2]), 200.0 * np.clip(time, 0.0, 1.0))
     torque = Series(
         time=time,
-        nominal=course[1],
-        quantiles=dict(zip(LEVELS, course, strict=True)),
+        nominal=profile[1],
+        quantiles=dict(zip(LEVELS, profile, strict=True)),
         indices={
             "oil_temperature": np.where(time > 0.0, 0.8, np.nan),
             "washer.cavity_shear": np.where(time > 0.0, 0.1, np.nan),

@@ -213,8 +213,8 @@ def test_every_plot_becomes_a_file(record, tmp_path):
 
 
 def test_three_sentences_tell_the_shift(record):
-    course, clutch, washer = summary.sentences(record)
-    assert "0.25 s" in course and "1.75 s" in course and "945 rpm" in course
+    profile, clutch, washer = summary.sentences(record)
+    assert "0.25 s" in profile and "1.75 s" in profile and "945 rpm" in profile
     assert "47 kJ" in clutch and "49 kW" in clutch and "174 °C" in clutch
     assert "lost their oil film" in washer
 

@@ -13,7 +13,7 @@ from browser_pages import faults, opened
 from scatter_stand_in import study
 
 from thrustwasher import WasherParams, solve_washer
-from thrustwasher.shift.account.worst_moments import Moment, rung_with_fields
+from thrustwasher.shift.account.worst_moments import Moment, level_with_fields
 from thrustwasher.studio.report.html import render
 from thrustwasher.studio.report.shift import sequence_report, shift_report
 from thrustwasher.studio.report.shift.shift_data import FIELDS
@@ -246,7 +246,7 @@ def test_another_script_solves_the_washer_at_the_cursor(browser, report):
 
 def test_the_page_solves_the_washer_as_python_does(page):
     washer = RECORD.part("washer")
-    wanted = solve_washer(washer.params(), **POINT, fidelity=rung_with_fields(washer))
+    wanted = solve_washer(washer.params(), **POINT, fidelity=level_with_fields(washer))
     got = page.evaluate("(point) => solveAt(point, 5)", POINT)
     assert got["film_ratio"] == pytest.approx(wanted.film_ratio, rel=1e-10)
     for name in FIELDS:
@@ -459,7 +459,7 @@ def test_several_shifts_have_one_time_and_each_is_a_button(browser, cycle):
         view = page.evaluate("page.state.view")
         assert (view["min"], view["max"]) == pytest.approx((10.0, 12.5))
         assert page.locator("#now").text_content() == "10 s, 2 down"
-        assert page.locator("#course tbody tr").count() > 2
+        assert page.locator("#profile tbody tr").count() > 2
         page.get_by_role("button", name="at the cursor").click()
         page.wait_for_selector("#discs figure", timeout=10_000)
         assert page.locator("#discs figure").count() == 4

@@ -133,7 +133,7 @@ def test_a_washer_without_tilt_or_speed_is_solved_too():
 # Levels
 
 
-def test_the_rung_is_the_parts():
+def test_the_level_is_the_parts():
     fine = replace(WASHER, fidelity="fine")
     target = target_of(fine, {"roughness": "5 %"})
     rows = rows_of(target, 3)

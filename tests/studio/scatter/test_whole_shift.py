@@ -36,7 +36,7 @@ def test_a_scene_is_a_name_a_path_or_what_was_loaded(tmp_path):
     assert len(set(found)) == 1
 
 
-def test_rungs_are_named_for_all_parts_or_by_part():
+def test_levels_are_named_for_all_parts_or_by_part():
     coarse = run_shift("msl", fidelity="stribeck").scene.parts
     assert coarse["clutch"].fidelity == "stribeck"
     assert (

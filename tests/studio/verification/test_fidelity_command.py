@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from synthetic import put, rung
+from synthetic import level, put
 
 from thrustwasher.cli import main
 from thrustwasher.ladder import error_table
@@ -13,7 +13,7 @@ WASHER = ["washer", "--load", "100", "--speed", "500"]
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
-    put(tmp_path, monkeypatch, rung("field", 5e-3), rung("fine", 4e-4))
+    put(tmp_path, monkeypatch, level("field", 5e-3), level("fine", 4e-4))
     yield tmp_path
     error_table.forget()
 
@@ -25,8 +25,8 @@ def test_cards_lists_errors_costs_and_the_box(capsys):
     assert "0.5 %" in out and "200 µs" in out and "of this version" in out
 
 
-def test_cards_names_stale_rungs_and_broken_files(folder, monkeypatch, capsys):
-    put(folder, monkeypatch, rung("fine", 4e-4, sources="0" * 64))
+def test_cards_names_stale_levels_and_broken_files(folder, monkeypatch, capsys):
+    put(folder, monkeypatch, level("fine", 4e-4, sources="0" * 64))
     (folder / "mesh.json").write_text("{")
     assert main(["fidelity"]) == 0
     out = capsys.readouterr().out
@@ -45,8 +45,8 @@ def test_cards_as_json(capsys):
     assert field["envelope"]["load"] == [20.0, 2000.0, "N"]
 
 
-def test_auto_takes_the_first_rung_that_holds_says_why_and_gives_up_at_the_last(capsys):
-    for wish, rung_taken, said in (
+def test_auto_takes_the_first_level_that_holds_says_why_and_gives_up_at_the_last(capsys):
+    for wish, level_taken, said in (
         (
             "auto:0.01",
             "field",
@@ -56,12 +56,12 @@ def test_auto_takes_the_first_rung_that_holds_says_why_and_gives_up_at_the_last(
     ):
         assert main([*WASHER, "--fidelity", wish, "--json"]) == 0
         seen = capsys.readouterr()
-        assert json.loads(seen.out)["fidelity"] == rung_taken and said in seen.err
+        assert json.loads(seen.out)["fidelity"] == level_taken and said in seen.err
     assert main([*WASHER, "--fidelity", "auto:0.0001"]) == 3
     assert "the best is fine" in capsys.readouterr().err
 
 
-def test_auto_of_other_parameters_is_compared_with_the_rung_above(capsys):
+def test_auto_of_other_parameters_is_compared_with_the_level_above(capsys):
     own = ["--set", "dry_friction=0.2", "--json"]
     assert main([*WASHER, "--fidelity", "auto:0.05", *own]) == 0
     seen = capsys.readouterr()

@@ -31,9 +31,9 @@ def made(tmp_path_factory):
 
 
 @pytest.mark.slow
-def test_every_rung_is_measured_and_kept_in_the_users_cache(made):
-    assert [rung.fidelity for rung in made.rungs] == ["map", "field", "fine"]
-    assert [made.stale(rung) for rung in made.rungs] == [None] * 3
+def test_every_level_is_measured_and_kept_in_the_users_cache(made):
+    assert [level.fidelity for level in made.levels] == ["map", "field", "fine"]
+    assert [made.stale(level) for level in made.levels] == [None] * 3
     (file,) = error_table.own_folder().iterdir()
     assert file.name == f"washer-{made.name}.json" and error_table.read_tables(file) == (made,)
 
@@ -61,7 +61,7 @@ def test_a_box_of_light_loads_begins_where_the_model_does():
     assert own_case(SPEC, OWN, {"load": (0.0, 140.0)}, 60).box["load"].min == 1.0
 
 
-def test_a_part_without_rungs_to_choose_from_has_no_table(tmp_path, capsys):
+def test_a_part_without_levels_to_choose_from_has_no_table(tmp_path, capsys):
     file = tmp_path / "sump.toml"
     file.write_text('model = "sump"\nname = "Sump"\n')
     assert main(["fidelity", str(file)]) == 2

@@ -48,19 +48,19 @@ def test_the_clutchs_reference_lies_where_rings_converge_to():
 
 def test_another_integrator_confirms_an_engagement():
     time = np.linspace(0.0, 0.2, 5)
-    course = {
+    profile = {
         "time": time,
         "load": 5e3 * np.minimum(time / 0.1, 1.0),
         "speed": 100.0 - 200.0 * time,
     }
     params = ClutchParams(starts_pressed=True)
-    found = reference_engagement(params, **course, oil_temperature=350.0)
-    fine = engage_clutch(params, **course, oil_temperature=350.0, fidelity="fine")
+    found = reference_engagement(params, **profile, oil_temperature=350.0)
+    fine = engage_clutch(params, **profile, oil_temperature=350.0, fidelity="fine")
     torque = found.values["friction_torque"]
     assert fine.friction_torque[-1] == pytest.approx(torque, rel=3e-4)
     assert fine.energy[-1] == pytest.approx(found.values["energy"], rel=3e-4)
     with pytest.raises(ParameterError, match="contact_rise = True"):
-        reference_engagement(ClutchParams(contact_rise=True), **course)
+        reference_engagement(ClutchParams(contact_rise=True), **profile)
 
 
 @pytest.mark.parametrize("preset", ["paper", None])
@@ -74,7 +74,7 @@ def test_another_integrator_confirms_an_engagement():
         {"gear_ratio": 5.0, "pinion_teeth": 30},
     ],
 )
-def test_the_gears_quadrature_confirms_the_rung_fine(changes, preset):
+def test_the_gears_quadrature_confirms_the_level_fine(changes, preset):
     params = GearMeshParams.preset(preset or "paper", **changes)
     if preset is None:
         params = GearMeshParams(
@@ -95,6 +95,6 @@ def test_the_gears_quadrature_confirms_the_rung_fine(changes, preset):
         lambda f: solve_gearmesh(GearMeshParams(), power=1.0, speed=1.0, fidelity=f),
     ],
 )
-def test_a_reference_asked_for_as_a_rung_says_where_it_is(solve):
+def test_a_reference_asked_for_as_a_level_says_where_it_is(solve):
     with pytest.raises(ParameterError, match=r"call thrustwasher\.studio\.verification\.reference"):
         solve("reference")

@@ -85,7 +85,7 @@ def test_a_relative_error_has_a_floor():
     assert deviation("temperature", known(300.0), 301.5, 0.01) == pytest.approx(1.5)
 
 
-def test_a_course_is_judged_by_its_largest_error_over_its_largest_value():
+def test_a_profile_is_judged_by_its_largest_error_over_its_largest_value():
     expected = known([0.0, 10.0, 5.0])
     assert deviation("friction_torque", expected, [1.0, 10.0, 4.5], 0.0) == pytest.approx(0.1)
 
@@ -145,8 +145,8 @@ def test_classes_of_film_ratio_hold_thirty_points_and_their_worst_error():
     assert [row[2] for row in rows] == [30, 30, 30]
     assert [row[TORQUE] for row in rows] == pytest.approx([1e-3, 0.1, 1e-3], rel=1e-2)
     assert rows[0][0] < -1e8 and rows[1][:2] == pytest.approx((3.0, 6.0), abs=0.1)
-    course = (known([1.0, 2.0], DEFAULT["washer"].point(0)), said([1.0, 2.0]))
-    assert [d.axes for d in chart_of(None, [course], DEFAULT["washer"].box).divisions] == [
+    profile = (known([1.0, 2.0], DEFAULT["washer"].point(0)), said([1.0, 2.0]))
+    assert [d.axes for d in chart_of(None, [profile], DEFAULT["washer"].box).divisions] == [
         ("load", "speed")
     ]
 

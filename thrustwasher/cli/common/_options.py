@@ -284,7 +284,7 @@ def _default(field: Any) -> str:
 
 def add_fidelity(parser: argparse.ArgumentParser, spec: "ModelSpec", *, auto: bool = False) -> None:
     """Add ``--fidelity`` with a sentence per level, and ``auto`` if there are error tables."""
-    words = [f"{name}: {text}" for name, text in spec.rungs.items()]
+    words = [f"{name}: {text}" for name, text in spec.levels.items()]
     if auto:
         words.append(
             "auto:0.01: the cheapest fidelity level whose torque is verified to 1 % at this point"

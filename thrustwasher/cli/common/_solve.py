@@ -56,7 +56,7 @@ class PointCommand:
         targets = _output.targets(arguments)
 
         place = self._model.place(point)
-        fidelity = _rung(arguments.fidelity or at.part.fidelity, spec, params, place)
+        fidelity = _level(arguments.fidelity or at.part.fidelity, spec, params, place)
         began = time.perf_counter()
         result = self._model.solve(params, **point, fidelity=fidelity, **options)
         wall_time = time.perf_counter() - began
@@ -123,16 +123,16 @@ def print_ranking(ranking: Ranking) -> None:
         print(f"  {output:<{wide}}  {', '.join(words)}")
 
 
-def _rung(asked: str, spec: ModelSpec, params: object, point: Mapping[str, float]) -> str:
+def _level(asked: str, spec: ModelSpec, params: object, point: Mapping[str, float]) -> str:
     """Return the level requested by name, or the one that is chosen at ``point``.
 
     Why it was chosen is written to standard error; SolveError if none holds the tolerance.
     """
     if asked in spec.fidelities:
         return asked
-    from ...ladder.choose import choose, rung_and_tolerance
+    from ...ladder.choose import choose, level_and_tolerance
 
-    _, tolerance = rung_and_tolerance(spec.key, spec, asked)
+    _, tolerance = level_and_tolerance(spec.key, spec, asked)
     choice = choose(spec.key, dict(point), tol=float(tolerance or 0.0), params=params)
     _output.note(str(choice))
     return choice.fidelity

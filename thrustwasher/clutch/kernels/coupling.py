@@ -45,7 +45,7 @@ def remember(
     """Take the memory of the driveline to W_MEMORY, and into account what is seen at ``point``.
 
     Gives the power of a pack that holds to the interval that is integrated next: of the last step
-    with a linear course, else of this one. Returns the work foreseen in this step [J].
+    with a linear profile, else of this one. Returns the work foreseen in this step [J].
     """
     mem, slip = work[L.W_MEMORY : L.W_MEMORY + M.N_MEMORY], point[1]
     copy(state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY], mem)

@@ -2,7 +2,7 @@
 """How the outputs of the wet clutch change with its inputs: exact, film and heat held.
 
 Film and temperature are states. They change with the inputs only where the film is settled (it
-follows the load), at the start (steel as warm as the oil), and with ``input_course`` = linear:
+follows the load), at the start (steel as warm as the oil), and with ``input_profile`` = linear:
 there the present inputs also end the interval since the last step, and its change is followed.
 """
 
@@ -111,7 +111,7 @@ def directional_derivative(
     status = OK
     for k in range(int(par[L.D_RINGS])):
         work[np.uintp(L.W_SURFACE_CHANGE + k)] = heat
-    if started and par[L.P_INPUT_PROFILE] == L.LINEAR_COURSE:
+    if started and par[L.P_INPUT_PROFILE] == L.LINEAR_PROFILE:
         film, status = followed(par, inp, state, work, seed)
     surfaces(par, work, L.W_NOW, L.W_SURFACE)
     point = (inp[L.I_LOAD], inp[L.I_SPEED], work[np.uintp(L.W_NOW + L.Y_FILM)], inp[L.I_DRUM])

@@ -49,9 +49,9 @@ D_DECAY = N_PARAM + 21  # decay rate [1/s] of each mode, from the second place o
 D_GAIN = D_DECAY + 1 + N_MODES  # their rise [K/s] per W into a face
 N_PACK = D_GAIN + 1 + N_MODES
 # Behind them the rings the pack is resolved into: their number, the place of the first one's
-# block, each ring's weight in the squeezed film, then for the rung `fine` a block like all of the
+# block, each ring's weight in the squeezed film, then for the level `fine` a block like all of the
 # above for each ring. A lumped pack is one ring, whose block is the beginning of ``par`` itself.
-MAX_RINGS, N_RINGS = 8, 4  # at most, and those of the rung
+MAX_RINGS, N_RINGS = 8, 4  # at most, and those of the level
 D_RINGS, D_FIRST, D_SQUEEZE = N_PACK, N_PACK + 1, N_PACK + 2
 D_BLOCKS = D_SQUEEZE + MAX_RINGS
 NPAR = D_BLOCKS + MAX_RINGS * N_PACK
@@ -171,7 +171,7 @@ CLOSED, STRIBECK, FIELD, FINE = 1, 3, 4, 5  # fidelity; 2 had no heat and runs a
 CONSTANT_LAW, TABLE_LAW = 2, 3  # friction_law
 BOUNDARY_DATA = 2  # friction_data
 N_TABLE = 5  # points above standstill
-LINEAR_COURSE = 2  # input_course
+LINEAR_PROFILE = 2  # input_profile
 HOT_LIMIT = 523.0  # K
 LEAST_RATIO = -3.0  # film ratio below which rough faces are pressed out of the models' reach
 OPEN_PRESSURE = 1e3  # Pa; a pack pressed less than this is open

@@ -1,14 +1,14 @@
 # mypy: disable-error-code="no-any-return"
 """One co-simulation step of the wet clutch: film, heat and friction of the pack.
 
-``input_course`` says what the inputs do inside a step. Held: they stay, the step ends with all
+``input_profile`` says what the inputs do inside a step. Held: they stay, the step ends with all
 outputs at its end. Linear: they run straight from one communication point to the next. Then a step
 first brings film and heat from the last point to the present one, whose inputs are known now, gives
 the friction there, and books heat in advance with the present power; the next step replaces that
 advance. This couples with second order to a partner that looks ahead by itself.
 
 With rates behind the inputs a step with held ones follows them: they run straight from their values
-to those at the step's end, which the outputs belong to. A linear course takes no rates.
+to those at the step's end, which the outputs belong to. A linear profile takes no rates.
 
 A pack that holds (``holding``) answers the slip given at a step's start with the torque to apply
 over the step in which it will act. Its heat is the work of the torques that acted: foreseen while a
@@ -20,8 +20,8 @@ import math
 import numpy as np
 
 from ...numerics.arrays import are_finite, copy
-from ...numerics.courses import value_at
 from ...numerics.jit import Array, Ints, kernel
+from ...numerics.profiles import value_at
 from ...numerics.status import BAD_INPUT, CHATTER, HOT, NOT_FINITE, OK, OUTSIDE_VERIFIED
 from ...numerics.step_size import advised_step
 from ...tribology.holding import memory as M
@@ -63,7 +63,7 @@ def step(
     Returns 0 or the status of a failure; advice stands in ``iout`` only. In rings ``temperature``
     is their area mean; the advice HOT goes by the hottest one.
     """
-    linear = par[L.P_INPUT_PROFILE] == L.LINEAR_COURSE
+    linear = par[L.P_INPUT_PROFILE] == L.LINEAR_PROFILE
     before, ahead = point_at(inp, 0.0), 0.0 if linear else dt
     load, slip, oil, drum = point_at(inp, ahead)
     good = are_finite(inp) and math.isfinite(dt) and dt >= 0.0

@@ -176,10 +176,10 @@ def _entries(spec: ModelSpec) -> Iterator[tuple[str, dict[str, Any]]]:
             yield "inp", _input(signal)
     for f in fields(spec.params):
         yield "par", _parameter(f)
-    rung = list(spec.fidelities).index(spec.default_fidelity) + 1.0
+    level = list(spec.fidelities).index(spec.default_fidelity) + 1.0
     kind = {"type": "Enumeration", "type_name": "Fidelity"}
     words = "how finely the model is resolved"
-    yield "par", kind | {"name": "fidelity", "help": words, "start": rung}
+    yield "par", kind | {"name": "fidelity", "help": words, "start": level}
     for signal in spec.outputs:
         store = "out" if signal.kind == "real" else "iout"
         own = {"causality": "output", "initial": "calculated", "depends": signal.depends}

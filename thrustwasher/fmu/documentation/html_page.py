@@ -57,16 +57,16 @@ def accuracy(spec: ModelSpec) -> Rows:
     own = spec.kind != ""
     return _of_map(spec) + [
         (
-            f"{rung.fidelity} {chart.name or ''}".strip(),
-            ", ".join(f"{n} {a.min:g} .. {a.max:g} {a.unit}" for n, a in rung.box.items()),
+            f"{level.fidelity} {chart.name or ''}".strip(),
+            ", ".join(f"{n} {a.min:g} .. {a.max:g} {a.unit}" for n, a in level.box.items()),
             str(chart.points),
-            *(shown_error(rung.worst_anywhere(q, chart), unit) for q, unit in QUANTITIES.items()),
+            *(shown_error(level.worst_anywhere(q, chart), unit) for q, unit in QUANTITIES.items()),
             f"version {table.version}",
         )
         for table in load_tables(spec.key, spec.table_of or spec.params())
-        for rung in table.rungs
-        for chart in rung.charts
-        if table.name == "default" or (own and not table.stale(rung))
+        for level in table.levels
+        for chart in level.charts
+        if table.name == "default" or (own and not table.stale(level))
     ]
 
 
@@ -76,21 +76,23 @@ def _of_map(spec: ModelSpec) -> Rows:
     if tables is None or not spec.kind:
         return []
     try:
-        card: dict[str, Any] = tables.find(spec.table_of or spec.params()).card
+        metadata: dict[str, Any] = tables.find(spec.table_of or spec.params()).metadata
     except ParameterError:  # no map was made for it
         return []
-    held, units = card["held_out"], {s.name: s.unit for s in spec.inputs}
-    box = ", ".join(f"{n} {low:g} .. {high:g} {units[n]}" for n, (low, high) in card["box"].items())
+    held, units = metadata["held_out"], {s.name: s.unit for s in spec.inputs}
+    box = ", ".join(
+        f"{n} {low:g} .. {high:g} {units[n]}" for n, (low, high) in metadata["box"].items()
+    )
     return [
         (
-            f"{tables.rung}, when built",
+            f"{tables.level}, when built",
             box,
             str(held["points"]),
             shown_error(held["torque"], None),
             shown_error(held["temperature"], "K"),
             "-",
             shown_error(held["film_ratio"], "1"),
-            "x".join(map(str, card.get("checked_on", ()))) + " nodes",
+            "x".join(map(str, metadata.get("checked_on", ()))) + " nodes",
         )
     ]
 

@@ -28,7 +28,7 @@ def reference_files(spec: ModelSpec) -> dict[str, bytes]:
     listed: list[tuple[str, str, str, tuple[Signal, ...], Rows]] = [
         ("out", "result", f"outputs {what}, at the ends of some of its steps", spec.outputs, kept)
     ]
-    if spec.course:
+    if spec.profile:
         words = f"inputs {what}, linear between the rows"
         listed.insert(0, ("in", "testcase", words, spec.inputs, input_rows(spec)))
     related, files = [], {}
@@ -44,15 +44,15 @@ def reference_files(spec: ModelSpec) -> dict[str, bytes]:
 def input_rows(spec: ModelSpec) -> Rows:
     """Return rows of time and all inputs, linear between; one row where no input moves."""
     starts = [signal.start or 0.0 for signal in spec.inputs]
-    return [list(row) for row in spec.course] or [[0.0, *starts]]
+    return [list(row) for row in spec.profile] or [[0.0, *starts]]
 
 
 def reference_run(spec: ModelSpec) -> Rows:
     """Return rows of time and all outputs over the default experiment."""
     stop, h = interface(spec).experiment
-    course = np.array(input_rows(spec))
+    profile = np.array(input_rows(spec))
     times = h * np.arange(round(stop / h) + 1)
-    columns = [np.interp(times, course[:, 0], values) for values in course.T[1:]]
+    columns = [np.interp(times, profile[:, 0], values) for values in profile.T[1:]]
     points = np.reshape(columns, (len(columns), len(times))).T.tolist()
     with DirectInstance(spec) as model:
         model.initialize(0.0, dict(zip(model.input_names, points[0], strict=True)))

@@ -67,7 +67,7 @@ def identifier(
     path, no chance.
     """
     spec = shown.spec
-    own = spec.name, spec.help, spec.box, spec.notes, spec.course, spec.stop_time, spec.step_size
+    own = spec.name, spec.help, spec.box, spec.notes, spec.profile, spec.stop_time, spec.step_size
     content = shown.variables, shown.enumerations, spec.terminals, own
     hashed = hashlib.sha256(repr(content).encode())
     hashed.update(f"{content_digest(spec)} {package_version()} {tools}".encode())

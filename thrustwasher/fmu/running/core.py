@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status
+from ...model.levels import gone_level
 from ...model.prepare import fill_table, is_of_table, wants_table
 from ...model.registry import kernel_of
-from ...model.rungs import gone_rung
 from ...native.load import bound
 from ...units import into_range
 from ..description.interface import Interface, Variable
@@ -384,8 +384,8 @@ class Core:
         status, found = self.status, [text for *_, text in sorted(outside)]
         if self._warned < 0:
             number = int(self.par.item(len(fields(self.spec.params))))
-            rung = list(self.spec.fidelities)[number - 1]
-            found = [*(begin + text for text in gone_rung(self.spec, rung)), *found]
+            level = list(self.spec.fidelities)[number - 1]
+            found = [*(begin + text for text in gone_level(self.spec, level)), *found]
         is_known = status == self._warned or (status is Status.OUTSIDE_VERIFIED and unverified)
         if not is_known and Status.OK < status < FIRST_FAILURE:
             found.append(f"{begin}{status.name}: {status.advice}; {self._point(self.shown.point)}")

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from ...errors import FIRST_FAILURE, Status
+from ...model.levels import gone_level
 from ...model.registry import kernel_of
-from ...model.rungs import gone_rung
 from ...native.shipped import digest_now
 from ..description.interface import LOG_CATEGORIES, Interface, Variable
 from ..description.model_description import TYPES
@@ -128,7 +128,7 @@ def _lists(shown: Interface) -> dict[str, tuple[str, list[str]]]:
     calls, names = call_table.CALLS, list(shown.enumerations)
     inputs = [v.name for v in shown.inputs]
     assert len(inputs) <= MOST_INPUTS, "dependencies are bits of one word"
-    rungs = enumerate(shown.spec.fidelities, 1)
+    levels = enumerate(shown.spec.fidelities, 1)
     tables: dict[str, tuple[str, Iterable[Iterable[Any]]]] = {
         "VARIABLES": ("Variable", [_variable(v, inputs, names) for v in shown.variables]),
         "ENUMERATIONS": (
@@ -139,7 +139,10 @@ def _lists(shown: Interface) -> dict[str, tuple[str, list[str]]]:
         "SWITCHES": ("Switch", [_switch(shown, slot, events) for slot, events in shown.switches]),
         "COUNTS": ("Count", shown.counts),
         "RULES": ("Rule", [(rule.text,) for rule in shown.spec.rules]),
-        "GONE_RUNGS": ("Item", [(k, t) for k, name in rungs for t in gone_rung(shown.spec, name)]),
+        "GONE_LEVELS": (
+            "Item",
+            [(k, t) for k, name in levels for t in gone_level(shown.spec, name)],
+        ),
         "CATEGORIES": ("Category", [(n, int(n in shown.categories)) for n in LOG_CATEGORIES]),
         "TYPES": ("TypeText", TYPES.items()),
         "ACCESS": ("Access", call_table.ACCESS.values()),
@@ -189,7 +192,7 @@ def _header(shown: Interface, lists: dict[str, tuple[str, list[str]]]) -> str:
         "NSEED": seed_length(kernel),
         "IO_STATUS": status,
         "FIRST_FAILURE": FIRST_FAILURE,
-        "RUNG": next(v.slot for v in shown.parameters if v.name == "fidelity"),
+        "LEVEL": next(v.slot for v in shown.parameters if v.name == "fidelity"),
         **{f"STATUS_{s.name}": int(s) for s in Status},
         **{f"N_{name}": len(rows) for name, (_, rows) in lists.items() if name != "CATEGORIES"},
         **{f"TABLE_{name}": value for name, value in getattr(kernel, "TABLE", {"ROOM": 0}).items()},

@@ -12,7 +12,7 @@
 ``micropitting``            film along the path by the standard against micropitting
 ``loss_heat``               the mesh heated by all of its loss
 ``mesh_point``              the mesh at one operating point with the paper's heat
-``line_of_action``          rung `fine` with the paper's heat: resolved along the line of action
+``line_of_action``          level `fine` with the paper's heat: resolved along the line of action
 ``directional_derivative``  how the outputs change with the inputs: exact
 ``operating_point``         heat of the loss or of the paper; pitting, scuffing, micropitting
 ``step``                    one co-simulation step: it remembers the temperature of the bodies

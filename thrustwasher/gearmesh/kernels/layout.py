@@ -169,7 +169,7 @@ NSTATE = S_MEMORY + N_MEMORY
     F_GF_FLASH,
     N_FIELD,
 ) = range(58)
-# Behind them, for the rung `fine` of the paper's heat: the hottest position's own numbers, those of
+# Behind them, for the level `fine` of the paper's heat: numbers of the hottest position, those of
 # the position at hand, the constants there; then, for both heats, the number of the hottest.
 W_HOTTEST, W_HERE, W_LOCAL, W_PLACE = N_FIELD, 2 * N_FIELD, 3 * N_FIELD, 3 * N_FIELD + D_POSITION
 # Where the loss heats: how the step began (HELD and so on), the bodies over the oil then [K],

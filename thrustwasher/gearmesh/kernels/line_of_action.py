@@ -1,5 +1,5 @@
 # mypy: disable-error-code="no-any-return"
-"""Rung `fine` of the gear mesh with the paper's heat: resolved along the line of action.
+"""Level `fine` of the gear mesh with the paper's heat: resolved along the line of action.
 
 Every position has its own load, radii, speeds, film, temperatures and coefficient of friction. The
 loss is their sum; all other outputs are those of the position whose asperities are hottest.
@@ -36,7 +36,7 @@ def place_mesh(par: Array, place: int, local: Array) -> None:
 def solve_mesh(par: Array, torque: float, speed: float, oil: float, work: Array) -> int:
     """Fill ``work[:N_FIELD]``, except loss torque and power; return 0, an advice or a failure.
 
-    Of the rung `fine` the coefficient of friction is the mean that the loss feels.
+    Of the level `fine` the coefficient of friction is the mean that the loss feels.
     """
     if par[L.P_FIDELITY] != L.FINE:
         return mesh_point(par, torque, speed, oil, work)

@@ -97,7 +97,7 @@ def _nodes(par: Array, low: float, high: float, shared: float, borne: float) -> 
 
 @kernel
 def _piece(par: Array, low: float, high: float, shared: float, borne: float) -> None:
-    """Add a piece; two halves of it for the rung `fine` where the loss heats."""
+    """Add a piece; two halves of it for the level `fine` where the loss heats."""
     is_fine = par[L.P_FIDELITY] == L.FINE and par[L.P_FILM_HEAT] == L.LOSS
     if is_fine and par[L.D_CONTACT_RATIO] < 4.0:
         middle = 0.5 * (low + high)

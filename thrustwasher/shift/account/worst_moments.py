@@ -79,10 +79,10 @@ class Moment(NamedTuple):
     recorded_film_ratio: float
 
 
-def rung_with_fields(part: Part) -> str:
+def level_with_fields(part: Part) -> str:
     """Return the washer's level if it leaves maps, else its usual one."""
-    rung = part.parameters.get("fidelity")
-    return str(rung) if rung in WITH_FIELDS else part.spec.default_fidelity
+    level = part.parameters.get("fidelity")
+    return str(level) if level in WITH_FIELDS else part.spec.default_fidelity
 
 
 def solve_moment(record: Record, time: float) -> Moment | None:
@@ -95,7 +95,7 @@ def solve_moment(record: Record, time: float) -> Moment | None:
     model = models_with_points().get(part.spec.key) if part else None
     if part is None or recorded is None or model is None or model.command is None:
         return None
-    fidelity, params = rung_with_fields(part), part.params()
+    fidelity, params = level_with_fields(part), part.params()
     point = {s.name: record.at(f"washer.{s.name}", time) or 0.0 for s in part.spec.inputs}
     point["load"] = max(point["load"], LEAST_LOAD)
     found = []

@@ -93,12 +93,12 @@ def washer_in_time(
 ) -> InTime:
     """Follow a washer that was taken as steady along the record of a finished run."""
     own = {n: signals[f"{name}.{n}"] for n in (*(s.name for s in SPEC.inputs), *COMPARED)}
-    rung = "field" if part.fidelity == "map" else part.fidelity
+    level = "field" if part.fidelity == "map" else part.fidelity
     shortest = max(LEAST_STEPS * step, LEAST_TIME)
     quick = follow_recorded(part.params, QUICK, time, own, shortest)
     if quick.worst < NEARLY and not quick.stopped:
         return quick
-    return follow_recorded(part.params, GRIDS[rung], time, own, shortest)
+    return follow_recorded(part.params, GRIDS[level], time, own, shortest)
 
 
 def follow_recorded(

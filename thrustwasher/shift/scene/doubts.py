@@ -9,7 +9,7 @@ from ...clutch.solve import doubts_of_pack
 from ...gearmesh.parameters import GearMeshParams
 from ...gearmesh.plausibility import doubts_of_parameters
 from ...model.idle import idle_warnings
-from ...transmission.parameters import COURSES, course_points
+from ...transmission.parameters import PROFILES, profile_points
 from ..warning_texts import warning
 from .connections import MESHES
 from .scene import Part, Scene
@@ -26,8 +26,8 @@ def doubts(scene: Scene) -> Iterator[str]:
     yield from _of_bearings(scene, gearbox)
     yield from _of_meshes(scene)
     yield from idle_parameters(scene)
-    for name in COURSES:
-        last = [t for t, _ in course_points(gearbox, name)][-1:]
+    for name in PROFILES:
+        last = [t for t, _ in profile_points(gearbox, name)][-1:]
         if last and last[0] > scene.stop_time:
             yield warning("cut_off", profile=name, last=last[0], stop=scene.stop_time)
 
@@ -35,11 +35,11 @@ def doubts(scene: Scene) -> Iterator[str]:
 def idle_parameters(scene: Scene) -> Iterator[str]:
     """Say which levels are gone, and which parameters have no effect."""
     for name, part in scene.parts.items():
-        is_pack, rung = isinstance(part.params, ClutchParams), part.asked or part.fidelity
+        is_pack, level = isinstance(part.params, ClutchParams), part.asked or part.fidelity
         for line in (
-            doubts_of_pack(part.params, rung)
+            doubts_of_pack(part.params, level)
             if is_pack
-            else idle_warnings(part.spec.key, part.params, rung)
+            else idle_warnings(part.spec.key, part.params, level)
         ):
             yield f"[{name}] {line}"
 

@@ -10,7 +10,7 @@ from ...model.parameters import earlier_of
 from ...model.part_file import PartFile
 from ...model.scatter import CORRELATION, LAWS, Place, Scatter, read_scatter
 from ...model.toml_tables import quantity
-from ...transmission.parameters import COURSES, POINTS, course_fields
+from ...transmission.parameters import POINTS, PROFILES, profile_fields
 from ...transmission.vehicle import Vehicle
 from .connections import PACKS, PARTS
 from .scene import Part, Scene
@@ -144,13 +144,13 @@ def _of_oil(table: Mapping[str, object]) -> list[Place]:
     ]
 
 
-def _of_profile(path: str, factor: str, course: str, table: Mapping[str, Any]) -> list[Place]:
+def _of_profile(path: str, factor: str, profile: str, table: Mapping[str, Any]) -> list[Place]:
     """Return the factor of a profile, and times and values of its points."""
     found = [_place(f"{path}.{factor}", float(table.get(factor, 1.0)), SCALE)]
     rules = "s", -1e9, 1e9
     for i, pair in enumerate(table["points"]):
         for column, place in COLUMNS.items():
-            rule = COURSES[course][:3] if place else rules
+            rule = PROFILES[profile][:3] if place else rules
             value = quantity(path, column, pair[place], rule[0])
             found.append(_place(f"{path}.{column}.{i}", value, rule))
     return found
@@ -173,5 +173,5 @@ def _hidden(scene: Scene) -> Iterator[str]:
     given = dict(scene.table)
     yield from {*driveline_table("", given, scene.vehicle)} - {*given["transmission"]}
     yield from (name for name, (table, _) in USELESS.items() if table in given)
-    for course in COURSES:
-        yield from course_fields(course, [(0.0, 0.0)] * POINTS)
+    for profile in PROFILES:
+        yield from profile_fields(profile, [(0.0, 0.0)] * POINTS)

@@ -6,13 +6,13 @@ from itertools import pairwise
 from typing import Any
 
 from ...errors import ParameterError, within
-from ...ladder.choose import rung_and_tolerance
+from ...ladder.choose import level_and_tolerance
+from ...model.levels import level_named
 from ...model.prepare import check_together
-from ...model.rungs import rung_named
 from ...model.spec import ModelSpec
 from ...model.toml_tables import number
 from ...transmission.bearings import BEARINGS
-from ...transmission.parameters import course_points
+from ...transmission.parameters import profile_points
 from ...transmission.vehicle import Vehicle
 from ...units import format_quantity
 from ..masters.master import FIXED_STEPS, MASTERS
@@ -44,15 +44,15 @@ class Part:
         values = {f.name: getattr(self.params, f.name) for f in fields(self.params)}
         return {**values, "fidelity": self.fidelity}
 
-    def at(self, rung: str) -> "Part":
+    def at(self, level: str) -> "Part":
         """Return the part with a level that stands."""
-        return replace(self, fidelity=rung, tolerance=None, asked="")
+        return replace(self, fidelity=level, tolerance=None, asked="")
 
     def asked_for(self, where: str, text: object) -> "Part":
         """Return the part at the level that a text asks for: "field", "auto" or "auto:0.01"."""
-        asked, tolerance = rung_and_tolerance(where, self.spec, text)
-        rung = rung_named(self.spec, asked)
-        return replace(self, fidelity=rung, tolerance=tolerance, asked=asked)
+        asked, tolerance = level_and_tolerance(where, self.spec, text)
+        level = level_named(self.spec, asked)
+        return replace(self, fidelity=level, tolerance=tolerance, asked=asked)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -181,7 +181,7 @@ class Scene:
         one above the return spring, or the last of those at falling or equal pressure behind it.
         """
         gearbox = self.parts["transmission"].params
-        points = course_points(gearbox, f"{self.engaging}_pressure")
+        points = profile_points(gearbox, f"{self.engaging}_pressure")
         spring = getattr(gearbox, f"{self.engaging}_return_spring")
         above = [i for i, (t, p) in enumerate(points) if t >= self.shift_start and p > spring]
         if gearbox.actuation != "pressure" or not above:
@@ -195,7 +195,7 @@ class Scene:
     def required_until(self) -> float:
         """The time [s] up to which the engaging pack is meant to hold: its pressure falls then."""
         gearbox = self.parts["transmission"].params
-        points = course_points(gearbox, f"{self.engaging}_pressure")
+        points = profile_points(gearbox, f"{self.engaging}_pressure")
         if gearbox.actuation == "pressure" and points:
             enough = PRESSED * max(p for _, p in points)
             if points[-1][1] < enough:
@@ -266,10 +266,10 @@ def shift_of_pressures(gearbox: object) -> dict[str, Any]:
     """
     rise = {}
     for pack in ("clutch", "brake"):
-        points = course_points(gearbox, f"{pack}_pressure") or [(0.0, 0.0)]
+        points = profile_points(gearbox, f"{pack}_pressure") or [(0.0, 0.0)]
         rise[pack] = points[-1][1] - points[0][1]
     engaging = max(rise, key=lambda pack: rise[pack])
-    points = course_points(gearbox, f"{engaging}_pressure") or [(0.0, 0.0)]
+    points = profile_points(gearbox, f"{engaging}_pressure") or [(0.0, 0.0)]
     begin = next((a[0] for a, b in pairwise(points) if b[1] > a[1]), points[0][0])
     ends = (0.0, 1.0) if engaging == "clutch" else (1.0, 0.0)
     return {

@@ -46,9 +46,9 @@ from ...moved import now_named
 from ..key_figures.figure_list import FIGURES, RENAMED
 from ..masters.master import FIXED_STEPS
 from .connections import MESHES, PARTS, REQUIRED
-from .course_file import beside, course_notes, with_courses, without_old
 from .doubts import doubts
 from .places import lines_of, of_parts, scene_scatter
+from .profile_file import beside, profile_notes, with_profiles, without_old
 from .scene import Part, Published, Scene, shift_of_pressures
 from .scene_tables import (
     BEARING_TABLES,
@@ -131,7 +131,7 @@ def merged_tables(name: str, top: Mapping[str, object] | None = None) -> dict[st
         name = base
     if merged.get("losses") is False:  # as said in a scene whose base has them
         del merged["losses"]
-    return with_courses(f"scene {seen[0]!r}", merged)
+    return with_profiles(f"scene {seen[0]!r}", merged)
 
 
 def _refuse_other(name: str, key: object) -> None:
@@ -242,7 +242,7 @@ def scene_of(source: str, table: dict[str, Any]) -> Scene:
     numbers |= {k: number(where, k, table[k], NUMBERS[k]) for k in NUMBERS if k in table}
     vehicle = vehicle_of(f"{where} [vehicle]", table.get("vehicle"))
     merged, the_oil = table, dict(table.get("oil", {}))
-    courses = list(course_notes(merged))
+    profiles = list(profile_notes(merged))
     table = {**table, "transmission": driveline_table(where, table, vehicle)}
     factor = factor_of(f"{where} [oil]", "viscosity_scale", the_oil)
     given = read_oil(f"{where} [oil]", the_oil)
@@ -262,13 +262,13 @@ def scene_of(source: str, table: dict[str, Any]) -> Scene:
         parts=parts,
         vehicle=vehicle,
         sequence=None,
-        notes=(*notes, *(text for text, is_far in courses if not is_far)),
+        notes=(*notes, *(text for text, is_far in profiles if not is_far)),
         source=source,
         table=merged,
         scatter={**of_parts(parts), **merged.get("scatter", {})},
         warnings=(
             *_oil_warnings(given, parts, numbers["oil_temperature"], own),
-            *(text for text, is_far in courses if is_far),
+            *(text for text, is_far in profiles if is_far),
         ),
         published=_published(f"{where} [published]", table.get("published")),
         **(
@@ -438,11 +438,11 @@ def _made_part(
     given = dict(table)
     with within(where):
         start = _start(spec, given.pop("part", None), given.pop("preset", None))
-    values, rung = ({}, spec.default_fidelity) if start is None else _values(start)
+    values, level = ({}, spec.default_fidelity) if start is None else _values(start)
     own = {k: x for k, x in values.items() if x != getattr(spec.params(), k)}
     lost = [k for k, x in common.items() if k not in given and own.get(k, x) != x]
     values = usual | values | common
-    rung = given.pop("fidelity", rung)
+    level = given.pop("fidelity", level)
     nothing_else(where, given, ["fidelity", "part", "preset", *known, *earlier])
     known |= earlier
     for key, value in given.items():
@@ -458,7 +458,7 @@ def _made_part(
         labels=start.about if start and "part" in table else {},
         scatter=_own_scatter(start, {*known} - {*given, *common}) if start else {},
     )
-    return part.asked_for(where, rung), lost
+    return part.asked_for(where, level), lost
 
 
 def _start(spec: ModelSpec, file: object, preset: object) -> PartFile | None:

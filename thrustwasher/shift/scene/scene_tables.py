@@ -6,7 +6,7 @@ from typing import Any
 from ...errors import ParameterError, within
 from ...model.toml_tables import nothing_else, number, quantity, read_value, unknown
 from ...transmission.bearings import BEARINGS, SHAFT
-from ...transmission.parameters import COURSES, course_fields
+from ...transmission.parameters import PROFILES, profile_fields
 from ...transmission.vehicle import Vehicle
 from .connections import PACKS
 from .scene import STEP_RANGE
@@ -24,7 +24,7 @@ SHIFT = {
     "from": ("1", 0.0, 1.0),
     "to": ("1", 0.0, 1.0),
 }
-COURSE = ("points", "points_from")  # of a table with a profile
+PROFILE = ("points", "points_from")  # of a table with a profile
 SCALE = ("1", 0.01, 100.0)  # a factor, 1 where none is given
 ENGINE = {"speed": "initial_engine_speed", "inertia": "input_inertia"}
 # Key of [pressure.clutch], [pressure.brake] -> parameter of the transmission, {} the pack.
@@ -70,7 +70,7 @@ def driveline_table(where: str, table: dict[str, Any], vehicle: Vehicle | None) 
         more |= {name: engine.pop(key) for key, name in ENGINE.items() if key in engine}
         factor = factor_of(f"{where} [engine]", "torque_scale", engine)
         more |= points_of(f"{where} [engine]", "engine_torque", "torque", engine, factor)
-        nothing_else(f"{where} [engine]", engine, [*COURSE, "torque_scale", *ENGINE])
+        nothing_else(f"{where} [engine]", engine, [*PROFILE, "torque_scale", *ENGINE])
     for pack, own in table.get("pressure", {}).items():
         if pack not in PACKS or not isinstance(own, dict):
             raise unknown(f"{where} [pressure]", pack, list(PACKS))
@@ -79,7 +79,7 @@ def driveline_table(where: str, table: dict[str, Any], vehicle: Vehicle | None) 
         factor = factor_of(place, "scale", own)
         more |= points_of(place, f"{pack}_pressure", "pressure", own, factor)
         more |= {name.format(pack): own.pop(key) for key, name in keys.items() if key in own}
-        nothing_else(place, own, [*COURSE, "scale", *keys])
+        nothing_else(place, own, [*PROFILE, "scale", *keys])
         more["actuation"] = "pressure"
     for name in BEARING_TABLES:
         if name in table:
@@ -149,10 +149,10 @@ def points_of(
         raise ParameterError(
             f"{where}: points = {points!r}, allowed: pairs [time, {what}] or a file"
         )
-    unit = COURSES[name][0]
+    unit = PROFILES[name][0]
     found = [
         (quantity(where, "time", t, "s"), factor * quantity(where, what, x, unit))
         for t, x in points
     ]
     with within(where):
-        return course_fields(name, found)
+        return profile_fields(name, found)

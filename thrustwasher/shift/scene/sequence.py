@@ -8,7 +8,7 @@ from typing import Any
 
 from ...errors import ParameterError
 from ...model.toml_tables import nothing_else, number, quantity
-from ...transmission.parameters import COURSES, course_fields, course_points
+from ...transmission.parameters import PROFILES, profile_fields, profile_points
 from .scene import STEP_RANGE, Scene, ShiftSequence, shift_of_pressures
 from .scene_tables import points_of
 
@@ -34,9 +34,9 @@ def shift_scene(whole: Scene, i: int) -> Scene:
         ramp |= {"shift_from": own.ramp["shift_to"], "shift_to": own.ramp["shift_from"]}
     gearbox = whole.parts["transmission"]
     params = replace(gearbox.params, **own.profiles[way])
-    for name in COURSES:
-        if points := course_points(params, name):
-            later = course_fields(name, [(t + start, x) for t, x in points])
+    for name in PROFILES:
+        if points := profile_points(params, name):
+            later = profile_fields(name, [(t + start, x) for t, x in points])
             params = replace(params, **later)
     if params.actuation == "pressure":
         ramp = shift_of_pressures(params)
@@ -94,7 +94,7 @@ def checked_sequence(where: str, whole: Scene, sequence: ShiftSequence) -> Scene
     for way in dict.fromkeys(way for _, way in sequence.shifts):
         params = replace(gearbox.params, **sequence.profiles[way])
         if params.actuation == "pressure":
-            profiles = [course_points(params, name) for name in COURSES if "pressure" in name]
+            profiles = [profile_points(params, name) for name in PROFILES if "pressure" in name]
             last = max(points[-1][0] for points in profiles if points)
         else:
             last = sequence.ramp["shift_start"] + sequence.ramp["shift_duration"]
@@ -103,7 +103,7 @@ def checked_sequence(where: str, whole: Scene, sequence: ShiftSequence) -> Scene
                 f"{where}: window = {sequence.window:g} s, allowed: from {last:g} s on, where the "
                 f"pressures of a shift {way} have settled; steps grow long behind the window"
             )
-    none = {f"{name}_points": 0 for name in COURSES}
+    none = {f"{name}_points": 0 for name in PROFILES}
     if gearbox.params.engine_torque_points:
         none["engine_torque"] = 0
     parts = {
@@ -139,7 +139,7 @@ def read_sequence(where: str, scene: Scene, table: dict[str, Any]) -> ShiftSeque
     down = {key: x for key, x in table.get("down", {}).items() if key not in sources}
     nothing_else(f"{where[:-1]}.down]", down, DOWN)
     for name, key in DOWN.items():
-        own |= course_fields(key, points) if (points := course_points(params, key)) else {}
+        own |= profile_fields(key, points) if (points := profile_points(params, key)) else {}
         if name in down:
             place = f"{where[:-1]}.down]"
             down |= points_of(place, key, name, {"points": down.pop(name)})

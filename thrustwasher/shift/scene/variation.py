@@ -15,7 +15,7 @@ from .scene_file import merged_tables, scene_of
 Tables = dict[str, Any]
 OPTIONS = ("step", "master", "stop_time")  # what may be changed in a scene after it is read,
 DRAW = "One draw of the scatter of scene {!r}"
-RUNG = ("fidelity", "tolerance", "asked")  # and in its parts
+LEVEL = ("fidelity", "tolerance", "asked")  # and in its parts
 
 
 def varied_scene(scene: Scene, values: Mapping[str, object]) -> Scene:
@@ -32,14 +32,14 @@ def varied_scene(scene: Scene, values: Mapping[str, object]) -> Scene:
     """
     found = scene_of(scene.source, _with_values(scene, values))
     options = {key: getattr(scene, key) for key in OPTIONS if _differs(scene, found, key)}
-    rungs = {
-        name: replace(part, **{key: getattr(scene.parts[name], key) for key in RUNG})
+    levels = {
+        name: replace(part, **{key: getattr(scene.parts[name], key) for key in LEVEL})
         for name, part in found.parts.items()
-        if any(_differs(scene.parts[name], part, key) for key in RUNG)
+        if any(_differs(scene.parts[name], part, key) for key in LEVEL)
     }
-    if not options and not rungs:
+    if not options and not levels:
         return found
-    return replace(found, parts={**found.parts, **rungs}, **options).checked()
+    return replace(found, parts={**found.parts, **levels}, **options).checked()
 
 
 def scene_text(scene: Scene, values: Mapping[str, object], head: str = DRAW) -> str:
@@ -55,8 +55,8 @@ def scene_text(scene: Scene, values: Mapping[str, object], head: str = DRAW) -> 
     now |= {key: getattr(scene, key) for key in OPTIONS if _differs(scene, found, key)}
     for name, part in scene.parts.items():
         if _differs(part, found.parts[name], "fidelity", "tolerance"):
-            rung = f"auto:{part.tolerance}" if part.tolerance else part.fidelity
-            now[name] = now[name] | {"fidelity": rung}
+            level = f"auto:{part.tolerance}" if part.tolerance else part.fidelity
+            now[name] = now[name] | {"fidelity": level}
     lines = [f"# {head.format(scene.name)}", f"base = {json.dumps(base)}"]
     return "\n".join([*lines, *_written(_difference(before, now))]) + "\n"
 

@@ -13,8 +13,8 @@ from ..run import Progress, cosimulate
 from ..scene.connections import DIRECT
 from ..scene.scene import Part, Scene
 from ..shift_result import ShiftResult
-from .rung_check import check_part
-from .selection import first_rung, select
+from .level_check import check_part
+from .selection import first_level, select
 from .selection_record import Check, CheckRecord, Selected, Selection
 
 STEP_SHARE = 0.3  # of the tolerance requested is the communication step's
@@ -85,11 +85,11 @@ def run_auto(
 
     scene, remarks = _without_choice(scene)
     asking = {n: p for n, p in scene.parts.items() if p.tolerance}
-    result = run(with_rungs(scene, {n: first_rung(p, guard) for n, p in asking.items()}))
+    result = run(with_levels(scene, {n: first_level(p, guard) for n, p in asking.items()}))
     chosen = select(scene, result, guard)
-    rungs = {c.part: c.fidelity for c in chosen}
-    if any(result.scene.parts[name].fidelity != rung for name, rung in rungs.items()):
-        result = run(with_rungs(scene, rungs))
+    levels = {c.part: c.fidelity for c in chosen}
+    if any(result.scene.parts[name].fidelity != level for name, level in levels.items()):
+        result = run(with_levels(scene, levels))
     if guard:
         result = checked(_checked(result, chosen, pool, run))
         result = _followed(scene, result, lambda again: checked(run(again)))
@@ -98,9 +98,9 @@ def run_auto(
     return replace(result, selection=selection, messages=[*result.messages, *remarks])
 
 
-def with_rungs(scene: Scene, rungs: Mapping[str, str]) -> Scene:
+def with_levels(scene: Scene, levels: Mapping[str, str]) -> Scene:
     """Return the scene with these levels, as they stand."""
-    changed = {name: scene.parts[name].at(rung) for name, rung in rungs.items()}
+    changed = {name: scene.parts[name].at(level) for name, level in levels.items()}
     return replace(scene, parts={**scene.parts, **changed})
 
 
@@ -113,9 +113,9 @@ def _followed(
     """
     if not any(scene.parts[n].tolerance and w.differences for n, w in result.in_time.items()):
         return result
-    rungs = {n: p.fidelity for n, p in result.scene.parts.items() if n not in DIRECT}
+    levels = {n: p.fidelity for n, p in result.scene.parts.items() if n not in DIRECT}
     try:
-        again = checked_run(with_rungs(_in_time(scene), rungs))
+        again = checked_run(with_levels(_in_time(scene), levels))
     except (ParameterError, SolveError) as problem:
         words = f"A run with thermal_mode transient failed ({problem}); the one before it counts"
         return replace(result, found=(*result.found, words))
@@ -133,8 +133,8 @@ def _in_time(scene: Scene) -> Scene:
     for name in DIRECT:
         if (part := parts.get(name)) is not None:
             params = replace(part.params, thermal_mode="transient")
-            rung = part.spec.default_fidelity if part.tolerance else part.fidelity
-            parts[name] = replace(part, params=params, fidelity=rung, tolerance=None)
+            level = part.spec.default_fidelity if part.tolerance else part.fidelity
+            parts[name] = replace(part, params=params, fidelity=level, tolerance=None)
     return replace(scene, parts=parts)
 
 
@@ -182,9 +182,9 @@ def _checked(
         higher = {check.part: check.above for check in found if not check.holds}
         if not higher:
             break
-        words = "run again with " + ", ".join(f"{part} {rung}" for part, rung in higher.items())
+        words = "run again with " + ", ".join(f"{part} {level}" for part, level in higher.items())
         try:
-            better = run(with_rungs(result.scene, higher))
+            better = run(with_levels(result.scene, higher))
         except (ParameterError, SolveError) as problem:
             stopped = f"{words}: it failed, so that the run before it counts ({problem})"
             break

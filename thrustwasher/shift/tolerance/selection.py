@@ -9,8 +9,8 @@ next one in the engagement at hand.
 import numpy as np
 
 from ...errors import SolveError
-from ...ladder.choose import rungs_of
-from ...ladder.error_table import SAFETY, fresh_rungs
+from ...ladder.choose import levels_of
+from ...ladder.error_table import SAFETY, fresh_levels
 from ...ladder.formats import shown_error
 from ..scene.connections import DIRECT, JUDGED, PACKS, SPEED, WITHOUT_PAST
 from ..scene.scene import Part, Scene
@@ -25,11 +25,11 @@ LEAST_RISE = 1.0  # K; a temperature that hardly moves is not compared more clos
 TORQUE = "friction_torque"
 
 
-def first_rung(part: Part, is_checked: bool) -> str:
+def first_level(part: Part, is_checked: bool) -> str:
     """Return a part's level in the first run: the cheapest, or the default if unchecked."""
-    rungs = rungs_of(part.spec, part.params)
-    known = is_checked or rungs[0] in fresh_rungs(part.spec.key, part.params)
-    return rungs[0] if known else part.spec.default_fidelity
+    levels = levels_of(part.spec, part.params)
+    known = is_checked or levels[0] in fresh_levels(part.spec.key, part.params)
+    return levels[0] if known else part.spec.default_fidelity
 
 
 def select(scene: Scene, first: ShiftResult, is_checked: bool = True) -> list[Selected]:
@@ -44,32 +44,32 @@ def select(scene: Scene, first: ShiftResult, is_checked: bool = True) -> list[Se
 
 def _selected(name: str, part: Part, first: ShiftResult, safety: float) -> Selected:
     spec, share = part.spec, (part.tolerance or 0.0) * (1.0 if name in DIRECT else MODEL_SHARE)
-    rungs = rungs_of(spec, part.params)
+    levels = levels_of(spec, part.params)
     start = first.scene.parts[name].fidelity
-    rungs = rungs[rungs.index(start) :]
+    levels = levels[levels.index(start) :]
     box = _inputs(name, part, first)
     errors = _errors(part, box, safety)
-    fitting = [rung for rung in rungs if errors.get(rung, 0.0) <= share]
+    fitting = [level for level in levels if errors.get(level, 0.0) <= share]
     if not fitting:
-        best = min(errors, key=lambda rung: errors[rung])
+        best = min(errors, key=lambda level: errors[level])
         raise SolveError(
             f"part {name!r}, {TORQUE}: no fidelity level reaches {100.0 * share:.2g} %; the "
             f"best is {best} "
             f"with {shown_error(errors[best], None)}; ask for less or name a fidelity level"
         )
-    rung, asked = fitting[0], f"(asked {shown_error(share, None)})"
-    words = [f"{name}: {rung}, its last fidelity level; no table of errors speaks here"]
-    if rung in errors:
-        words = [f"{name}: {rung}, {TORQUE} within {shown_error(errors[rung], None)} {asked}"]
+    level, asked = fitting[0], f"(asked {shown_error(share, None)})"
+    words = [f"{name}: {level}, its last fidelity level; no table of errors speaks here"]
+    if level in errors:
+        words = [f"{name}: {level}, {TORQUE} within {shown_error(errors[level], None)} {asked}"]
     elif len(fitting) > 1:
-        words = [f"{name}: {rung}, to be compared with {fitting[1]} {asked}"]
+        words = [f"{name}: {level}, to be compared with {fitting[1]} {asked}"]
     words += [
-        f"  too coarse: {rung} {shown_error(errors[rung], None)}"
-        for rung in rungs
-        if rung not in fitting
+        f"  too coarse: {level} {shown_error(errors[level], None)}"
+        for level in levels
+        if level not in fitting
     ]
     scales = tuple(_scale(name, output, first) for output in JUDGED[spec.key])
-    return Selected(name, tuple(fitting), share, rung in errors, tuple(words), box, scales)
+    return Selected(name, tuple(fitting), share, level in errors, tuple(words), box, scales)
 
 
 def _inputs(name: str, part: Part, run: ShiftResult) -> Box:
@@ -84,8 +84,8 @@ def _errors(part: Part, box: Box, safety: float) -> dict[str, float]:
     """Return the largest error of each level that a table knows, in what it covers of a box."""
     if part.spec.key not in WITHOUT_PAST:
         return {}
-    known = fresh_rungs(part.spec.key, part.params)
-    found = {name: rung.worst(TORQUE, rung.common(box)) for name, rung in known.items()}
+    known = fresh_levels(part.spec.key, part.params)
+    found = {name: level.worst(TORQUE, level.common(box)) for name, level in known.items()}
     return {name: safety * worst for name, worst in found.items() if worst is not None}
 
 

@@ -79,7 +79,7 @@ class Calibration(Tabled):
     @property
     def taken(self) -> str:
         """The inputs that the points do not have, and where their values come from."""
-        return str(self.points.plan.taken) if self._problem.by_rung else ""
+        return str(self.points.plan.taken) if self._problem.by_level else ""
 
     def __getitem__(self, name: str) -> Estimate:
         """Return the estimate of one constant."""
@@ -199,12 +199,12 @@ def _size_text(found: Calibration) -> str:
     """Say how many constants were fitted to what, and how well."""
     points, units = found.points, output_units(found.points.plan.spec)
     parts = ", ".join(f"{points.output.count(name)} {name}" for name in points.names)
-    rung = f", fidelity level {points.plan.fidelity}" if found._problem.by_rung else ""
+    level = f", fidelity level {points.plan.fidelity}" if found._problem.by_level else ""
     rms = (f"{found.rms_of(n):.3g} {units[n]}".removesuffix(" 1") for n in points.names)
     return (
         f"{counted(len(found.estimates), 'constant')} fitted to "
         f"{counted(len(points.value), found._problem.counted_as)} ({parts})"
-        f"{rung}, rms residual {', '.join(rms)}, "
+        f"{level}, rms residual {', '.join(rms)}, "
         f"{counted(found.degrees_of_freedom, 'degree')} of freedom."
     )
 

@@ -10,7 +10,7 @@ from ...errors import ParameterError, SolveError
 from ...model.parameters import allowed
 from ...model.registry import find_model
 from ...numerics.jit import Array
-from ..sweep.solve_rows import check_rung
+from ..sweep.solve_rows import check_level
 from .estimates import Calibration
 from .fit import chosen_names
 from .identifiability import Verdict, counted
@@ -36,7 +36,7 @@ class ModelProblem(Problem):
     points: Measured
     kept: dict[tuple[Any, ...], Array] = field(default_factory=dict, repr=False)
 
-    by_rung: ClassVar[bool] = True  # what computes the outputs, else a closed form
+    by_level: ClassVar[bool] = True  # what computes the outputs, else a closed form
     profiles: ClassVar[bool] = False  # are so quick that they need not be requested
     typical: ClassVar[float] = 0.0  # size of a value; 0: the mean of those measured
     instead: ClassVar[str] = ""  # what to take where the points cannot be followed
@@ -52,7 +52,7 @@ class ModelProblem(Problem):
         if len(points.value) < len(names):
             sizes = f"{counted(len(points.value), 'value')} for {counted(len(names), 'parameter')}"
             raise ParameterError(f"data: {sizes}, allowed: as many values as parameters, or more")
-        check_rung(spec, points.plan.fidelity, points.plan.params[0])
+        check_level(spec, points.plan.fidelity, points.plan.params[0])
         return points, names
 
     @classmethod

@@ -93,7 +93,7 @@ def calibrate(
     is_law = not own.computed and not own.units.keys().isdisjoint(data)
     kind = LAWS.get(spec.key, ModelProblem) if is_law else ModelProblem
     points = measured(start, params, data, at, errors or {}, fidelity or start.fidelity)
-    groups = grouped(points) if kind.by_rung else None
+    groups = grouped(points) if kind.by_level else None
     points, names = kind.asked(groups.means if groups else points, fit, {*data, *at})
     if twice := set(names) & set(data):
         raise ParameterError(

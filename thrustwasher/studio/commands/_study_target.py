@@ -6,8 +6,8 @@ from typing import Any
 
 from ...cli.common import _options
 from ...cli.common._options import option_name
+from ...model.levels import level_named
 from ...model.registry import find_model
-from ...model.rungs import rung_named
 
 OPTIONS = {
     "--preset NAME": "of a model: named set of parameters, e.g. paper",
@@ -51,7 +51,7 @@ def read_target(arguments: argparse.Namespace) -> tuple[Any, dict[str, str] | No
         if arguments.preset is not None:
             found = _options.solvable(arguments.target, arguments.preset)
         if arguments.fidelity is not None:
-            found = replace(found, fidelity=rung_named(found.spec, arguments.fidelity))
+            found = replace(found, fidelity=level_named(found.spec, arguments.fidelity))
         settings = _options.read_settings(arguments.settings, found.spec)
         found = _options.with_oil(arguments, found, settings)
         return replace(found, parameters=found.parameters | settings), given

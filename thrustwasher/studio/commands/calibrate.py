@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from ...cli.common import _options, _output, _table
 from ...errors import ParameterError
+from ...model.levels import level_named
 from ...model.part_file import PartFile, is_part, part_text, usual_name
 from ...model.registry import models_with_points
-from ...model.rungs import rung_named
 from ...settings import find_place, places, split_settings
 from ...units import format_quantity, parse_quantity
 from . import _traces
@@ -209,10 +209,10 @@ def _next(
 ) -> str:
     """Return a command that solves the fitted part with the level of the fit."""
     words = [base.spec.key]
-    rung = arguments.fidelity and rung_named(base.spec, arguments.fidelity)
-    level = ["--fidelity", rung] if rung else []
+    level = arguments.fidelity and level_named(base.spec, arguments.fidelity)
+    chosen = ["--fidelity", level] if level else []
     if target:
-        return shlex.join(["thrustwasher", *words, "--part", str(target), *level])
+        return shlex.join(["thrustwasher", *words, "--part", str(target), *chosen])
     if given and is_part(given[0]):
         words += ["--part", given[0]]
     if arguments.preset:
@@ -225,7 +225,7 @@ def _next(
             settings = {name: fitted[name] for name in own} | settings
         else:
             words += ["--oil", arguments.oil]
-    words += [*level, *(x for n, v in settings.items() for x in ("--set", f"{n}={v}"))]
+    words += [*chosen, *(x for n, v in settings.items() for x in ("--set", f"{n}={v}"))]
     return shlex.join(["thrustwasher", *words])
 
 

@@ -26,33 +26,35 @@ MOST_DRAWS = 4096
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     parser.add_argument(
-        "rig", metavar="DATASET", help="folder with rig.toml, or a folder of measured data sets"
+        "data_set",
+        metavar="DATASET",
+        help="folder with rig.toml, or a folder of measured data sets",
     )
     _options.add(parser, OPTIONS)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Compare, then print, write or draw."""
-    from ..rigs.rig_comparison import DRAWS, compare
-    from ..rigs.rig_file import load_rig
+    from ..measured.comparison import DRAWS, compare
+    from ..measured.data_set_file import load_data_set
 
     fit = _count("--fit", arguments.fit, 0, 100, 0)
     draws = _count("--draws", arguments.draws, 2, MOST_DRAWS, DRAWS)
-    folder = Path(arguments.rig)
+    folder = Path(arguments.data_set)
     if not folder.is_dir():
-        raise ParameterError(f"measured data set {arguments.rig!r}: there is no such folder")
+        raise ParameterError(f"measured data set {arguments.data_set!r}: there is no such folder")
     if arguments.page:
         return _page(arguments, folder, draws)
     out = _output.check_folder(arguments.out, "--out") if arguments.out else None
-    rig = load_rig(folder)
-    found = compare(rig, fit=fit, draws=draws, progress=_output.time_left("compare:"))
+    data_set = load_data_set(folder)
+    found = compare(data_set, fit=fit, draws=draws, progress=_output.time_left("compare:"))
     _output.warn(found.warnings)
     told = found.to_dict()
     if out:
-        from ..report.model_plots.rig_plot import rig_figure
+        from ..report.model_plots.comparison_plot import comparison_figure
 
         with _output.whole_folder(out) as draft:
-            rig_figure(found).savefig(draft / "comparison.png")
+            comparison_figure(found).savefig(draft / "comparison.png")
             text = _output.json_text({**told, "warnings": found.warnings})
             (draft / "comparison.json").write_text(text, encoding="utf-8")
     if arguments.json:
@@ -73,19 +75,21 @@ def _count(option: str, text: str | None, low: int, high: int, usual: int) -> in
 
 def _say(found: Any, told: dict[str, Any]) -> None:
     """Print every point and what they come to."""
-    from ..rigs.rig_file import KINDS
+    from ..measured.data_set_file import KINDS
 
-    rig = found.rig
-    print(f"{rig.texts['title']}: {rig.output} of {rig.target_name}")
-    print(f"  {rig.texts['source']}")
-    print(f"  {KINDS[rig.kind]}")
-    for i in range(len(rig.measured)):
-        given = ", ".join(f"{n} {_output.text_of(float(x[i]), '1')}" for n, x in rig.inputs.items())
+    data_set = found.data_set
+    print(f"{data_set.texts['title']}: {data_set.output} of {data_set.target_name}")
+    print(f"  {data_set.texts['source']}")
+    print(f"  {KINDS[data_set.kind]}")
+    for i in range(len(data_set.measured)):
+        given = ", ".join(
+            f"{n} {_output.text_of(float(x[i]), '1')}" for n, x in data_set.inputs.items()
+        )
         mark = "" if found.judged[i] else " (used for the fit)"
         print(
-            f"  {given}: {rig.outputs[i]} measured {rig.measured[i]:.4g}, computed "
+            f"  {given}: {data_set.outputs[i]} measured {data_set.measured[i]:.4g}, computed "
             f"{found.computed[i]:.4g} ({found.low[i]:.4g} .. {found.high[i]:.4g}) "
-            f"{rig.units[i]}{mark}"
+            f"{data_set.units[i]}{mark}"
         )
     for name, value in found.fitted.items():
         print(f"  fitted: {name} = {value:.4g}")
@@ -95,29 +99,29 @@ def _say(found: Any, told: dict[str, Any]) -> None:
         f"largest {100.0 * told['largest_deviation']:+.1f} %, inside the band "
         f"{100.0 * told['inside_band']:.0f} % ({100.0 * low:.0f} .. {100.0 * high:.0f} %)"
     )
-    print(f"Likely reason of what deviates: {rig.texts['reason']}")
+    print(f"Likely reason of what deviates: {data_set.texts['reason']}")
 
 
 def _page(arguments: argparse.Namespace, folder: Path, draws: int) -> int:
     """Write the page of a folder of measured data sets."""
-    from ..rigs.rig_comparison import compare
-    from ..rigs.rig_file import load_rig
-    from ..rigs.shelf_page import shelf_page
+    from ..measured.collection_page import collection_page
+    from ..measured.comparison import compare
+    from ..measured.data_set_file import load_data_set
 
     _options.refuse_unused(arguments, "--page", ("fit", "out", "json"))
     target = _output.check_file(arguments.page, "--page", (".md",))
-    rigs = [load_rig(path.parent) for path in sorted(folder.glob("*/rig.toml"))]
-    if not rigs:
+    data_sets = [load_data_set(path.parent) for path in sorted(folder.glob("*/rig.toml"))]
+    if not data_sets:
         raise ParameterError(
             f"measured data set {str(folder)!r}: there is no folder with a rig.toml in it"
         )
     blind, fits = [], []
-    for rig in rigs:
-        _output.note(f"{rig.name}: {len(rig.measured)} points")
-        blind.append(compare(rig, draws=draws))
-        if rig.fit and len(rig.measured) > 1:
-            fits.append(compare(rig, fit=1, draws=draws))
-    text = shelf_page(blind, fits, folder / "wanted.toml")
+    for data_set in data_sets:
+        _output.note(f"{data_set.name}: {len(data_set.measured)} points")
+        blind.append(compare(data_set, draws=draws))
+        if data_set.fit and len(data_set.measured) > 1:
+            fits.append(compare(data_set, fit=1, draws=draws))
+    text = collection_page(blind, fits, folder / "wanted.toml")
     with _output.whole_file(target) as draft:
         draft.write_text(text, encoding="utf-8")
     _output.note(f"wrote {target}")

@@ -6,8 +6,8 @@ from typing import Any
 
 from ...cli.common import _options, _output
 from ...errors import ParameterError, suggestion
+from ...model.levels import gone_level
 from ...model.registry import find_model, models_with_points
-from ...model.rungs import gone_rung
 
 HELP = "write a page to try a part, gear train or shift in any browser"
 EXAMPLES = (
@@ -43,7 +43,7 @@ def run(arguments: argparse.Namespace) -> int:
     part = _options.solvable(arguments.subject, arguments.preset)
     part = _options.with_oil(arguments, part, ())
     target = _target(arguments, part.name)
-    _output.warn(gone_rung(part.spec, part.fidelity))
+    _output.warn(gone_level(part.spec, part.fidelity))
 
     from ..explore.page import page
 

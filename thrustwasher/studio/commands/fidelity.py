@@ -5,7 +5,7 @@ from typing import Any
 
 from ...cli.common import _options, _output
 from ...model.part_file import is_part, load_part
-from ...model.registry import ladder_of, models_with_cards
+from ...model.registry import ladder_of, models_with_error_tables
 from ...units import format_quantity, parse_quantity
 
 TOL, POINTS = "0.01", 60  # by default
@@ -18,7 +18,7 @@ EXAMPLES = (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    models = ", ".join(models_with_cards())
+    models = ", ".join(models_with_error_tables())
     parser.add_argument(
         "model",
         nargs="?",
@@ -43,12 +43,12 @@ def run(arguments: argparse.Namespace) -> int:
 
     if arguments.model and is_part(arguments.model):
         return _measure(arguments)
-    if arguments.model and arguments.model not in models_with_cards():
+    if arguments.model and arguments.model not in models_with_error_tables():
         ladder_of(arguments.model)  # says which there are
     _options.refuse_unused(
         arguments, "verification tables that are listed", ["workers"], tol=TOL, points=POINTS
     )
-    models = [arguments.model] if arguments.model else list(models_with_cards())
+    models = [arguments.model] if arguments.model else list(models_with_error_tables())
     found = {model: load_tables(model) for model in models}
     begin = arguments.model or ""
     refused = {n: why for n, why in refused_files().items() if n.startswith(begin)}
@@ -103,21 +103,21 @@ def _print_table(table: Any) -> None:
     from ...ladder.error_table import QUANTITIES
     from ...ladder.formats import shown_error
 
-    box = table.rungs[0].box.items()
+    box = table.levels[0].box.items()
     spans = ", ".join(
         f"{n} {format_quantity(a.min, a.unit)} .. {format_quantity(a.max, a.unit)}" for n, a in box
     )
     print(f"{table.model}, {table.name} parameters: {spans}")
     rows = [("level", f"{'torque':>10} {'temp.':>10} {'a call':>8}", "")]
-    for rung in table.rungs:
-        for chart in rung.charts:
+    for level in table.levels:
+        for chart in level.charts:
             torque, heat = (
-                shown_error(rung.worst_anywhere(q, chart), QUANTITIES[q])
+                shown_error(level.worst_anywhere(q, chart), QUANTITIES[q])
                 for q in ("friction_torque", "temperature")
             )
-            call = format_quantity(rung.call, "s", digits=2)
-            state = f"{chart.points} points; {table.stale(rung) or 'of this version'}"
-            name = f"{rung.fidelity} {chart.name or ''}".strip()
+            call = format_quantity(level.call, "s", digits=2)
+            state = f"{chart.points} points; {table.stale(level) or 'of this version'}"
+            name = f"{level.fidelity} {chart.name or ''}".strip()
             rows.append((name, f"{torque:>10} {heat:>10} {call:>8}", state))
     _output.print_rows(rows)
 
@@ -127,21 +127,21 @@ def _records(table: Any) -> list[dict[str, Any]]:
     from ...ladder.error_table import QUANTITIES
 
     found = []
-    for rung, chart in ((r, chart) for r in table.rungs for chart in r.charts):
-        name = [table.model, rung.fidelity, chart.name, table.name]
+    for level, chart in ((r, chart) for r in table.levels for chart in r.charts):
+        name = [table.model, level.fidelity, chart.name, table.name]
         found.append(
             {
                 "name": "-".join(part for part in name if part and part != "default"),
                 "model": table.model,
-                "fidelity": rung.fidelity,
+                "fidelity": level.fidelity,
                 "chart": chart.name,
                 "parameters": table.name,
                 "made": table.made,
-                "stale": table.stale(rung),
+                "stale": table.stale(level),
                 "points": chart.points,
-                "envelope": {n: [a.min, a.max, a.unit] for n, a in rung.box.items()},
-                "worst": {q: rung.worst_anywhere(q, chart) for q in QUANTITIES},
-                "call_median_s": rung.call,
+                "envelope": {n: [a.min, a.max, a.unit] for n, a in level.box.items()},
+                "worst": {q: level.worst_anywhere(q, chart) for q in QUANTITIES},
+                "call_median_s": level.call,
             }
         )
     return found

@@ -28,7 +28,7 @@ DURATION = Signal(
 USUAL = {SPEED.name: 100.0, OIL.name: 353.15}
 
 
-def _result(params: Any, point: Mapping[str, float], rung: str) -> Any:
+def _result(params: Any, point: Mapping[str, float], level: str) -> Any:
     end = point["duration"]
     time = np.linspace(0.0, end, POINTS + 1)
     found = engage_clutch(
@@ -38,7 +38,7 @@ def _result(params: Any, point: Mapping[str, float], rung: str) -> Any:
         speed=point["speed"] * (1.0 - time / end),
         oil_temperature=point[OIL.name],
         drum_speed=point[DRUM.name],
-        fidelity=rung,
+        fidelity=level,
     )
     thin = np.flatnonzero(found.film_ratio < 1.0)
     return SimpleNamespace(
@@ -60,7 +60,7 @@ VIEW = View(
         calls="broken_rule derive load_memory settle_film advance fill_outputs mean_surface "
         "stored_heat".split(),
         layout=numbers_of(layout, HOT=Status.HOT),
-        rungs={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.rungs},
+        levels={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.levels},
     ),
     page="clutch",
     main=("faces", "roughness", "initial_film", "permeability", "steel_thickness"),
@@ -82,7 +82,7 @@ VIEW = View(
         "stored_heat": ("J", "heat in the steel at the end"),
     },
     load="ramp",
-    card_point=lambda point: {**point, "load": LARGEST},
+    verified_point=lambda point: {**point, "load": LARGEST},
     more={"ramp": RAMP, "largest_load": LOAD.high, "points": POINTS},
     spans={
         "speed": (0.0, 600.0),

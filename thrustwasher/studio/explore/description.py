@@ -4,11 +4,11 @@ from collections.abc import Mapping
 from dataclasses import asdict, fields
 from typing import Any, get_type_hints
 
-from ...ladder.error_table import QUANTITIES, SAFETY, Chart, RungErrors, fresh_rungs
+from ...ladder.error_table import QUANTITIES, SAFETY, Chart, LevelErrors, fresh_levels
+from ...model.levels import level_named
 from ...model.oil import named_oils, oil
 from ...model.part_file import PartFile
 from ...model.record import Model
-from ...model.rungs import rung_named
 from ...model.spec import NAMED, Signal
 from ...units import UNITS, readable_units
 from .draws import draws_of
@@ -50,8 +50,8 @@ def describe(
 ) -> dict[str, Any]:
     """Return the JSON object of a model's page; ``point``: value of each input at the start."""
     spec = model.spec
-    rung = rung_named(spec, part.fidelity)
-    rung = rung if rung in view.worker.rungs else spec.default_fidelity
+    level = level_named(spec, part.fidelity)
+    level = level if level in view.worker.levels else spec.default_fidelity
     params = part.params
     known = {s.name for s in inputs_of(model, view)} | {f.name for f in fields(spec.params)}
     return {
@@ -67,18 +67,18 @@ def describe(
         "outputs": outputs_of(model, view),
         "units": readable_units(),
         "scales": UNITS,
-        "rungs": spec.rungs,
-        "rung": rung,
-        "usual_rung": spec.default_fidelity,
+        "levels": spec.levels,
+        "level": level,
+        "usual_level": spec.default_fidelity,
         "rules": [rule.text for rule in spec.rules],
-        "cards": [
-            _card(rung, chart)
-            for name, rung in fresh_rungs(spec.key, params).items()
-            if name in view.worker.rungs
-            for chart in rung.charts
+        "error_tables": [
+            _error_table(level, chart)
+            for name, level in fresh_levels(spec.key, params).items()
+            if name in view.worker.levels
+            for chart in level.charts
         ],
         "safety": SAFETY,
-        "scatter": draws_of(part, view.card_point(point), known, view.load),
+        "scatter": draws_of(part, view.verified_point(point), known, view.load),
         **view.more,
         "python": {"params": view.params, "solve": view.solve},
         "worker": view.worker.data(spec),
@@ -99,13 +99,13 @@ def _field(name: str, m: Mapping[str, object], view: View) -> dict[str, Any]:
     return {"name": name, **ends, **{key: m[key] for key in keys if key in m}}
 
 
-def _card(rung: RungErrors, chart: Chart) -> dict[str, Any]:
+def _error_table(level: LevelErrors, chart: Chart) -> dict[str, Any]:
     """Return what was measured on a chart: the ends of each region and its error of the torque."""
     error = list(QUANTITIES).index(QUANTITY) - len(QUANTITIES)
     return {
-        "fidelity": rung.fidelity,
+        "fidelity": level.fidelity,
         "chart": chart.name,
-        "envelope": {name: asdict(axis) for name, axis in rung.box.items()},
+        "envelope": {name: asdict(axis) for name, axis in level.box.items()},
         "divisions": [
             {"axes": d.axes, "rows": [[*row[: 2 * len(d.axes)], row[error]] for row in d.rows]}
             for d in chart.divisions

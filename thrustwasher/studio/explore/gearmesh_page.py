@@ -17,7 +17,7 @@ VIEW = View(
         calls="broken_rule derive step solve_point place_mesh tips tip_thickness pitch_of "
         "gear_shift film_ratio_at".split(),
         layout=numbers_of(layout),
-        rungs={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.rungs},
+        levels={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.levels},
     ),
     page="gearmesh",
     main="pinion_teeth gear_ratio normal_module face_width helix_angle friction_law".split(),
@@ -30,7 +30,7 @@ VIEW = View(
     "A safety against micropitting needs a permissible_film_ratio, endurance under thermal "
     "stress film_heat = atan and one of the two steels of its paper.",
     load="power",
-    card_point=lambda point: {**point, "load": abs(point["power"] / point["speed"])},
+    verified_point=lambda point: {**point, "load": abs(point["power"] / point["speed"])},
     spans={
         "power": (100.0, 1e5),
         "speed": (1.0, 1000.0),

@@ -11,7 +11,7 @@ VIEW = View(
         script="losses_worker",
         calls=("derive", "step"),
         layout=numbers_of(step),
-        rungs={name: {"code": k} for k, name in enumerate(SPEC.fidelities, 1)},
+        levels={name: {"code": k} for k, name in enumerate(SPEC.fidelities, 1)},
     ),
     page="losses",
     main="line_pressure pump_displacement output_immersion drum_immersion planet_load_factor "

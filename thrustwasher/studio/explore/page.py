@@ -48,9 +48,9 @@ def page(part: PartFile) -> str:
     point = {s.name: part.inside(s.name, view.usual.get(s.name, s.usual)) for s in inputs}
     about = describe(model, view, part, point)
     if view.result is not None:
-        result = view.result(part.params, point, about["rung"])
+        result = view.result(part.params, point, about["level"])
     else:
-        result = model.solve(part.params, **point, fidelity=about["rung"])
+        result = model.solve(part.params, **point, fidelity=about["level"])
     folder = model_folder(model.spec, source_folder())
     script, style = bundle(f"{view.page}.js"), bundle("explore.css")
     filled: str = template(TEMPLATE).render(
@@ -69,8 +69,8 @@ def page(part: PartFile) -> str:
         terms=view.terms,
         group=view.group[0],
         start=", ".join(f"{s.name} {format_quantity(point[s.name], s.unit)}" for s in inputs),
-        rung=about["rung"],
-        error=_error(view, part, point, about["rung"], result),
+        level=about["level"],
+        error=_error(view, part, point, about["level"], result),
         equations=equations(folder).replace("<pre>", '<pre tabindex="0">'),
         others=[key for key in VIEWS if key != model.key],
     )
@@ -78,14 +78,14 @@ def page(part: PartFile) -> str:
 
 
 def _error(
-    view: View, part: PartFile, point: Mapping[str, float], rung: str, result: object
+    view: View, part: PartFile, point: Mapping[str, float], level: str, result: object
 ) -> str:
     """Say the verified error of the torque at the start."""
     known = error_estimate(
         part.spec.key,
-        rung,
+        level,
         part.params,
-        view.card_point(point),
+        view.verified_point(point),
         branch=getattr(result, "branch", None),
         film_ratio=getattr(result, "film_ratio", None),
     )

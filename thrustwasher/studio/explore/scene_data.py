@@ -31,7 +31,7 @@ from ...shift.scene.scene import PRESSED, Part, Scene
 from ...shift.scene.scene_file import builtin_scenes, merged_tables
 from ...shift.scene.variation import scene_text, varied_scene
 from ...shift.shift_result import ShiftResult
-from ...transmission.parameters import COURSES, POINTS, course_points
+from ...transmission.parameters import POINTS, PROFILES, profile_points
 from ...units import UNITS, readable_units
 from .draws import DRAWS, fixed_points
 from .scene_warnings import warning_data
@@ -193,12 +193,12 @@ def _washer(scene: Scene, name: str, result: ShiftResult) -> dict[str, Any]:
     """Return how a washer runs while one drags: by its map, else as the scene's run recorded it."""
     part, tables = scene.parts[name], tables_of(scene.parts[name].spec)
     kernel = kernel_of(part.spec)
-    found: dict[str, Any] = {"rung": part.fidelity, "map": None}
+    found: dict[str, Any] = {"level": part.fidelity, "map": None}
     with suppress(ParameterError):  # there is no map for these parameters
         assert tables is not None
-        check_together(part.spec, part.params, tables.rung)
+        check_together(part.spec, part.params, tables.level)
         table = np.asarray(tables.find(part.params).data, np.float64)
-        numbers = _numbers(part, tables.rung)
+        numbers = _numbers(part, tables.level)
         found["map"] = {"at": kernel.TABLE["AT"], "numbers": numbers}
         found["map"]["table"] = _packed(table.tobytes())
     outputs = [s.name for s in part.spec.outputs]
@@ -219,10 +219,10 @@ def _profiles(scene: Scene) -> dict[str, Any]:
         own: Any = scene.table
         for word in table.split("."):
             own = own.get(word, {})
-        if not course_points(part.params, name):
+        if not profile_points(part.params, name):
             continue
-        unit, low, high, text = COURSES[name]
-        points = course_points(part.params, name)
+        unit, low, high, text = PROFILES[name]
+        points = profile_points(part.params, name)
         if "points" in own:
             points = [
                 (quantity(table, "time", t, "s"), quantity(table, "value", x, unit))

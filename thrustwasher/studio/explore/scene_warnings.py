@@ -23,7 +23,7 @@ from ...shift.scene.scene import Part, Scene
 from ...shift.warning_texts import TEXTS, warning
 from ...transmission.kernels.directional_derivative import LEAST_WASHER_LOAD
 from ...transmission.kernels.shift_figures import FEW
-from ...transmission.parameters import COURSES, course_points
+from ...transmission.parameters import PROFILES, profile_points
 from ...washer.kernels.regime_and_status import LEAST_TILT
 from ...washer.map.look_up import OF_BOX, OUTSIDE, WasherMap
 from ...washer.parameters import face_of
@@ -58,8 +58,8 @@ def warning_data(scene: Scene, step: float) -> dict[str, Any]:
     """Return what the rules of the page's warnings read; ``step``: that of the run [s]."""
     gearbox = scene.parts["transmission"].params
     always = dict.fromkeys((*scene.warnings, *idle_parameters(scene)))
-    for name in COURSES:  # the page finds these of its own profiles
-        for last, _ in course_points(gearbox, name)[-1:]:
+    for name in PROFILES:  # the page finds these of its own profiles
+        for last, _ in profile_points(gearbox, name)[-1:]:
             always.pop(warning("cut_off", profile=name, last=last, stop=scene.stop_time), None)
     washer = scene.parts.get("washer")
     return {

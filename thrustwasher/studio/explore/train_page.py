@@ -47,7 +47,7 @@ VIEW = View(
         script="train_worker",
         calls=("derive", "step"),
         layout=_numbers(),
-        rungs={name: {"code": k} for k, name in enumerate(SPEC.fidelities, 1)},
+        levels={name: {"code": k} for k, name in enumerate(SPEC.fidelities, 1)},
         more={"flows": FLOWS},
     ),
     page="train",

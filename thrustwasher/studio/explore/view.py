@@ -30,7 +30,7 @@ class View:
     """What (parameters, point, level) come to, where it is not what the model's command solves."""
     inputs: Sequence[Signal] = ()  # in place of the command's
     usual: Point = field(default_factory=dict)  # their values at the start
-    card_point: Callable[[Point], Point] = dict
+    verified_point: Callable[[Point], Point] = dict
     """From the inputs to those that the verification tables know."""
     load: str = "load"  # the input, or name of the page's script, that the model's load comes from
     outputs: Mapping[str, tuple[str, str]] = field(default_factory=dict)  # in place: unit, meaning

@@ -13,7 +13,7 @@
 ``robust_search``    The scenarios that decide, the best design evaluated by fresh draws
 ``robustness``       The draws that decide, and the share of fresh ones that meet all limits
 ``under_scatter``    Designs by the worst of a few draws of their scatter
-``crew``             Work in pieces: from a journal, here, or on all cores
+``worker_pool``      Work in pieces: from a journal, here, or on all cores
 ``front``            Which designs no other one beats, and where the next searches aim
 ``optimum``          What was found, and its files
 ===================  ===========================================================================

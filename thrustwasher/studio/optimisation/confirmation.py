@@ -7,7 +7,6 @@ import numpy as np
 
 from ...errors import SolveError
 from .archive import Archive
-from .crew import Crew
 from .design_problem import Problem, shown
 from .designs import Array
 from .front import spread
@@ -21,18 +20,19 @@ from .multistart import (
     searched,
 )
 from .optimum import Design
+from .worker_pool import WorkerPool
 
 BINDS = 0.01  # of a limit's figure, or of a variable's range: as near as that it binds
 MORE = 1.3  # designs solved again for one of the front
 AGAIN = 3  # designs that are solved again, of those for one figure
 
 
-def solved_again(crew: Crew, archive: Archive, places: Sequence[int]) -> list[Design]:
+def solved_again(pool: WorkerPool, archive: Archive, places: Sequence[int]) -> list[Design]:
     """Return designs with all figures, solved on the finest means."""
-    designs = crew.designs
+    designs = pool.designs
     rows = [archive.row(place) for place in places]
     names = tuple(dict.fromkeys([*archive.problem.figures, *designs.figures]))
-    values = crew.figures(rows, names, whole=True, each=1)
+    values = pool.figures(rows, names, whole=True, each=1)
     return [
         Design(
             values=row,
@@ -70,7 +70,7 @@ def best_design(means: Means, archive: Archive) -> tuple[Archive, Design]:
     archive = _polished(means, archive)
     for again in (False, True):
         places = _feasible_ranked(archive)[:AGAIN]
-        solved = solved_again(means.crew, archive, places)
+        solved = solved_again(means.pool, archive, places)
         if confirmed := _confirmed(problem, solved):
             best = min(confirmed, key=lambda d: float(costs_of(problem, [d])[0, 0]))
             return archive, best
@@ -130,9 +130,9 @@ def front_designs(means: Means, archive: Archive, tops: Sequence[float]) -> tupl
     problem, feasible, most = archive.problem, archive.feasible, int(MORE * means.points)
     more = feasible[spread(archive.costs[feasible], most)].tolist()
     chosen = list(dict.fromkeys([*least_below(archive, tops), *more]))[:most]
-    if means.crew.designs.kind == "part":  # solved again it is the same
+    if means.pool.designs.kind == "part":  # solved again it is the same
         chosen = chosen[: means.points]
-    confirmed = _confirmed(problem, solved_again(means.crew, archive, sorted(chosen)))
+    confirmed = _confirmed(problem, solved_again(means.pool, archive, sorted(chosen)))
     if not confirmed:
         raise SolveError(
             "no design of the front has its figures within the limits when it is solved again; "

@@ -11,11 +11,11 @@ import numpy as np
 
 from ...errors import SolveError
 from .archive import Archive
-from .crew import Crew
 from .design_problem import Problem, shown
 from .designs import Array, Effort, Row
 from .front import apart, levels
 from .local_search import VIOLATION, LocalSearch, Ways
+from .worker_pool import WorkerPool
 
 FAR, NEAR = 0.2, 0.05  # of the box: first steps of the first searches, and of later ones
 
@@ -23,7 +23,7 @@ FAR, NEAR = 0.2, 0.05  # of the box: first steps of the first searches, and of l
 class Means(NamedTuple):
     """What a search has to search with."""
 
-    crew: Crew
+    pool: WorkerPool
     effort: Effort
     points: int
     """Designs of a front."""
@@ -37,14 +37,14 @@ def sample_box(means: Means) -> tuple[Archive, dict[str, float]]:
     """
     from scipy.stats import qmc  # late: it takes a third of a second
 
-    crew, problem = means.crew, means.crew.problem
-    nominal = {n: float(crew.designs.places[n].nominal) for n in problem.names}
+    pool, problem = means.pool, means.pool.problem
+    nominal = {n: float(pool.designs.places[n].nominal) for n in problem.names}
     now = problem.point(nominal)
     drawn = qmc.Sobol(len(now), seed=np.random.default_rng(means.seed))
     n = 1 << (means.effort.sample - 1).bit_length()
     points = np.vstack((now, drawn.random(n)))
     rows = [problem.row(u) for u in points]
-    values = crew.figures(rows, problem.figures)
+    values = pool.figures(rows, problem.figures)
     archive = Archive(
         problem=problem,
         points=points,
@@ -54,7 +54,7 @@ def sample_box(means: Means) -> tuple[Archive, dict[str, float]]:
     )
     as_it_was = values[0]
     if not np.allclose(list(rows[0].values()), list(nominal.values()), rtol=1e-12, atol=0.0):
-        as_it_was = crew.figures([nominal], problem.figures)[0]  # outside the ranges
+        as_it_was = pool.figures([nominal], problem.figures)[0]  # outside the ranges
     return archive, dict(zip(problem.figures, as_it_was.tolist(), strict=True))
 
 
@@ -91,7 +91,7 @@ def search_from(
 
 def searched(means: Means, archive: Archive, searches: Sequence[LocalSearch]) -> Archive:
     """Return the archive with what local searches have tried."""
-    return archive.with_tried(means.crew.do(searches))
+    return archive.with_tried(means.pool.do(searches))
 
 
 def search_goals(means: Means, archive: Archive, radius: float) -> Archive:

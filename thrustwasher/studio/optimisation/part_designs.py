@@ -10,9 +10,9 @@ from typing import Any, Literal
 import numpy as np
 
 from ...errors import ParameterError, SolveError
+from ...model.levels import level_named
 from ...model.part_file import PartFile, part_text
 from ...model.prepare import tables_of
-from ...model.rungs import rung_named
 from ...model.scatter import Place, Scatter
 from ...washer.load_curve import MOST, LoadCurve, load_curve
 from ...washer.parameters import face_of
@@ -25,7 +25,7 @@ FOLDS = {
     "film_regained_load": ("film_regained", "load at which the oil film comes back, from above"),
 }
 SEARCHED = (9, 20)  # nodes of a load curve while designs are searched
-OTHER_RUNG = (
+OTHER_LEVEL = (
     "fidelity = {!r} answers for the part's own parameters alone: solved with {!r}, as "
     "parameters are varied"
 )
@@ -156,11 +156,11 @@ class PartDesigns:
         part, inputs = self._design(row)
         point: Any = {name: inputs[name] for name in AT}
         grid = None if whole else SEARCHED
-        rung = self.target.fidelity
-        curve = load_curve(part.params, **point, fidelity=rung, grid=grid)
+        level = self.target.fidelity
+        curve = load_curve(part.params, **point, fidelity=level, grid=grid)
         if not curve.folds:
             curve = load_curve(
-                part.params, **point, fidelity=rung, grid=grid, load_max=_most_load(part.params)
+                part.params, **point, fidelity=level, grid=grid, load_max=_most_load(part.params)
             )
         return curve
 
@@ -190,10 +190,10 @@ def part_designs(part: PartFile, inputs: Mapping[str, float], reached: str) -> P
 
     ``reached``: as in ``part_target``. ParameterError: the model is not solved at points.
     """
-    rung, warnings = rung_named(part.spec, part.fidelity), tuple[str, ...]()
-    if tables_of(part.spec, rung):  # made for the part as it is
+    level, warnings = level_named(part.spec, part.fidelity), tuple[str, ...]()
+    if tables_of(part.spec, level):  # made for the part as it is
         solver = part.spec.default_fidelity
-        part, warnings = replace(part, fidelity=solver), (OTHER_RUNG.format(rung, solver),)
+        part, warnings = replace(part, fidelity=solver), (OTHER_LEVEL.format(level, solver),)
     target = part_target(part, Scatter(), inputs, reached)
     return PartDesigns(
         part=part, inputs=target.inputs, reached=reached, target=target, warnings=warnings

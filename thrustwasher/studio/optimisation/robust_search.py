@@ -32,7 +32,7 @@ def with_critical_scenarios(means: Means, archive: Archive) -> Archive:
         return archive
     row = archive.row(int(archive.ranked(0)[0]))
     straight = means.effort.polish > 0
-    found = drawn(means.crew, row, DRAWS, means.seed, straight=straight)
+    found = drawn(means.pool, row, DRAWS, means.seed, straight=straight)
     return _judged_by(means, archive, critical(archive.problem, *found, share))
 
 
@@ -41,7 +41,7 @@ def _judged_by(means: Means, archive: Archive, more: Collection[tuple[float, ...
     scenarios = tuple(sorted({*archive.scenarios, *more}))
     places = apart(archive.points, archive.ranked(0), KEPT)
     rows = [archive.row(place) for place in places]
-    values = means.crew.figures(rows, archive.problem.figures, uniforms=scenarios, each=2)
+    values = means.pool.figures(rows, archive.problem.figures, uniforms=scenarios, each=2)
     return replace(archive, points=archive.points[places], values=values, scenarios=scenarios)
 
 
@@ -78,5 +78,5 @@ def _searched_again(means: Means, archive: Archive) -> tuple[Archive, Design]:
 
 def _fresh_share(means: Means, design: Design, seed: int) -> tuple[Share, Array, Array]:
     """Return the share of fresh draws that meet the limits; their uniforms and figures."""
-    found = drawn(means.crew, design.values, JUDGED, seed, straight=False)
-    return judged(means.crew.problem, found[1]), *found
+    found = drawn(means.pool, design.values, JUDGED, seed, straight=False)
+    return judged(means.pool.problem, found[1]), *found

@@ -7,10 +7,10 @@ import numpy as np
 
 from ..scatter.design import make_design
 from ..scatter.estimates import probability_bounds
-from .crew import Crew
 from .design_problem import Problem
 from .designs import Array, Row
 from .under_scatter import sources_of
+from .worker_pool import WorkerPool
 
 DRAWS = 128  # about the best design of a round
 JUDGED = 512  # fresh ones, about the design that is found
@@ -29,23 +29,23 @@ class Share:
     """The figures wanted, at the quantile requested."""
 
 
-def drawn(crew: Crew, row: Row, n: int, seed: int, *, straight: bool) -> tuple[Array, Array]:
+def drawn(pool: WorkerPool, row: Row, n: int, seed: int, *, straight: bool) -> tuple[Array, Array]:
     """Return uniforms (n, sources) and the figures that count of draws about a design (n, m).
 
     ``straight``: by lines between two runs for each source; sources with choices are run in any
     case.
     """
-    scatter = sources_of(crew.designs, row)
+    scatter = sources_of(pool.designs, row)
     uniforms = make_design(n, len(scatter.sources), (), seed).a
     values = scatter.values(uniforms)
     if not straight or any(s.place.choices for s in scatter.sources):
-        return uniforms, crew.figures([{**row, **own} for own in values], crew.problem.figures)
+        return uniforms, pool.figures([{**row, **own} for own in values], pool.problem.figures)
     ends = {
         s.place.name: np.asarray(s.law.value(np.array(ENDS)), float).tolist()
         for s in scatter.sources
     }
     rows = [row, *({**row, name: x} for name, pair in ends.items() for x in pair)]
-    found = crew.figures(rows, crew.problem.figures, each=8)
+    found = pool.figures(rows, pool.problem.figures, each=8)
     moved = found[1:].reshape(len(ends), 2, -1)
     widths = np.array([[high - low] for low, high in ends.values()])
     nominal = {s.place.name: float(s.place.nominal) for s in scatter.sources}

@@ -20,7 +20,6 @@ from ..jobs.runner import Progress, check_workers
 from ..scatter.design import MOST_SEED
 from ..scatter.propagate import inputs_of, part_or_scene
 from .confirmation import AGAIN, MORE, active_bounds, best_design, costs_of, front_designs
-from .crew import Crew
 from .design_problem import Problem, read_problem
 from .designs import Designs, Effort
 from .front import knee
@@ -35,6 +34,7 @@ from .multistart import (
 )
 from .optimum import Design, Optimum
 from .robust_search import validated, with_critical_scenarios
+from .worker_pool import WorkerPool
 
 if TYPE_CHECKING:
     from ...shift.scene.scene import Scene
@@ -137,15 +137,15 @@ def optimise(
                 identity = _identity(designs, problem, points, seed)
                 journals.append(Journal(folder / name, identity, "search"))
         effort = designs.effort(problem.figures, len(problem.variables))
-        with Crew(
+        with WorkerPool(
             designs,
             problem,
             planned=_planned(problem, effort, points),
             workers=workers,
             journal=journals[-1] if journals else None,
             progress=progress,
-        ) as crew:
-            return search(Means(crew, effort, points, seed))
+        ) as pool:
+            return search(Means(pool, effort, points, seed))
 
     try:
         found = _searched_with_steps_that_do(designs, searched)
@@ -246,7 +246,7 @@ def _planned(problem: Problem, effort: Effort, points: int) -> int:
 
 def search(means: Means) -> Optimum:
     """Return what is found: a sample, rounds of local searches, what is shown solved again."""
-    crew, problem = means.crew, means.crew.problem
+    pool, problem = means.pool, means.pool.problem
     archive, start = sample_box(means)
     two, tops = len(problem.goals) == 2, list[float]()
     for number in range(means.effort.rounds + two):
@@ -263,22 +263,22 @@ def search(means: Means) -> Optimum:
         best = front[knee(costs_of(problem, front))]
     else:
         archive, best = best_design(means, archive)
-    share, warnings = None, crew.designs.warnings
+    share, warnings = None, pool.designs.warnings
     if problem.robust is not None:
         best, share, archive, more = validated(means, archive, best, problem.robust)
         warnings = (*warnings, *more)
     return Optimum(
-        target=crew.designs.name,
-        kind=crew.designs.kind,
+        target=pool.designs.name,
+        kind=pool.designs.kind,
         problem=problem,
         best=best,
         front=front,
         start=start,
         binding=active_bounds(archive, best),
-        tries=crew.tries,
+        tries=pool.tries,
         share=share,
         tried=archive.values[:, [problem.figures.index(g.figure.name) for g in problem.goals]],
         feasible=archive.violation <= 0.0,
         warnings=warnings,
-        notes=crew.designs.notes,
+        notes=pool.designs.notes,
     )

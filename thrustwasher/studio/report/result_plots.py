@@ -9,13 +9,13 @@ from ...errors import ParameterError
 from ...shift.account.shift_record import record_of
 from .model_plots import FIGURES
 from .model_plots.clutch_plot import engagement_figure
+from .model_plots.comparison_plot import comparison_figure
 from .model_plots.efficiency_plot import efficiency_figure
 from .model_plots.fit_plot import calibration_figure
 from .model_plots.optimum_plot import optimum_figure
-from .model_plots.rig_plot import rig_figure
 from .model_plots.sweep_plot import sweep_figure
 from .model_plots.trace_plot import trace_figure
-from .model_plots.washer_plots import course_figure, curve_figure
+from .model_plots.washer_plots import curve_figure, history_figure
 from .scatter.scatter_plots import study_figure
 from .scatter.study_page import main_figures
 from .shift.overview_plot import overview_figure
@@ -51,7 +51,7 @@ def _shift_figure(result: Any) -> Figure:
 FIGURE_OF: dict[str, Callable[[Any], Figure]] = {
     "AtPoint": _point_figure,
     "Calibration": calibration_figure,
-    "Comparison": rig_figure,
+    "Comparison": comparison_figure,
     "EfficiencyMap": efficiency_figure,
     "Engagement": engagement_figure,
     "LoadCurve": _load_figure,
@@ -62,7 +62,7 @@ FIGURE_OF: dict[str, Callable[[Any], Figure]] = {
     "SweepTable": sweep_figure,
     "TrainMap": efficiency_figure,
     "TraceCalibration": trace_figure,
-    "WasherHistory": course_figure,
+    "WasherHistory": history_figure,
 }
 
 

@@ -17,7 +17,7 @@ class WebWorker:
     script: str  # stem of its bundle, and of the module in ``explore/models`` that solves
     calls: Sequence[str]  # kernels that it calls
     layout: Mapping[str, float]  # numbers of the kernels' layout
-    rungs: Mapping[str, Mapping[str, Any]]  # that can be chosen, with what it needs of each
+    levels: Mapping[str, Mapping[str, Any]]  # that can be chosen, with what it needs of each
     more: Mapping[str, Any] = field(default_factory=dict)  # that the model's own script reads
 
     def data(self, spec: ModelSpec) -> dict[str, Any]:
@@ -25,7 +25,7 @@ class WebWorker:
         return {
             "functions": web_functions(spec.kernel, self.calls),
             "layout": self.layout,
-            "rungs": self.rungs,
+            "levels": self.levels,
             "real_outputs": spec.real_outputs,
             "statuses": {int(s): s.advice for s in Status},
             "first_failure": FIRST_FAILURE,

@@ -15,11 +15,11 @@ from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status, suggest
 from ...face_load import FACE_LOADS, Face, face_loads
 from ...ladder.error_table import QUANTITIES, error_estimate
 from ...model.advice import quantity_text
+from ...model.levels import level_named
 from ...model.part_file import PartFile
 from ...model.point import point_of
 from ...model.prepare import filled, tables_of
 from ...model.registry import find_model, kernel_of
-from ...model.rungs import rung_named
 from ...model.scatter import Scatter
 from ...model.spec import Signal
 from ...units import format_quantity
@@ -30,7 +30,7 @@ from .target import Array, Figure, Flags
 LOST = "film_lost"
 REASONS = ("parameters that do not go together", "not converged")
 REFUSED, NOT_CONVERGED = 1, 2
-OTHER_RUNG = (
+OTHER_LEVEL = (
     "fidelity = {!r} answers for the part's own parameters alone: solved with {!r}, as "
     "parameters scatter"
 )
@@ -240,11 +240,11 @@ def part_target(
     for name in inputs:
         if name not in own:
             raise ParameterError(f"inputs: {name!r}, allowed: {', '.join(own)}")
-    rung = rung_named(spec, part.fidelity)
-    solver, warnings = rung, tuple[str, ...]()
-    if tables_of(spec, rung) and set(scatter.names) - set(own):
+    level = level_named(spec, part.fidelity)
+    solver, warnings = level, tuple[str, ...]()
+    if tables_of(spec, level) and set(scatter.names) - set(own):
         solver = spec.default_fidelity
-        warnings = (OTHER_RUNG.format(rung, solver),)
+        warnings = (OTHER_LEVEL.format(level, solver),)
     absent, least = spec.absent(part.params), model.sweep.least
     figures = {
         s.name: Figure(

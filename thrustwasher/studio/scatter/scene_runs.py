@@ -92,8 +92,8 @@ def followed(part: Part, name: str, time: Array, signals: Signals, more: Sequenc
     """
     rows = np.column_stack([signals[f"{name}.{s.name}"] for s in SPEC.inputs])
     places = sorted({*_instants(time, rows), *more})
-    rung = "field" if part.fidelity == "map" else part.fidelity
-    follower = Follower(part.params, GRIDS[rung])
+    level = "field" if part.fidelity == "map" else part.fidelity
+    follower = Follower(part.params, GRIDS[level])
     values, lost, before = np.empty((len(places), len(follower.out))), np.zeros(len(places)), 0
     for k, i in enumerate(places):
         duration = float(time[i] - time[before])

@@ -41,7 +41,7 @@ from ...shift.scene.places import scene_scatter
 from ...shift.scene.scene import Part, Scene
 from ...shift.scene.variation import varied_scene
 from ...shift.shift_result import ShiftResult
-from ...shift.tolerance.run_to_tolerance import run_auto, with_rungs
+from ...shift.tolerance.run_to_tolerance import run_auto, with_levels
 from ...washer.solve import solve_washer
 from .scene_figures import (
     LOST,
@@ -129,7 +129,7 @@ class SceneTarget:
         own = json.dumps([scene.table, values], sort_keys=True)
         return {
             "scene": f"{scene.name} {hashlib.sha256(own.encode()).hexdigest()[:16]}",
-            "rungs": ", ".join(f"{n} {p.fidelity}" for n, p in scene.parts.items()),
+            "levels": ", ".join(f"{n} {p.fidelity}" for n, p in scene.parts.items()),
             "figures": ", ".join(f.name for f in self.figures),
             "series": ", ".join(self.series),
             "washers": "apart" if self.played else "in the loop",
@@ -309,7 +309,7 @@ def scene_target(
             scene = run_auto(scene, make, guard=False).scene
         # A map is for one set of parameters.
         maps = {n: "field" for n in DIRECT if n in scene.parts and scene.parts[n].fidelity == "map"}
-        scene = with_rungs(scene, maps)
+        scene = with_levels(scene, maps)
         instances = {name: make(name, part) for name, part in scene.parts.items()}
         nominal = cosimulate(scene, instances)
         errors = {}

@@ -12,7 +12,7 @@ from ...processes import refuse_import_by_worker
 from ...storage.journal import Journal
 from ..jobs.rows import Rows
 from ..jobs.runner import Progress, Runner, Work, check_workers
-from .solve_rows import Task, check_rung, output_signals, solve_task
+from .solve_rows import Task, check_level, output_signals, solve_task
 from .sweep_plan import Plan, make_plan
 from .sweep_table import SweepTable, check_output, make_table, pieces, write_table
 
@@ -82,7 +82,7 @@ def run_sweep(
     target = None if out is None else check_output(out)
     plan = make_plan(model, over or {}, at or {}, points, params, fidelity)
     if len(plan.params) == 1:
-        check_rung(plan.spec, plan.fidelity, plan.params[0])
+        check_level(plan.spec, plan.fidelity, plan.params[0])
     real, whole = output_signals(plan.spec)
     n = plan.n_rows if keep or not target else 0
     kept = np.full((n, len(real)), np.nan), np.zeros((n, len(whole)), np.int32)

@@ -119,7 +119,7 @@ def _filled_work(model: str, fidelity: str | None, params: object, _thread: int)
     return work
 
 
-def check_rung(spec: ModelSpec, fidelity: str, params: object) -> None:
+def check_level(spec: ModelSpec, fidelity: str, params: object) -> None:
     """Raise ParameterError if a level lacks what it needs for the first parameters of a sweep."""
     if not find_model(spec.key).sweep.walk and params is not None:
         _work(spec, fidelity, params, _constants(spec.key, fidelity, params))

@@ -10,15 +10,15 @@ from numpy.typing import NDArray
 
 from ...errors import ParameterError
 from ...ladder import choose as chooser
-from ...ladder.compare_rungs import rows_to_compare
+from ...ladder.compare_levels import rows_to_compare
 from ...model.advice import quantity_text, range_text
 from ...model.idle import idle_warnings
+from ...model.levels import level_named
 from ...model.oil import oil_doubts
 from ...model.parameters import params_of
 from ...model.part_file import PartFile, find_part
 from ...model.point import from_box, taken_text
 from ...model.registry import find_model, spec_of
-from ...model.rungs import rung_named
 from ...model.spec import ModelSpec
 from ...settings import Place, find_place, places
 from .axes import MOST_POINTS, Axis, read_axis
@@ -65,7 +65,7 @@ def make_plan(
     spec, params = spec_of(part.spec.key), part.params if params is None else params
     known = places(spec)
     asked = part.fidelity if fidelity is None else fidelity
-    rung, tolerance = chooser.rung_and_tolerance(spec.key, spec, asked)
+    level, tolerance = chooser.level_and_tolerance(spec.key, spec, asked)
     base = params_of(spec, params)
     held = _held(at, known, spec)
     axes = [read_axis(name, values, known, spec) for name, values in over.items()]
@@ -79,7 +79,7 @@ def make_plan(
     twice = [name for name in given if given.count(name) > 1]
     if twice:
         raise ParameterError(f"{twice[0]}: is given twice, allowed: varied or held, once")
-    plan = _assemble(part, rung, base, held, rows, lines, [known[name] for name in order])
+    plan = _assemble(part, level, base, held, rows, lines, [known[name] for name in order])
     return plan if tolerance is None else _chosen(plan, tolerance)
 
 
@@ -211,16 +211,16 @@ def _assemble(
     for name in varied:
         shown[name] = rows[name]
         units[name] = next(p.unit for p in order if p.name == name)
-    rung = rung_named(spec, fidelity)
+    level = level_named(spec, fidelity)
     warnings = (
         *_idle(params, fidelity, spec.key),
         *_of_oil(part, params, inputs),
         *_outside(part, inputs),
-        *_doubt(spec, rung, params, np.repeat(params_of, np.diff(starts)), inputs),
+        *_doubt(spec, level, params, np.repeat(params_of, np.diff(starts)), inputs),
     )
     rows_and_lines = inputs, shown, units, starts, params, params_of
     taken = taken_text(box, default, spec.inputs)
-    plan = Plan(spec, rung, *rows_and_lines, taken=taken, warnings=warnings)
+    plan = Plan(spec, level, *rows_and_lines, taken=taken, warnings=warnings)
     plan.identity.update(_identity(plan, base, fixed, varied))
     return plan
 

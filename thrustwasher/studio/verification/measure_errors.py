@@ -5,14 +5,14 @@ from datetime import UTC, datetime
 from typing import Any
 
 from ...errors import ParameterError
-from ...ladder.choose import rungs_of
+from ...ladder.choose import levels_of
 from ...ladder.error_table import (
     OWN,
     VERIFY,
     Axis,
     Box,
     ErrorTable,
-    RungErrors,
+    LevelErrors,
     forget,
     own_folder,
     sources_of,
@@ -67,7 +67,7 @@ def measured(case: Case, n: int, show: Show, run: Run = run_here) -> ErrorTable:
     """Return the errors of a case's levels at ``n`` random points of its box."""
     spec, params, source = case.spec, case.params, SOURCES[case.spec.key]
     known = reference_points(case, source, n, lambda k: show(k, n), run)
-    rungs = [rung_errors(case, rung, known) for rung in rungs_of(spec, params)]
+    levels = [level_errors(case, level, known) for level in levels_of(spec, params)]
     around = surroundings(VERIFY)
     machine, package = around["machine"], around["package"]
     return ErrorTable(
@@ -79,28 +79,28 @@ def measured(case: Case, n: int, show: Show, run: Run = run_here) -> ErrorTable:
         package["version"],
         f"{machine['cpu']}, {machine['cores']} cores",
         source.routes,
-        tuple(rungs),
+        tuple(levels),
     )
 
 
-def rung_errors(case: Case, rung: str, known: Sequence[ReferencePoint]) -> RungErrors:
+def level_errors(case: Case, level: str, known: Sequence[ReferencePoint]) -> LevelErrors:
     """Return the errors of one level next to reference values, in what of the box it covers."""
-    key, files = case.spec.key, _files(case, rung)
-    box = _covered(case, rung)
+    key, files = case.spec.key, _files(case, level)
+    box = _covered(case, level)
     inside = [t for t in known if all(a.min <= t.point[n] <= a.max for n, a in box.items())]
     charts, calls = [], [0.0]
     for name in dict.fromkeys(t.chart for t in inside if not t.beside_fold):
         mine = [t for t in inside if t.chart == name]
-        pairs = [(t, answer(key, case.params, rung, t)) for t in mine]
+        pairs = [(t, answer(key, case.params, level, t)) for t in mine]
         charts.append(chart_of(name, pairs, box))
-        calls.append(call_cost(case.spec, case.params, rung, mine))
+        calls.append(call_cost(case.spec, case.params, level, mine))
     call = float(f"{max(calls):.3g}")
-    return RungErrors(rung, sources_of(key, rung, files), files, call, dict(box), tuple(charts))
+    return LevelErrors(level, sources_of(key, level, files), files, call, dict(box), tuple(charts))
 
 
-def _covered(case: Case, rung: str) -> dict[str, Axis]:
+def _covered(case: Case, level: str) -> dict[str, Axis]:
     """Return the part of a case's box that a level covers: a map may cover less."""
-    tables = tables_of(case.spec, rung)
+    tables = tables_of(case.spec, level)
     spans = tables.box(case.params) if tables else {}
     found = {}
     for name, axis in case.box.items():
@@ -115,9 +115,9 @@ def _covered(case: Case, rung: str) -> dict[str, Axis]:
     return found
 
 
-def _files(case: Case, rung: str) -> tuple[str, ...]:
+def _files(case: Case, level: str) -> tuple[str, ...]:
     """Return the file that a level looks its answers up in, as its digest names it."""
-    tables, home = tables_of(case.spec, rung), DATA.resolve()
+    tables, home = tables_of(case.spec, level), DATA.resolve()
     if tables is None:
         return ()
     path = tables.find(case.params).path
@@ -125,7 +125,7 @@ def _files(case: Case, rung: str) -> tuple[str, ...]:
         return (path.relative_to(home).as_posix(),)
     if not case.name.startswith(OWN):
         raise ParameterError(
-            f"{rung} for the {case.name} parameters = {path}, allowed: one that is shipped; a "
+            f"{level} for the {case.name} parameters = {path}, allowed: one that is shipped; a "
             "table speaks for a file below thrustwasher/data"
         )
     return (path.as_posix(),)

@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...clutch.course import outputs_over
 from ...clutch.engagement import engage_clutch
 from ...clutch.kernels import advance, pack_outputs
 from ...clutch.kernels import layout as k
 from ...clutch.kernels import rates as clutch_rates
 from ...clutch.kernels.constants import derive_rings
 from ...clutch.parameters import ClutchParams
+from ...clutch.profile import outputs_over
 from ...clutch.solve import prepare, solve_clutch, steady_pack
 from ...errors import ParameterError, SolveError, Status
 from ...ladder.error_table import QUANTITIES

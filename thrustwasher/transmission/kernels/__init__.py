@@ -6,7 +6,7 @@
 ``thrust_bearings``         what the bearings of sun and ring take from their shafts
 ``stick_slip``              which modes are consistent, and when they end
 ``integrate_step``          intervals of smooth motion between the instants where something changes
-``piston``                  courses of pressure, filling, lag, centrifugal head
+``piston``                  profiles of pressure, filling, lag, centrifugal head
 ``shift_figures``           what a finished shift is judged by: lock-up, jerk, flare, torque hole
 ``directional_derivative``  how the outputs change with the inputs: exact, modes as they are
 ``step``                    one co-simulation step: received torques in, speeds and loads out

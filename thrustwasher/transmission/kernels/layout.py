@@ -26,7 +26,7 @@ P_ENGINE_TORQUE_1 = 119
 P_FIDELITY, N_PARAM = range(129, 131)
 # end of places
 N_BEARING = 4  # parameters of a bearing
-# From P_CLUTCH_PISTON_AREA on: N_OWN of the clutch's piston, as many of the brake's, three courses.
+# From P_CLUTCH_PISTON_AREA on: N_OWN of the clutch's piston, as many of the brake's, 3 profiles.
 OWN_SPRING, OWN_VOLUME, OWN_FLOW, OWN_LAG, N_OWN = range(1, 6)
 MAX_POINTS = 10
 N_PROFILE = 1 + 2 * MAX_POINTS  # number of points, their times, their values

@@ -1,5 +1,5 @@
 # mypy: disable-error-code="no-any-return"
-"""The pistons that press the packs: courses of pressure, filling, lag, centrifugal head.
+"""The pistons that press the packs: profiles of pressure, filling, lag, centrifugal head.
 
 Oil fills the piston's chamber with a given flow while the commanded pressure is above that of the
 return spring, and leaves it as fast below. Until it is full the piston is on its way: pressure is

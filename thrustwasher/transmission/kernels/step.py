@@ -11,8 +11,8 @@ import math
 import numpy as np
 
 from ...numerics.arrays import are_finite, clear, copy
-from ...numerics.courses import rate_of, value_at
 from ...numerics.jit import Array, Ints, kernel
+from ...numerics.profiles import rate_of, value_at
 from ...numerics.status import BAD_INPUT, NOT_FINITE, OK, STALLED
 from ...numerics.step_size import advised_step
 from . import dynamics, piston

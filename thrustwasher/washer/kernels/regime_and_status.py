@@ -1,5 +1,5 @@
 # mypy: disable-error-code="no-any-return"
-"""What every rung of the washer makes of parameters and inputs, and what it says of its result."""
+"""What every level of the washer makes of parameters and inputs, and what it says of its result."""
 
 import math
 

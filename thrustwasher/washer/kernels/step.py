@@ -1,6 +1,6 @@
 """The washer behind the step ABI (see the package's docstring).
 
-The map is a look-up; the other rungs are one kernel on meshes.
+The map is a look-up; the other levels are one kernel on meshes.
 """
 
 from ...numerics.arrays import clear, copy

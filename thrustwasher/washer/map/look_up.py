@@ -22,7 +22,15 @@ from ..kernels.map.map_step import N_MAP_WORK, NOT_HERE, look_up
 from ..kernels.regime_and_status import LARGEST_RISE, LEAST_TILT
 from ..kernels.workspace import Point
 from ..parameters import SPEC, WasherParams
-from ..washer_result import BRANCH_NAMES, BRANCHES, BY_CARD, Fold, Inputs, WasherResult, result_of
+from ..washer_result import (
+    BRANCH_NAMES,
+    BRANCHES,
+    FROM_TABLES,
+    Fold,
+    Inputs,
+    WasherResult,
+    result_of,
+)
 from . import map_file
 from .map_plan import INPUTS
 
@@ -78,7 +86,7 @@ class WasherMap:
 
     def __init__(self, params: WasherParams, path: str | os.PathLike[str] | None = None) -> None:
         self.params, self.file = params, map_for(params, path)
-        self.data, self.card = self.file.data, self.file.card
+        self.data, self.metadata = self.file.data, self.file.metadata
         self._own = _Memory(self.data)
 
     @property
@@ -230,7 +238,18 @@ def solve_by_map(
             numbers = _at_given_speed(numbers, point[1])
     state[L.S_MAP_BRANCH], state[L.S_MAP_RATIO] = before, ratio
     found = result_of(
-        params, point, numbers, tilts, name, lost, Status(status), 0, "map", NO_MESH, BY_CARD, state
+        params,
+        point,
+        numbers,
+        tilts,
+        name,
+        lost,
+        Status(status),
+        0,
+        "map",
+        NO_MESH,
+        FROM_TABLES,
+        state,
     )
     return told_outside(found, f"{beyond}: {HELD}") if beyond else found
 

@@ -61,10 +61,10 @@ def map_alone(spec: ModelSpec) -> ModelSpec:
         kernel=KERNEL,
         rules=(),
         counted=tuple,
-        course=tuple(row[: 1 + len(inputs)] for row in spec.course),
+        profile=tuple(row[: 1 + len(inputs)] for row in spec.profile),
         table_of=params,
     )
     own = {f.name: getattr(params, f.name) for f in fields(MapParams)}
     if own["outside_map"] == "solve":
         del own["outside_map"]
-    return tailored(made, own, {}, course=made.course, kind=spec.kind)
+    return tailored(made, own, {}, profile=made.profile, kind=spec.kind)

@@ -84,20 +84,20 @@ def make_map(
         why = str(problem)
     except _MissedError as problem:
         if not raised:
-            raise SolveError(_too_coarse(problem.card)) from None
-        why = f"the map is {problem.card['held_out']['torque']:.1%} off"
+            raise SolveError(_too_coarse(problem.metadata)) from None
+        why = f"the map is {problem.metadata['held_out']['torque']:.1%} off"
     try:
         return made("fine", raised=False, lines=f"{why}: all lines on the finer mesh,")
     except _MissedError as problem:
-        raise SolveError(_too_coarse(problem.card)) from None
+        raise SolveError(_too_coarse(problem.metadata)) from None
 
 
 class _MissedError(Exception):
     """A held-out point misses the tolerance; the file is not written."""
 
-    def __init__(self, card: dict[str, Any]) -> None:
+    def __init__(self, metadata: dict[str, Any]) -> None:
         super().__init__()
-        self.card = card
+        self.metadata = metadata
 
 
 def _made(
@@ -136,36 +136,36 @@ def _made(
                 numbers = data[L.DATA :].reshape(-1, plan.line)
                 numbers += np.round(change.lines / DIGIT) * DIGIT
                 data[L.IDENTITY] = identity_of(data)
-            card = _card(plan, fidelity, change, time.perf_counter() - began, workers)
-            draft.write_bytes(pack(data, card))
+            metadata = _metadata(plan, fidelity, change, time.perf_counter() - began, workers)
+            draft.write_bytes(pack(data, metadata))
             shown = show("held-out points")
-            grid = mesh_of(card)
+            grid = mesh_of(metadata)
             verdict = check_map(
                 plan.params, str(draft), grid=grid, run=run, points=points, progress=shown
             )
-            card["held_out"] = asdict(verdict)
-            if must and _missed(card):
-                raise _MissedError(card)
-            draft.write_bytes(pack(data, card))
+            metadata["held_out"] = asdict(verdict)
+            if must and _missed(metadata):
+                raise _MissedError(metadata)
+            draft.write_bytes(pack(data, metadata))
         finished = True
     except (SolveError, _MissedError):
         finished = True  # the same again would end here again
         raise
     finally:
         journal.close(finished=finished)
-    return card
+    return metadata
 
 
-def _missed(card: dict[str, Any]) -> bool:
-    return bool(card["held_out"]["torque"] > card["tolerance"])
+def _missed(metadata: dict[str, Any]) -> bool:
+    return bool(metadata["held_out"]["torque"] > metadata["tolerance"])
 
 
-def _too_coarse(card: dict[str, Any]) -> str:
-    held, units = card["held_out"], {s.name: s.unit for s in SPEC.inputs}
+def _too_coarse(metadata: dict[str, Any]) -> str:
+    held, units = metadata["held_out"], {s.name: s.unit for s in SPEC.inputs}
     where = ", ".join(f"{n} = {x:.4g} {units[n]}" for n, x in held["worst"].items())
     return (
         f"map: its torque is {held['torque']:.2%} off at {where}; required: "
-        f"{card['tolerance']:.2%}. Leave that out of the box, or ask for "
+        f"{metadata['tolerance']:.2%}. Leave that out of the box, or ask for "
         f"{1.1 * held['torque']:.1g} (--tol)"
     )
 
@@ -282,7 +282,7 @@ def find_reach(plan: MapPlan) -> float:
     return 1.05 * largest
 
 
-def _card(
+def _metadata(
     plan: MapPlan, fidelity: str, change: Change | None, took: float, workers: int
 ) -> dict[str, Any]:
     """Return a map's metadata; ``change`` is what a finer mesh added."""

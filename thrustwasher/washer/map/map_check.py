@@ -94,9 +94,9 @@ def check_map(
     )
 
 
-def mesh_of(card: dict[str, Any]) -> tuple[int, int]:
+def mesh_of(metadata: dict[str, Any]) -> tuple[int, int]:
     """Return the mesh that a map with this metadata stands for."""
-    n_r, n_t = card.get("checked_on") or GRIDS[card["built_from"]]
+    n_r, n_t = metadata.get("checked_on") or GRIDS[metadata["built_from"]]
     return int(n_r), int(n_t)
 
 

@@ -30,7 +30,7 @@ from .map_plan import pieces_at
 
 SHIPPED = DATA / "maps"
 SUFFIX = ".twm"
-NUMBERS, CARD = "map.f32", "card.json"
+NUMBERS, METADATA = "map.f32", "card.json"
 VARIABLE = "THRUSTWASHER_MAPS"
 MOST_KEPT = 50  # your own maps, about half a megabyte each
 LARGEST = 64e6  # bytes of numbers; more is no map of ours
@@ -38,11 +38,11 @@ LARGEST = 64e6  # bytes of numbers; more is no map of ours
 
 @dataclass(frozen=True, slots=True)
 class MapFile:
-    """A map as read: ``data`` as the kernels take it (read only), ``card`` as a dictionary."""
+    """A map as read: ``data`` as the kernels take it (read only), ``metadata`` as a dictionary."""
 
     path: Path
     data: Array
-    card: dict[str, Any]
+    metadata: dict[str, Any]
 
     def made_for(self, numbers: Sequence[float]) -> bool:
         """Tell if the map was made for these parameters, in the order of the dataclass."""
@@ -50,9 +50,9 @@ class MapFile:
         return tuple(self.data[L.PARAMS :][: len(steady)].tolist()) == steady
 
 
-def pack(data: Array, card: dict[str, Any]) -> bytes:
+def pack(data: Array, metadata: dict[str, Any]) -> bytes:
     """Return the bytes of a map file; the same for the same contents."""
-    return zipped({CARD: json.dumps(card, indent=1).encode(), NUMBERS: _bytes(data)})
+    return zipped({METADATA: json.dumps(metadata, indent=1).encode(), NUMBERS: _bytes(data)})
 
 
 def plain(file: MapFile) -> bytes:
@@ -106,14 +106,14 @@ def _read(path: str, _stamp: tuple[int, ...]) -> MapFile:
         with zipfile.ZipFile(path) as archive:
             if archive.getinfo(NUMBERS).file_size > LARGEST:
                 raise ValueError("the map is larger than any map is")
-            data, card = unpack(archive.read(NUMBERS)), json.loads(archive.read(CARD))
-        if not isinstance(card, dict):
+            data, metadata = unpack(archive.read(NUMBERS)), json.loads(archive.read(METADATA))
+        if not isinstance(metadata, dict):
             raise ValueError("its metadata is no JSON object")
     except (OSError, *DAMAGED) as problem:
         raise ParameterError(
             f"map = {path!r}: {problem}; allowed: a file written by `thrustwasher map build`"
         ) from None
-    return MapFile(Path(path), data, card)
+    return MapFile(Path(path), data, metadata)
 
 
 def read_map(path: str | os.PathLike[str]) -> MapFile:

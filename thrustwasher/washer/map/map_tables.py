@@ -45,7 +45,7 @@ def kept_maps() -> str:
 
 
 TABLES = Tables(
-    rung="map",
+    level="map",
     paths=map_file.map_paths,
     readable=map_file.all_maps,
     find=map_for,

@@ -22,7 +22,7 @@ RISES = {"constant": (1.0, 1.0), "ramp": (1.1, 2.0), "short ramp": (0.1, 0.6), "
 
 
 @dataclass(frozen=True)
-class Course:
+class Profile:
     """Capacity over time: `low` until `start`, then to `top` within `rise`, straight or soft."""
 
     top: float
@@ -55,7 +55,7 @@ class Case:
     speed: float  # at the start: momentum / sum of the inertias
     host: float  # the nominal step
     steps: list[float]
-    course: Course
+    profile: Profile
     torque1: list[float]  # outside torques over each step
     torque2: list[float]
     loads: list[float]
@@ -153,17 +153,17 @@ def slide(case, torques, n=0, slip=0.0):
 
 
 def exact(case: Case) -> Exact:
-    """The first lock, by the case's course of capacity (loads: its values at step starts)."""
+    """The first lock, by the case's profile of capacity (loads: its values at step starts)."""
     sign, d, edges = math.copysign(1.0, case.slip), case.delay, case.times
     before = np.concatenate([[0.0], np.cumsum(case.holding * case.steps)]) / case.inertia
 
     def slip(t, n):
         change = float(before[n]) + case.outside(n, t - edges[n])[0]
-        return case.slip + change - sign * case.course.filled(t) / case.inertia
+        return case.slip + change - sign * case.profile.filled(t) / case.inertia
 
     n = next(n for n in range(len(case.steps)) if sign * slip(edges[n + 1], n) <= 0.0)
     instant = root(lambda t: slip(t, n), edges[n], edges[n + 1])
-    kinks = [case.course.start, case.course.start + case.course.rise]
+    kinks = [case.profile.start, case.profile.start + case.profile.rise]
     cuts = sorted({*edges[: n + 1], instant, *(t for t in kinks if 0.0 < t < instant)})
     nodes, weights = (part.tolist() for part in np.polynomial.legendre.leggauss(5))
     work, k = 0.0, 0
@@ -171,7 +171,7 @@ def exact(case: Case) -> Exact:
         k += begin >= edges[k + 1]
         for x, w in zip(nodes, weights, strict=True):
             t = begin + 0.5 * (end - begin) * (1.0 + x)
-            work += 0.5 * (end - begin) * w * sign * case.course.at(t) * slip(t, k)
+            work += 0.5 * (end - begin) * w * sign * case.profile.at(t) * slip(t, k)
     capacity = [sign * case.gain * load for load in case.loads]
     late = slide(case, lambda m: capacity[m - d] if m >= d else 0.0, 0, case.slip)
     return Exact(instant, late[0], float(case.holding[n]), work, late[1])
@@ -198,10 +198,10 @@ def log_uniform(rng, low, high):
     return float(math.exp(rng.uniform(math.log(low), math.log(high))))
 
 
-def make_course(rng, shape, slip_time):
-    """A course with top 1 whose rise suits the time the slip lasts."""
+def make_profile(rng, shape, slip_time):
+    """A profile with top 1 whose rise suits the time the slip lasts."""
     rise = slip_time * float(rng.uniform(*RISES[shape]))
-    return Course(1.0, float(shape == "constant"), 0.0, rise, shape == "soft")
+    return Profile(1.0, float(shape == "constant"), 0.0, rise, shape == "soft")
 
 
 def make_steps(rng, host, time, tail, vary):
@@ -225,7 +225,7 @@ def two_inertias(
         j1, j2 = log_uniform(rng, 1e-3, 1e2), log_uniform(rng, 1e-3, 1e2)
         host, count = log_uniform(rng, 1e-4, 1e-2), log_uniform(rng, 12.0, 400.0)
         first, time, j = log_uniform(rng, 3.0, 400.0), host * count, j1 * j2 / (j1 + j2)
-        unit = make_course(rng, shape or str(rng.choice(SHAPES)), time)
+        unit = make_profile(rng, shape or str(rng.choice(SHAPES)), time)
         rate, phase = 1.0 / (host * log_uniform(rng, 20.0, 400.0)), float(rng.uniform(0.0, 6.3))
         share = swing if felt else swing * j2 / (j1 + j2)
         need = float(rng.uniform(share - 0.8, 0.8 - share))
@@ -238,10 +238,10 @@ def two_inertias(
             if np.all(slowed[:-1] < slowed[-1]):
                 break
     sign = float(rng.choice([-1.0, 1.0]))
-    course = replace(
+    profile = replace(
         unit, top=first * j / float(slowed[-1]), low=unit.low * first * j / float(slowed[-1])
     )
-    lock, split = course.at(time), float(rng.uniform(-0.5, 1.5))
+    lock, split = profile.at(time), float(rng.uniform(-0.5, 1.5))
     steps = make_steps(rng, host, time, tail, vary)
     starts = [0.0, *np.cumsum(steps[:-1]).tolist()]
     return Case(
@@ -251,10 +251,10 @@ def two_inertias(
         float(rng.uniform(-300.0, 300.0)),
         host,
         steps,
-        course,
+        profile,
         [sign * need * lock / j * split * j1] * len(steps),
         [sign * need * lock / j * (split - 1.0) * j2] * len(steps),
-        [course.at(x) / 0.04 for x in starts],
+        [profile.at(x) / 0.04 for x in starts],
         int(rng.integers(3)) if delay is None else delay,
         swing=sign * share * lock / j * j1,
         rate=rate,
@@ -273,7 +273,7 @@ def outside_steps(seed: int, delay=None) -> Case:
     case, rng = two_inertias(seed, "constant", delay, tail=900), np.random.default_rng([seed, 1])
     first = len(case.steps) - 840
     marks = (first, first + 100, first + 100 + int(rng.integers(10, 60)))
-    side, top = rng.choice([-1.0, 1.0]), case.course.top
+    side, top = rng.choice([-1.0, 1.0]), case.profile.top
     levels = rng.uniform(-0.8, 0.8), side * rng.uniform(1.3, 2.0), rng.uniform(-0.8, 0.8)
     torque1, now = list(case.torque1), case.holding[0]
     for mark, end, level in zip(marks, (*marks[1:], len(torque1)), levels, strict=True):

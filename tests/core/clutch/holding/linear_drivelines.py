@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from drivelines import SHAPES, Course, log_uniform, make_course, root
+from drivelines import SHAPES, Profile, log_uniform, make_profile, root
 from runs import Run, as_run
 
 
@@ -41,14 +41,14 @@ def propagator(system, inputs, tau):
 
 @dataclass(frozen=True)
 class Linear:
-    """A driveline; `courses`, `slips` and the columns of `packs` are one for each pack."""
+    """A driveline; `profiles`, `slips` and the columns of `packs` are one for each pack."""
 
     system: np.ndarray
     packs: np.ndarray
     outside: np.ndarray
     slips: np.ndarray
     start: np.ndarray
-    courses: tuple[Course, ...]
+    profiles: tuple[Profile, ...]
     host: float
     count: int
     delay: int
@@ -73,7 +73,7 @@ def run_linear(case: Linear, units) -> list[Run]:
     x, works, rows, states = case.start, [0.0] * len(units), [array("d") for _ in units], []
     for n in range(case.count):
         seen, t = (case.slips @ x).tolist(), n * case.host
-        loads = [course.at(t) / case.gain for course in case.courses]
+        loads = [profile.at(t) / case.gain for profile in case.profiles]
         given = [float(u.step(s, case.host, f)) for u, s, f in zip(units, seen, loads, strict=True)]
         waiting.append(given)
         acting = waiting.popleft()
@@ -133,7 +133,7 @@ class Coulomb:
 
     @cached_property
     def scale(self):
-        return max(max(course.top, course.low) for course in self.case.courses)
+        return max(max(profile.top, profile.low) for profile in self.case.profiles)
 
     def both(self, capacities):
         return np.concatenate([self.x, self.signs * capacities, [1.0]])
@@ -195,12 +195,12 @@ def coulomb(case: Linear, substeps=1) -> tuple[list[Run], list]:
     With one substep the capacity is held over each step, as a sampled load is; with more, it is
     that at the middle of each substep.  `acting` is the mean over the step.
     """
-    ideal, rows, states = Coulomb(case, substeps), [array("d") for _ in case.courses], []
+    ideal, rows, states = Coulomb(case, substeps), [array("d") for _ in case.profiles], []
     for n in range(case.count):
         before = ideal.impulses.copy()
         for k in range(substeps):
             t = (n + (k + 0.5 if substeps > 1 else 0.0) / substeps) * case.host
-            capacities = np.array([course.at(t) for course in case.courses])
+            capacities = np.array([profile.at(t) for profile in case.profiles])
             for _ in range(ideal.pieces):
                 ideal.advance(capacities)
         means, slips = (ideal.impulses - before) / case.host, case.slips @ ideal.x
@@ -226,7 +226,7 @@ def elastic(seed, frequency, host=None, shape=None, delay=None, damping=0.02, ta
     k, c = omega * omega / free, 2.0 * damping * omega / free
     host = host or log_uniform(rng, 1e-4, min(1e-2, 0.05 / frequency))
     time = host * log_uniform(rng, 40.0, 400.0)
-    unit = make_course(rng, shape or str(rng.choice(SHAPES)), time)
+    unit = make_profile(rng, shape or str(rng.choice(SHAPES)), time)
     filled, lock = unit.filled(time), unit.at(time)
     need, split = float(rng.uniform(-0.5, 0.5 * filled / lock / time)), rng.uniform(-0.5, 1.5)
     reduced = 1.0 / (1.0 / j1 + 1.0 / (jn + j2))
@@ -291,9 +291,9 @@ def handover(seed, delay=None, ratios=(3.0, 1.8), tail=200) -> Linear:
         if held > 0.0 and 1e-4 <= host <= 1e-2:
             break
     rise = host * float(rng.uniform(30.0, 150.0))
-    filling = Course(top, 0.0, 20.0 * host, rise)
+    filling = Profile(top, 0.0, 20.0 * host, rise)
     begin = 20.0 * host + rise * float(rng.uniform(0.7, 1.0)) * taken / top
-    freed = Course(0.0, held * float(rng.uniform(1.3, 2.0)), begin, host * rng.uniform(5.0, 20.0))
+    freed = Profile(0.0, held * float(rng.uniform(1.3, 2.0)), begin, host * rng.uniform(5.0, 20.0))
     return Linear(
         np.zeros((2, 2)),
         packs,

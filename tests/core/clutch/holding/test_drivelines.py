@@ -92,7 +92,7 @@ def beginning(case):
 
 def full(case):
     """The capacity of the case against its slip."""
-    return lambda t: math.copysign(case.course.at(t), case.slip)
+    return lambda t: math.copysign(case.profile.at(t), case.slip)
 
 
 def constant(torque):
@@ -129,7 +129,7 @@ def test_steps_are_those_of_the_equations(delay, swing):
         case = two_inertias(seed, delay=delay, vary=seed > 1, swing=swing, felt=True, tail=10)
         case = replace(case, speed=0.0)
         rng = np.random.default_rng(seed)
-        scale = case.course.top
+        scale = case.profile.top
         given = (scale * rng.uniform(-1.0, 1.0, len(case.steps))).tolist()
         done = run(case, Given(given))
         assert np.array_equal(done.acting, [0.0] * delay + given[: len(given) - delay])
@@ -180,7 +180,7 @@ def test_cases_are_those_asked_for():
     assert 1e-2 <= min(ratios) < 0.05 and 20.0 < max(ratios) <= 1e2
     shares = np.array(
         [
-            a.holding / c.course.at(a.instant) * math.copysign(1.0, c.slip)
+            a.holding / c.profile.at(a.instant) * math.copysign(1.0, c.slip)
             for a, c in zip(answers, cases, strict=True)
         ]
     )
@@ -198,7 +198,7 @@ def test_swing_stays_within_capacity():
         case = two_inertias(seed, swing=1.0 / 3.0, felt=seed % 2 == 1)
         answer = exact(case)
         after = np.array(case.times[:-1]) > answer.instant
-        lock = case.course.at(answer.instant)
+        lock = case.profile.at(answer.instant)
         assert np.max(np.abs(case.holding[after])) <= 0.8 * lock * (1.0 + 1e-9)
         assert case.rate * case.host <= 1.0 / 20.0
         if seed % 2 == 1:
@@ -225,7 +225,7 @@ def test_sampled_lock_is_that_of_full_capacity(delay, vary):
         rest = 0.5 * done.acting[n] * slips[n] * share * case.steps[n]
         work = (done.work[n - 1] if n else 0.0) + rest
         assert math.isclose(work, answer.sampled_work, rel_tol=1e-11)
-        if case.course.low and not vary and not delay:
+        if case.profile.low and not vary and not delay:
             assert math.isclose(answer.sampled, answer.instant, rel_tol=1e-11)
             assert math.isclose(answer.sampled_work, answer.work, rel_tol=1e-11)
 
@@ -277,7 +277,7 @@ def test_holds_lost_and_found(make):
             assert np.allclose(done.acting[settled], case.holding[settled], rtol=1e-9)
             beyond = slice(lost + 8, back)
             assert np.allclose(np.abs(done.acting[beyond]), done.capacity[beyond])
-            j, top = case.inertia, case.course.top
+            j, top = case.inertia, case.profile.top
             need, after = abs(case.holding[lost]), case.holding[back]
             after *= math.copysign(1.0, case.holding[lost])
             closed = (need - top) * (back - lost) * step / (top - after)
@@ -289,7 +289,7 @@ def test_holds_lost_and_found(make):
             assert np.all(done.acting[lost + d : back + d] == 0.0)
             slipped = abs(case.holding[0]) / case.inertia * (back - lost) * step
             assert math.isclose(abs(done.slip[back + d - 1]), slipped, rel_tol=1e-6)
-            top, held = case.course.top, abs(case.holding[0])
+            top, held = case.profile.top, abs(case.holding[0])
             closed = case.times[back] + held * (back - lost) * step / (top - held)
             assert math.isclose(at_once, closed, rel_tol=1e-9)
             assert math.isclose(late, closed + d * step, rel_tol=1e-9)
@@ -359,7 +359,7 @@ def test_elastic_frequency_and_damping_with_the_pack_stuck(frequency):
 
 def elastic_equations(case, frequency, sign):
     """Rates (stuck for sign 0) and the event which ends them, from the parts of the driveline."""
-    f, top, omega = case.facts, case.courses[0].top, 2.0 * math.pi * frequency
+    f, top, omega = case.facts, case.profiles[0].top, 2.0 * math.pi * frequency
     j1, jn, j2 = f["j1"], f["jn"], f["j2"]
     engine, load = case.outside[0] * j1, case.outside[2] * j2
 
@@ -389,7 +389,7 @@ def test_elastic_reference_is_that_of_event_integration(frequency):
     again = 0
     for seed in range(6):
         case = elastic(seed, frequency, shape="constant", tail=100)
-        f, top, omega = case.facts, case.courses[0].top, 2.0 * math.pi * frequency
+        f, top, omega = case.facts, case.profiles[0].top, 2.0 * math.pi * frequency
         y, t, end, times = np.array([*case.start, 0.0, 0.0, 0.0]), 0.0, case.count * case.host, []
         sign = math.copysign(1.0, (case.slips @ case.start)[0])
         while t < end:
@@ -445,7 +445,7 @@ def test_linear_steps_are_those_of_the_two_inertias():
             np.array([two.torque1[0] / j1, two.torque2[0] / j2]),
             np.array([[1.0, -1.0]]),
             np.array([share1 * two.slip, -share2 * two.slip]),
-            (two.course,),
+            (two.profile,),
             two.host,
             len(two.steps),
             two.delay,
@@ -484,7 +484,7 @@ def test_handover():
         released_at, taken = [e for e in events if e[1] == 0], [e for e in events if e[1] == 1]
         # A lets go once, B locks for good.
         assert not released_at[0][2] and taken[-1][2] and runs[1].locked[-1] == 1.0
-        begin = runs[1].time < case.courses[1].start
+        begin = runs[1].time < case.profiles[1].start
         assert np.allclose(runs[0].acting[begin], case.facts["held"])
         share = case.inertias[0, 0] / case.inertias[0, 1]
         holding = runs[0].time < released_at[0][0]

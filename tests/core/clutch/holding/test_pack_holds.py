@@ -141,11 +141,11 @@ def test_a_long_hold_does_not_drift(steps, seed):
 
 
 @pytest.mark.parametrize("fidelity", ["closed", "stribeck", "field", "fine"])
-@pytest.mark.parametrize("course", ["held", "linear"])
-def test_every_fidelity_holds_and_its_heat_is_the_work_on_it(fidelity, course):
+@pytest.mark.parametrize("profile", ["held", "linear"])
+def test_every_fidelity_holds_and_its_heat_is_the_work_on_it(fidelity, profile):
     for seed in range(6):
         case = two_inertias(seed, "constant", tail=60)
-        params = {"input_profile": course, "starts_pressed": True}
+        params = {"input_profile": profile, "starts_pressed": True}
         unit = Unit(case, params=PACK, fidelity=fidelity, **params)
         made = run(case, unit)
         assert reversals(made) <= 3
@@ -171,7 +171,7 @@ def test_a_pack_that_was_stuck_at_the_start_stays_there():
             object.__setattr__(case, name, value)
         unit = Unit(case, starts_pressed=True)
         made = run(case, unit)
-        step = case.host * case.course.top / case.inertia
+        step = case.host * case.profile.top / case.inertia
         assert np.abs(made.slip[-20:]).max() < 1e-9 * step
         assert np.abs(made.slip).max() < 12.0 * step
 

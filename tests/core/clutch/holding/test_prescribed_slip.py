@@ -10,11 +10,11 @@ STEP, CAPACITY = 1e-3, 50.0  # s, N m
 IDENTIFIED = (M.IDENTIFIED, 0.0, 0, 0.1, True)
 
 
-def memory_after(course, answer=0.0, steps=160):
-    """Let a pack slide along a course of its slip that answers by ``answer`` [1/(kg m2)]."""
+def memory_after(profile, answer=0.0, steps=160):
+    """Let a pack slide along a profile of its slip that answers by ``answer`` [1/(kg m2)]."""
     memory, moved = np.zeros(M.N_MEMORY), 0.0
     for k in range(steps):
-        slip = course(k) + moved
+        slip = profile(k) + moved
         notice(IDENTIFIED, memory, slip, CAPACITY)
         dip = dip_of(IDENTIFIED, memory, CAPACITY, CAPACITY)
         torque = CAPACITY * (1.0 - max(dip, 0.0))

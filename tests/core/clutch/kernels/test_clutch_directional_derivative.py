@@ -1,4 +1,4 @@
-"""The clutch's derivatives over its inputs: against differences, at every rung, law and option."""
+"""The clutch's derivatives over its inputs: against differences, at every level, law and option."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ from thrustwasher.tribology.holding.memory import IDENTIFIED
 from slopes import Unit, differences, disagreement  # isort: skip
 
 NAMES = [s.name for s in SPEC.outputs if s.kind == "real"]
-RUNGS = list(SPEC.rungs)
+LEVELS = list(SPEC.levels)
 OPTIONS = {
     "friction_law": list(FRICTION_LAWS),
     "kink_width": [0.0, 0.3],
@@ -40,9 +40,9 @@ def pack(fidelity="field", **changes):
     return Unit(k, prepare(ClutchParams(**changes), fidelity))
 
 
-def random_pack(rng, rungs=RUNGS, **fixed):
+def random_pack(rng, levels=LEVELS, **fixed):
     changes = {name: values[rng.integers(len(values))] for name, values in OPTIONS.items()}
-    return pack(str(rng.choice(rungs)), **changes | fixed)
+    return pack(str(rng.choice(levels)), **changes | fixed)
 
 
 def random_point(rng):
@@ -65,25 +65,28 @@ def worn_in(unit, rng):
             unit.step(point, dt=dt)
 
 
-@pytest.mark.parametrize("rung", RUNGS)
+@pytest.mark.parametrize("level", LEVELS)
 @pytest.mark.parametrize("seed", range(3))
-def test_derivatives_are_those_of_differences_under_any_option(rung, seed):
+def test_derivatives_are_those_of_differences_under_any_option(level, seed):
     """Where the film is settled, inputs that run straight heat at once; else: the tests below."""
     rng = np.random.default_rng(seed)
-    courses = ["held", "linear"] if rung in ("closed", "stribeck") else ["held"]
+    profiles = ["held", "linear"] if level in ("closed", "stribeck") else ["held"]
     for n in range(30):
-        more = {"friction_scale": (1.0, 1.0, 1.7)[seed], "input_profile": courses[n % len(courses)]}
-        unit = random_pack(rng, [rung], **more)
+        more = {
+            "friction_scale": (1.0, 1.0, 1.7)[seed],
+            "input_profile": profiles[n % len(profiles)],
+        }
+        unit = random_pack(rng, [level], **more)
         worn_in(unit, rng)
         point = random_point(rng)
         assert disagreement(unit, point, scale_at(point)).max() < 1e-6
 
 
-@pytest.mark.parametrize("rung", RUNGS)
-@pytest.mark.parametrize("course", ["held", "linear"])
-def test_derivatives_of_a_pack_that_holds_are_those_of_its_law(rung, course):
+@pytest.mark.parametrize("level", LEVELS)
+@pytest.mark.parametrize("profile", ["held", "linear"])
+def test_derivatives_of_a_pack_that_holds_are_those_of_its_law(level, profile):
     """Sliding with dips, at lock and held, between two shafts of a driveline."""
-    unit = pack(rung, input_profile=course, starts_pressed=True)
+    unit = pack(level, input_profile=profile, starts_pressed=True)
     unit.par[L.P_HOLDING] = IDENTIFIED
     slip, held = 40.0, 0
     for n in range(60):
@@ -98,11 +101,11 @@ def test_derivatives_of_a_pack_that_holds_are_those_of_its_law(rung, course):
     assert held > 2 and abs(slip) < 1e-9
 
 
-@pytest.mark.parametrize("rung", RUNGS)
+@pytest.mark.parametrize("level", LEVELS)
 @pytest.mark.parametrize("load", [0.5, 9.0, 11.0, 5e3, 9e5])
-def test_derivatives_hold_at_zero_slip_from_open_to_crushed(rung, load):
+def test_derivatives_hold_at_zero_slip_from_open_to_crushed(level, load):
     """The pack is open up to 9.8 N. Around zero slip sizes are flat, torques rise."""
-    unit = pack(rung, starts_pressed=True)
+    unit = pack(level, starts_pressed=True)
     for slip in (0.0, 1e-6, -1e-6):
         point = np.array([load, slip, 320.0, 40.0])
         assert disagreement(unit, point, [0.1 * load, 1e-4, 30.0, 100.0]).max() < 1e-6
@@ -123,13 +126,13 @@ def engaging(unit, rng):
     return point, [0.1 * load, 0.1 * slip, 10.0, 50.0]
 
 
-@pytest.mark.parametrize(("rung", "n"), [("field", 60), ("fine", 20)])
-def test_a_moving_film_is_followed_over_the_stretch_it_has_just_passed(rung, n):
+@pytest.mark.parametrize(("level", "n"), [("field", 60), ("fine", 20)])
+def test_a_moving_film_is_followed_over_the_stretch_it_has_just_passed(level, n):
     """Where the stretch was one substep: then its size does not change with the inputs."""
     rng = np.random.default_rng(6)
     compared = 0
     for _ in range(n):
-        unit = random_pack(rng, [rung], input_profile="linear", film_dynamics=True)
+        unit = random_pack(rng, [level], input_profile="linear", film_dynamics=True)
         point, scale = engaging(unit, rng)
         unit.step(point)
         if unit.work[L.W_SUBSTEPS] == 1.0:
@@ -149,13 +152,13 @@ def released(unit, rng):
     return point, [0.1 * point[0], 0.1 * slip, 10.0, 50.0]
 
 
-@pytest.mark.parametrize(("rung", "n"), [("field", 60), ("fine", 20)])
-def test_the_film_of_a_pack_let_go_is_followed_the_same_way(rung, n):
+@pytest.mark.parametrize(("level", "n"), [("field", 60), ("fine", 20)])
+def test_the_film_of_a_pack_let_go_is_followed_the_same_way(level, n):
     rng = np.random.default_rng(8)
     compared = 0
     for _ in range(n):
         fixed = {"input_profile": "linear", "film_dynamics": True, "starts_pressed": True}
-        unit = random_pack(rng, [rung], **fixed)
+        unit = random_pack(rng, [level], **fixed)
         point, scale = released(unit, rng)
         unit.step(point)
         if unit.work[L.W_SUBSTEPS] == 1.0:
@@ -168,7 +171,7 @@ def passed(unit, point, sizes, seed):
     """Return film and heat after substeps of given sizes, and how they change along ``seed``."""
     par, state, work, inputs = unit.par, unit.state, unit.work, [float(x) for x in point]
     load_memory(par, inputs[0], inputs[2], state, work)
-    course = (
+    profile = (
         state[L.S_LOAD],
         state[L.S_SLIP],
         state[L.S_OIL],
@@ -179,15 +182,15 @@ def passed(unit, point, sizes, seed):
     work[L.W_VARIED : L.W_VARIED + L.NY] = 0.0
     done = 0.0
     for share in sizes:
-        rosenbrock.substep(par, course, done, share, state[L.S_DURATION], work)
-        rosenbrock_derivatives.follow(par, course, seed, done, share, state[L.S_DURATION], work)
+        rosenbrock.substep(par, profile, done, share, state[L.S_DURATION], work)
+        rosenbrock_derivatives.follow(par, profile, seed, done, share, state[L.S_DURATION], work)
         work[: L.NY] = work[L.W_TRIAL : L.W_TRIAL + L.NY]
         done += share
     counted = [L.Y_FILM, *range(L.Y_HEAT, n_unknowns(par))]
     return work[counted], work[L.W_VARIED + np.array(counted)]
 
 
-@pytest.mark.parametrize("rung", ["field", "fine"])
+@pytest.mark.parametrize("level", ["field", "fine"])
 @pytest.mark.parametrize(
     "sizes",
     [
@@ -198,11 +201,11 @@ def passed(unit, point, sizes, seed):
     ],
 )
 @pytest.mark.slow
-def test_a_moving_film_is_followed_through_any_substeps(sizes, rung):
+def test_a_moving_film_is_followed_through_any_substeps(sizes, level):
     rng = np.random.default_rng(13)
     for _ in range(5):
-        moves = rung == "field" or bool(rng.random() < 0.7)
-        unit = random_pack(rng, [rung], input_profile="linear", film_dynamics=moves)
+        moves = level == "field" or bool(rng.random() < 0.7)
+        unit = random_pack(rng, [level], input_profile="linear", film_dynamics=moves)
         point, scale = engaging(unit, rng)
         for seed in np.diag(scale):
             _, found = passed(unit, point, sizes, tuple(seed.tolist()))
@@ -233,11 +236,11 @@ def test_a_pack_that_opens_at_another_instant_is_another_pack():
     assert abs(found - wanted) * 3.0 < 4.0 * tolerance < 0.01 * abs(3.0 * found)
 
 
-def test_derivatives_of_a_running_course_need_no_solve_before():
+def test_derivatives_of_a_running_profile_need_no_solve_before():
     """Right after a step ``work`` belongs to its start; the derivative is that of now."""
     rng = np.random.default_rng(9)
-    for rung in ("stribeck", "field"):
-        unit = random_pack(rng, [rung], input_profile="linear", film_dynamics=True)
+    for level in ("stribeck", "field"):
+        unit = random_pack(rng, [level], input_profile="linear", film_dynamics=True)
         point, _ = engaging(unit, rng)
         unit.step(point, dt=1e-3)
         seed = np.array([100.0, -1.0, 2.0, 3.0])

@@ -162,9 +162,9 @@ POINTS = st.tuples(
     st.sampled_from(["held", "linear"]),
     st.booleans(),
 )
-def test_no_course_of_inputs_breaks_the_pack(points, permeability, course, rise):
+def test_no_profile_of_inputs_breaks_the_pack(points, permeability, profile, rise):
     """Any load, slip, oil and step in the allowed ranges: a finite, passive answer."""
-    pack = Pack(permeability=permeability, input_profile=course, contact_rise=rise)
+    pack = Pack(permeability=permeability, input_profile=profile, contact_rise=rise)
     heat = 0.0
     for load, slip, oil, dt in points:
         assert pack.step(load, slip, dt, oil) == 0

@@ -21,11 +21,11 @@ def run(pack, n=900):
     return into_oil
 
 
-@pytest.mark.parametrize("fidelity", SPEC.rungs)
-@pytest.mark.parametrize("course", ["held", "linear"])
+@pytest.mark.parametrize("fidelity", SPEC.levels)
+@pytest.mark.parametrize("profile", ["held", "linear"])
 @pytest.mark.parametrize("rise", [False, True])
-def test_heat_made_is_stored_or_in_the_oil(fidelity, course, rise):
-    pack = Pack(fidelity, made=ClutchParams, input_profile=course, contact_rise=rise)
+def test_heat_made_is_stored_or_in_the_oil(fidelity, profile, rise):
+    pack = Pack(fidelity, made=ClutchParams, input_profile=profile, contact_rise=rise)
     into_oil = run(pack)
     made, stored = pack.out[k.O_ENERGY], pack.out[k.O_STORED_HEAT]
     assert made > 1e3 and made == pytest.approx(stored + into_oil, rel=1e-9)

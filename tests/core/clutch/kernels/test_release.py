@@ -124,9 +124,9 @@ def test_a_pack_let_go_follows_the_tight_reference(oil, slip):
         assert pack.out[k.O_TEMPERATURE] == pytest.approx(temperature[n], abs=1e-3)
 
 
-@pytest.mark.parametrize("rung", ["field", "fine"])
+@pytest.mark.parametrize("level", ["field", "fine"])
 @pytest.mark.parametrize("oil", [253.15, 363.15])
-def test_it_opens_to_its_clearance_and_never_closes_on_the_way_and_its_heat_is_its_work(rung, oil):
+def test_it_opens_to_its_clearance_and_never_closes_on_the_way_and_its_heat_is_its_work(level, oil):
     params, t = ClutchParams(starts_pressed=True), np.geomspace(1e-3, 30.0, 1501) - 1e-3
     e = engage_clutch(
         params,
@@ -134,7 +134,7 @@ def test_it_opens_to_its_clearance_and_never_closes_on_the_way_and_its_heat_is_i
         load=6000.0 * np.maximum(0.0, 1.0 - t / 0.05),
         speed=150.0,
         oil_temperature=oil,
-        fidelity=rung,
+        fidelity=level,
     )
     assert np.all(np.diff(e.film_ratio) >= -1e-6)
     assert e.film_thickness[-1] == pytest.approx(params.initial_film, rel=1e-3)

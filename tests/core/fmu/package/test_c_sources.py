@@ -111,19 +111,19 @@ def test_the_sources_of_a_model_without_maps_read_no_file():
 
 @cache
 def points(name):
-    """Return the inputs along the model's usual course, and the step size [s]."""
+    """Return the inputs along the model's usual profile, and the step size [s]."""
     spec = find_spec(name)
-    course, (stop, h) = np.array(input_rows(spec)), interface(spec).experiment
+    profile, (stop, h) = np.array(input_rows(spec)), interface(spec).experiment
     n = min(round(stop / h), STEPS)
     times = stop / n * np.arange(n)
-    columns = [np.interp(times, course[:, 0], values) for values in course.T[1:]]
+    columns = [np.interp(times, profile[:, 0], values) for values in profile.T[1:]]
     return np.reshape(columns, (len(columns), n)).T.tolist(), h
 
 
-def run(fmu, name, rung):
-    """Return the outputs along the usual course, after each step, and derivatives."""
+def run(fmu, name, level):
+    """Return the outputs along the usual profile, after each step, and derivatives."""
     rows, (inputs, h) = [], points(name)
-    with Instance(fmu, parameters={"fidelity": rung}) as model:
+    with Instance(fmu, parameters={"fidelity": level}) as model:
         reals = find_spec(name).real_outputs
         model.initialize(0.0, dict(zip(model.input_names, inputs[0], strict=True)))
         for i, values in enumerate(inputs):
@@ -159,8 +159,8 @@ def distance(name, found, wanted):
 @pytest.mark.slow
 def test_what_a_compiler_makes_of_them_steps_as_the_library_does(name, fmi, compiler):
     fmu, own = with_sources(name, fmi), compiled(name, fmi, compiler)
-    for rung in find_spec(name).rungs:
-        assert distance(name, run(own, name, rung), run(fmu, name, rung)) < SAME, rung
+    for level in find_spec(name).levels:
+        assert distance(name, run(own, name, level), run(fmu, name, level)) < SAME, level
 
 
 @pytest.mark.slow
@@ -168,9 +168,9 @@ def test_what_a_compiler_makes_of_them_steps_as_the_library_does(name, fmi, comp
 def test_options_of_the_compiler_change_no_number(options):
     if "linux64" not in needed.linkable():
         pytest.skip("the options are those of Linux on x86-64")
-    (rung, *_) = find_spec(FAST).fidelities
+    (level, *_) = find_spec(FAST).fidelities
     usual, other = (compiled(FAST, 2, "gcc", *more) for more in ((), options))
-    assert distance(FAST, run(other, FAST, rung), run(usual, FAST, rung)) == 0.0
+    assert distance(FAST, run(other, FAST, level), run(usual, FAST, level)) == 0.0
 
 
 def test_instances_side_by_side_do_not_see_each_other():
@@ -244,8 +244,8 @@ def test_fmpys_check_finds_nothing_and_its_compiler_runs(fmi, tmp_path):
     (library,) = (own / "binaries").rglob("*.so")
     library.unlink()
     build_platform_binary(own, all_warnings=True)
-    made, (rung, *_) = packed(own, tmp_path / fmu.name), find_spec(FAST).fidelities
-    assert distance(FAST, run(made, FAST, rung), run(fmu, FAST, rung)) < SAME
+    made, (level, *_) = packed(own, tmp_path / fmu.name), find_spec(FAST).fidelities
+    assert distance(FAST, run(made, FAST, level), run(fmu, FAST, level)) < SAME
 
 
 def test_those_of_all_models_are_shipped_and_fresh():

@@ -319,7 +319,7 @@ def test_each_parameter_has_a_second_name_with_its_group_in_fmi_3_and_a_group_in
 
 @each_spec
 @each_fmi
-def test_only_rungs_that_there_are_stand_in_the_list(spec, fmi):
+def test_only_levels_that_there_are_stand_in_the_list(spec, fmi):
     path = {2: "TypeDefinitions/SimpleType[@name='Fidelity']/Enumeration/Item"}
     path[3] = "TypeDefinitions/EnumerationType[@name='Fidelity']/Item"
     numbers = {name: i for i, name in enumerate(spec.fidelities, 1)}

@@ -122,12 +122,12 @@ def test_the_equations_and_their_source_are_there(spec):
 @pytest.mark.parametrize("name", ["washer", "clutch", "gearmesh"])
 def test_the_figures_of_accuracy_are_those_of_the_table(name):
     table = next(t for t in load_tables(name) if t.name == "default")
-    known = [(r, c) for r in table.rungs for c in r.charts]
+    known = [(r, c) for r in table.levels for c in r.charts]
     rows = accuracy(find_spec(name))
     assert [row[0] for row in rows] == [f"{r.fidelity} {c.name or ''}".strip() for r, c in known]
     assert [row[2] for row in rows] == [str(c.points) for _, c in known]
-    for row, (rung, chart) in zip(rows, known, strict=True):
-        worst = rung.worst_anywhere("friction_torque", chart)
+    for row, (level, chart) in zip(rows, known, strict=True):
+        worst = level.worst_anywhere("friction_torque", chart)
         assert float(row[3].removesuffix(" %")) == pytest.approx(100.0 * worst, rel=0.05)
     assert f"<td>{rows[0][3]}</td>" in shown(find_spec(name)).replace("\n", "")
 

@@ -40,12 +40,14 @@ def file_in(folder, text, name="mine.toml"):
 def mine(request, tmp_path_factory):
     """FMI version, part, FMU and what lies in it."""
     folder = tmp_path_factory.mktemp("part")
-    rung = "fine"
-    path = file_in(folder, TEXT.format(fidelity=rung))
+    level = "fine"
+    path = file_in(folder, TEXT.format(fidelity=level))
     (fmu,) = build([path], fmi=request.param, out=folder, **LINUX)
     with zipfile.ZipFile(fmu) as archive:
         files = {name: archive.read(name) for name in archive.namelist()}
-    return SimpleNamespace(fmi=request.param, part=load_part(path), fmu=fmu, files=files, rung=rung)
+    return SimpleNamespace(
+        fmi=request.param, part=load_part(path), fmu=fmu, files=files, level=level
+    )
 
 
 def test_everything_has_the_parts_name(mine):
@@ -65,7 +67,7 @@ def test_parameters_start_at_the_parts_values_and_inputs_inside_its_box(mine):
     assert 40.0 <= float(told["load"].start) <= 55.0
     assert float(told["density"].start) == GearMeshParams().density
     items = list(find_spec("gearmesh").fidelities)
-    assert items[int(told["fidelity"].start) - 1] == mine.rung
+    assert items[int(told["fidelity"].start) - 1] == mine.level
 
 
 def test_the_page_shows_box_notes_and_own_parameters(mine):
@@ -76,11 +78,11 @@ def test_the_page_shows_box_notes_and_own_parameters(mine):
     assert f"<td>face_width</td><td>0.06 m</td><td>{GearMeshParams().face_width:g}</td>" in page
 
 
-def test_the_course_of_the_reference_run_stays_in_the_box(tmp_path):
+def test_the_profile_of_the_reference_run_stays_in_the_box(tmp_path):
     path = file_in(tmp_path, 'model = "washer"\nname = "W"\n[box]\nload = ["400 N", "500 N"]\n')
     model = load_part(path).model
     place = [s.name for s in model.inputs].index("load")
-    assert {400.0 <= row[1 + place] <= 500.0 for row in model.course} == {True}
+    assert {400.0 <= row[1 + place] <= 500.0 for row in model.profile} == {True}
 
 
 def test_several_parts_and_models_are_built_at_once(tmp_path):
@@ -154,7 +156,7 @@ def test_a_part_carries_the_map_of_its_parameters_and_no_other(tmp_path, monkeyp
     assert carried == [1, 0]
 
 
-def test_a_part_without_a_solution_on_the_usual_course_is_built_without_reference_results(
+def test_a_part_without_a_solution_on_the_usual_profile_is_built_without_reference_results(
     tmp_path, monkeypatch
 ):
     def fails(spec):

@@ -40,7 +40,7 @@ def washer():
         yield lambda fmi: built_fmu("ThrustWasher", fmi=fmi, local=True)
 
 
-def course():
+def profile():
     """Return inputs up over the fold, back, and out of the box."""
     loads = [300.0 + 15.0 * k for k in range(55)] + [1125.0 - 15.0 * k for k in range(55)]
     return [
@@ -55,7 +55,7 @@ def test_it_gives_the_bits_of_the_kernels_in_python(washer, fmi):
         for instance in (ours, theirs):
             instance.initialize(0.0, POINT)
         lost = 0.0
-        for k, inputs in enumerate(course()):
+        for k, inputs in enumerate(profile()):
             for instance in (ours, theirs):
                 instance.set_inputs(inputs)
                 instance.step(1e-3 * k, 1e-3)
@@ -109,8 +109,8 @@ def test_with_a_map_the_parameters_it_was_made_for_cannot_be_tuned(washer, fmi):
     folder = unpack(washer(fmi))
     guid = loading.description(folder).guid
     library = next((folder / "binaries").rglob("*.so"))
-    rung = 1 + list(SPEC.fidelities).index("map")
-    for fidelity, refused in ((rung, True), (rung % len(SPEC.fidelities) + 1, False)):
+    level = 1 + list(SPEC.fidelities).index("map")
+    for fidelity, refused in ((level, True), (level % len(SPEC.fidelities) + 1, False)):
         script = f"make tuned {guid} 1\n" + putting(SPEC, fidelity=fidelity)
         script += ("setup 0\n" if fmi == 2 else "") + "enter 0\n" + putting(SPEC, **POINT)
         script += "leave\nstep 0 1e-3\n" + putting(SPEC, heat_split=0.8) + "step 1e-3 1e-3\n"

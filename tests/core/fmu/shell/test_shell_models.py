@@ -23,8 +23,8 @@ def vary_parameters(twin, rng):
     for v in rng.sample(found, min(5, len(found))):
         if v.type == "Real" and v.low <= v.start * 1.01 <= v.high:
             values[v.name] = v.start * 1.01
-    rungs = [i for i, name in enumerate(twin.spec.fidelities, 1) if name != "map"]
-    twin.put(**values, fidelity=rng.choice(rungs))
+    levels = [i for i, name in enumerate(twin.spec.fidelities, 1) if name != "map"]
+    twin.put(**values, fidelity=rng.choice(levels))
 
 
 def run_of(spec, seed, n):

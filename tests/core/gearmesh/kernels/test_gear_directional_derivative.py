@@ -39,7 +39,7 @@ def random_mesh(rng):
         if changes["friction_law"] == "mixed":
             changes["friction_law"] = "iso"
     changes["permissible_film_ratio"] = float(rng.choice([0.0, 0.3]))
-    unit = mesh(str(rng.choice(list(SPEC.rungs))), **changes)
+    unit = mesh(str(rng.choice(list(SPEC.levels))), **changes)
     if rng.random() < 0.4:
         unit.state[:4] = 1.0, 350.0, 3.0, 2.0
     return unit
@@ -94,7 +94,7 @@ def test_derivatives_go_through_the_step_that_warms_the_bodies(dt, friction_law,
         assert (np.abs(found - wanted) <= 2e-5 * np.abs(wanted) + 1e-11 * np.abs(out)).all()
 
 
-@pytest.mark.parametrize("fidelity", SPEC.rungs)
+@pytest.mark.parametrize("fidelity", SPEC.levels)
 @pytest.mark.parametrize("friction_law", CHOICES["friction_law"])
 @pytest.mark.parametrize("point", [(0.0, 0.0), (0.0, 180.0), (40.0, 0.0), (-40.0, 1e-4)])
 def test_derivatives_hold_at_rest_and_without_load(fidelity, friction_law, point):

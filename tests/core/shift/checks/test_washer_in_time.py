@@ -33,9 +33,9 @@ def test_a_hot_washer_that_is_relieved_is_not_steady():
     assert signals["friction_torque"][-1] == pytest.approx(0.250, abs=1e-3)
     found = follow_recorded(WasherParams(), GRIDS["field"], time, signals, 5e-3)
     for after, torque, ratio in ((0.02, 1.63, 0.91), (1.0, 1.44, 0.99), (4.0, 0.66, 1.5)):
-        course = [np.interp(0.1 + after, found.time, column) for column in found.values.T]
-        assert course[0] == pytest.approx(torque, rel=0.06)
-        assert course[1] == pytest.approx(ratio, rel=0.06)
+        profile = [np.interp(0.1 + after, found.time, column) for column in found.values.T]
+        assert profile[0] == pytest.approx(torque, rel=0.06)
+        assert profile[1] == pytest.approx(ratio, rel=0.06)
     (words,) = found.warnings("washer", "do this")
     assert "friction torque 0.25 N·m where in time it is 1.6" in words and "do this" in words
     assert "film ratio 8.64 where in time it is 0.93" in words and "hottest spot" in words

@@ -131,15 +131,15 @@ def test_shear_of_cold_oil_keeps_the_clutch_from_judder():
     assert j.growth == pytest.approx(j.mode_growth, rel=0.02)
 
 
-@pytest.mark.parametrize("rung", ["stribeck", "field"])
-def test_slopes_at_recorded_points_are_those_of_differences(rung):
+@pytest.mark.parametrize("level", ["stribeck", "field"])
+def test_slopes_at_recorded_points_are_those_of_differences(level):
     params = load_scene("judder").parts["clutch"].params
-    near = [solve_clutch(params, load=1500.0, speed=s, fidelity=rung) for s in (25.9, 26.0, 26.1)]
+    near = [solve_clutch(params, load=1500.0, speed=s, fidelity=level) for s in (25.9, 26.0, 26.1)]
     signals = {
         f"clutch.{name}": np.array([getattr(r, name) for r in near])
         for name in ("temperature", "film_ratio", "torque_capacity", "viscous_torque")
     } | {"clutch.speed": np.array([25.9, 26.0, 26.1])}
-    found = capacity_slopes(params, rung, "clutch", signals, np.array([1]))
+    found = capacity_slopes(params, level, "clutch", signals, np.array([1]))
     contact = [r.torque_capacity - r.viscous_torque for r in near]
     viscous = near[1].viscous_torque / 26.0  # Couette flow: in proportion to slip
     assert found[0] == pytest.approx((contact[2] - contact[0]) / 0.2 + viscous, rel=1e-4)

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 from scene_runs import PetroffWasher
-from synthetic import WHOLE, rung
+from synthetic import WHOLE, level
 
 from thrustwasher.errors import SolveError
 from thrustwasher.fmu.running.direct_instance import DirectInstance
@@ -14,7 +14,7 @@ from thrustwasher.shift.checks.step_estimate import StepError
 from thrustwasher.shift.tolerance import run_to_tolerance, selection
 
 STOP = 0.2
-RUNGS = {"washer": ["map", "field", "fine"], "clutch": ["field", "fine"], "gearmesh": ["field"]}
+LEVELS = {"washer": ["map", "field", "fine"], "clutch": ["field", "fine"], "gearmesh": ["field"]}
 SLOW = {
     **WHOLE,
     "load": Axis(1.0, 2000.0, "N", "log"),
@@ -66,12 +66,12 @@ def test_later_wishes_overrule_earlier_ones_and_auto_alone_is_one_percent():
 @pytest.fixture
 def run(monkeypatch):
     """Run with a made-up table of errors of the washer; return result and what was made."""
-    monkeypatch.setattr(selection, "rungs_of", lambda spec, _: RUNGS[spec.key])
+    monkeypatch.setattr(selection, "levels_of", lambda spec, _: LEVELS[spec.key])
 
     def given(errors, wish="auto:0.01", steady=True, **options):
-        known = {name: rung(name, worst, box=SLOW) for name, worst in errors.items()}
+        known = {name: level(name, worst, box=SLOW) for name, worst in errors.items()}
         monkeypatch.setattr(
-            selection, "fresh_rungs", lambda key, _: known if key == "washer" else {}
+            selection, "fresh_levels", lambda key, _: known if key == "washer" else {}
         )
         if steady:
             monkeypatch.setattr(run_to_tolerance, "guarded", lambda result, *_: result)
@@ -81,17 +81,17 @@ def run(monkeypatch):
     return given
 
 
-def rungs(result):
+def levels(result):
     return {n: p.fidelity for n, p in result.scene.parts.items() if n != "transmission"}
 
 
 USUAL = {"clutch": "field", "brake": "field", "mesh": "field"}
 
 
-def test_the_first_run_has_the_cheapest_rungs_and_counts_if_they_hold(run):
+def test_the_first_run_has_the_cheapest_levels_and_counts_if_they_hold(run):
     r, log = run({"map": 8e-3, "field": 2e-3}, "auto:0.02")
-    assert rungs(r) == USUAL | {"washer": "map"}
-    assert [rung for name, rung in log if name == "washer"] == ["map", "field"], "run, then check"
+    assert levels(r) == USUAL | {"washer": "map"}
+    assert [level for name, level in log if name == "washer"] == ["map", "field"], "run, then check"
     assert [(c.part, c.fidelity, c.above) for c in r.guard.checks] == [
         ("clutch", "field", "fine"),
         ("brake", "field", "fine"),
@@ -99,20 +99,22 @@ def test_the_first_run_has_the_cheapest_rungs_and_counts_if_they_hold(run):
     ]
 
 
-def test_a_rung_that_its_table_shows_to_be_too_coarse_is_left_out(run):
+def test_a_level_that_its_table_shows_to_be_too_coarse_is_left_out(run):
     r, _ = run({"map": 0.02, "field": 0.05, "fine": 1e-3})
-    assert rungs(r)["washer"] == "fine" and "washer" not in [c.part for c in r.guard.checks]
+    assert levels(r)["washer"] == "fine" and "washer" not in [c.part for c in r.guard.checks]
     assert {"  too coarse: map 2 %", "  too coarse: field 5 %"} <= set(r.selection.words())
-    assert rungs(run({"map": 0.02, "field": 0.05, "fine": 1e-3}, "auto:0.03")[0])["washer"] == "map"
+    assert (
+        levels(run({"map": 0.02, "field": 0.05, "fine": 1e-3}, "auto:0.03")[0])["washer"] == "map"
+    )
 
 
 def test_the_check_stands_in_for_the_factor_of_safety(run):
     errors = {"map": 8e-3, "field": 2e-3}
-    assert rungs(run(errors)[0])["washer"] == "map"
-    assert rungs(run(errors, guard=False)[0])["washer"] == "field"
+    assert levels(run(errors)[0])["washer"] == "map"
+    assert levels(run(errors, guard=False)[0])["washer"] == "field"
 
 
-def test_what_no_rung_holds_is_an_error_that_names_the_part(run):
+def test_what_no_level_holds_is_an_error_that_names_the_part(run):
     with pytest.raises(
         SolveError, match=r"part 'washer', friction_torque: no fidelity level reaches 1 %"
     ):
@@ -121,14 +123,14 @@ def test_what_no_rung_holds_is_an_error_that_names_the_part(run):
 
 def test_without_a_table_the_check_decides_and_without_it_the_default_serves(run):
     r, _ = run({})
-    assert rungs(r)["washer"] == "map" and len(r.guard.checks) == 3
+    assert levels(r)["washer"] == "map" and len(r.guard.checks) == 3
     r, _ = run({}, guard=False)
-    assert rungs(r)["washer"] == "field" and r.guard is None
+    assert levels(r)["washer"] == "field" and r.guard is None
 
 
-def test_a_pack_that_its_finer_rung_does_not_confirm_runs_again_with_it(run):
+def test_a_pack_that_its_finer_level_does_not_confirm_runs_again_with_it(run):
     r, _ = run({"map": 1e-6}, "auto:1e-5")
-    assert rungs(r)["clutch"] == "fine" and "clutch fine" in r.guard.again[0]
+    assert levels(r)["clutch"] == "fine" and "clutch fine" in r.guard.again[0]
     assert [c.run for c in r.guard.checks if c.part == "washer"] == [1], "it holds: once is enough"
 
 

@@ -7,7 +7,7 @@ import pytest
 from scene_runs import slow_without_jit
 
 from thrustwasher.fmu.running.direct_instance import DirectInstance
-from thrustwasher.ladder.error_table import fresh_rungs
+from thrustwasher.ladder.error_table import fresh_levels
 from thrustwasher.shift import load_scene, run_auto, with_fidelities
 
 pytestmark = slow_without_jit
@@ -27,7 +27,7 @@ def run(*wishes):
 
 
 def at_tolerance():
-    if "map" not in fresh_rungs("washer", load_scene("planetary").parts["washer"].params):
+    if "map" not in fresh_levels("washer", load_scene("planetary").parts["washer"].params):
         pytest.skip("the table of the washer's map is older than its kernels")
     return run(f"washer=auto:{TOLERANCE}")
 

@@ -9,7 +9,7 @@ from scene_runs import PetroffWasher
 from thrustwasher.errors import SolveError, Status
 from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.shift import load_scene, run_auto, with_fidelities
-from thrustwasher.shift.tolerance import run_to_tolerance, rung_check, selection
+from thrustwasher.shift.tolerance import level_check, run_to_tolerance, selection
 from thrustwasher.washer.parameters import SPEC
 
 STOP = 0.3
@@ -54,30 +54,30 @@ class Liar(PetroffWasher):
 @pytest.fixture
 def run(monkeypatch):
     """Run the start of a shift with washers of these kinds, ``map`` the first of its levels."""
-    monkeypatch.setattr(selection, "rungs_of", lambda *_: ["map", "field", "fine"])
+    monkeypatch.setattr(selection, "levels_of", lambda *_: ["map", "field", "fine"])
     monkeypatch.setattr(run_to_tolerance, "guarded", lambda result, *_: result)
 
-    def given(rungs, **options):
+    def given(levels, **options):
         def make(name, part):
             if name != "washer":
                 return DirectInstance(part.spec, parameters=part.parameters())
-            kind = rungs.get(part.fidelity, {})
+            kind = levels.get(part.fidelity, {})
             made.append((part.fidelity, Liar(**kind)))
             return made[-1][1]
 
         made = []
         known = {"map": object()} if options.get("guard") is False else {}
-        monkeypatch.setattr(selection, "fresh_rungs", lambda *_: known)
+        monkeypatch.setattr(selection, "fresh_levels", lambda *_: known)
         monkeypatch.setattr(selection, "_errors", lambda *_: dict.fromkeys(known, 1e-3))
         scene = load_scene("planetary-sun").with_options(stop_time=STOP)
         scene = replace(scene, parts={n: p for n, p in scene.parts.items() if n != "mesh"})
         found = run_auto(with_fidelities(scene, ["washer=auto:0.01"]), make, **options)
-        return found, [i for rung, i in made if rung == "field"]
+        return found, [i for level, i in made if level == "field"]
 
     return given
 
 
-def test_an_honest_rung_is_confirmed_at_thirty_points_spread_over_the_run(run):
+def test_an_honest_level_is_confirmed_at_thirty_points_spread_over_the_run(run):
     r, (above,) = run({})
     (check,) = r.guard.checks
     assert check.holds and check.worst.share == 0.0 and r.guard.again == []
@@ -87,7 +87,7 @@ def test_an_honest_rung_is_confirmed_at_thirty_points_spread_over_the_run(run):
     assert r.scene.parts["washer"].fidelity == "map"
 
 
-def test_a_lie_is_found_and_the_part_runs_again_a_rung_higher(run):
+def test_a_lie_is_found_and_the_part_runs_again_a_level_higher(run):
     r, _ = run({"map": {"factor": 1.1, "lies": [(0.12, 1.0)]}})
     first, second = r.guard.checks
     assert (first.fidelity, first.above, first.holds) == ("map", "field", False)
@@ -98,7 +98,7 @@ def test_a_lie_is_found_and_the_part_runs_again_a_rung_higher(run):
     assert r.signals[f"washer.{TORQUE}"] == pytest.approx(7.5e-5 * r.signals["washer.speed"])
 
 
-def test_it_goes_on_to_the_last_rung_and_stops_there(run):
+def test_it_goes_on_to_the_last_level_and_stops_there(run):
     lies = {"factor": 1.1, "lies": [(0.0, 1.0)]}
     r, _ = run({"map": {"factor": 1.3, "lies": [(0.0, 1.0)]}, "field": lies})
     assert [c.above for c in r.guard.checks] == ["field", "fine"]
@@ -112,7 +112,7 @@ def test_a_lie_as_short_as_a_regime_is_found_where_the_regime_changes(run):
     assert not r.guard.checks[0].holds
 
 
-def test_a_rung_that_says_it_is_outside_does_not_hold(run):
+def test_a_level_that_says_it_is_outside_does_not_hold(run):
     r, _ = run({"map": {"outside": [(0.2, 0.21)]}})
     assert "from t = 0.2 s" in r.guard.checks[0].outside
     assert r.scene.parts["washer"].fidelity == "field"
@@ -121,8 +121,8 @@ def test_a_rung_that_says_it_is_outside_does_not_hold(run):
 def test_a_standstill_is_not_compared():
     """Without speed there is no torque in any level, and solving there is dear."""
     inputs = np.array([[1.0, 2.0], [1.0, 0.0], [1.0, 3.0], [1.0, 0.0]])
-    assert rung_check._moving(["load", "speed"], inputs).tolist() == [0, 2]
-    assert rung_check._moving(["load", "tilt"], inputs).tolist() == [0, 1, 2, 3]
+    assert level_check._moving(["load", "speed"], inputs).tolist() == [0, 2]
+    assert level_check._moving(["load", "tilt"], inputs).tolist() == [0, 1, 2, 3]
 
 
 def test_a_point_without_solution_is_named_and_the_others_count(run):
@@ -152,7 +152,7 @@ def test_the_record_goes_into_json_and_into_one_line(run):
     assert "worst difference 10 % (1 % allowed)" in told["closing"] and "\n" not in told["closing"]
 
 
-def test_a_jump_that_comes_a_step_later_in_the_other_rung_is_no_difference(run):
+def test_a_jump_that_comes_a_step_later_in_the_other_level_is_no_difference(run):
     lies = {"factor": 3.0, "lies": [(0.1505, 1.0)], "regime": [(0.1505, 1.0)]}
     later = {"factor": 3.0, "lies": [(0.1525, 1.0)], "regime": [(0.1525, 1.0)]}
     assert run({"map": lies, "field": later})[0].guard.checks[0].holds

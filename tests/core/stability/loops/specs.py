@@ -10,7 +10,7 @@ STATUS = Signal(
     type="SolverStatus",
     help="how the last solution was obtained",
 )
-RUNGS = {"exact": "linear, in closed form"}
+LEVELS = {"exact": "linear, in closed form"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,7 +46,7 @@ BODY = ModelSpec(
     name="Body",
     help="A body that a force moves",
     params=BodyParams,
-    fidelities=RUNGS,
+    fidelities=LEVELS,
     default_fidelity="exact",
     inputs=(_in("force", "N"),),
     outputs=(_signal("position", "m"), _signal("speed", "m/s"), STATUS),
@@ -57,7 +57,7 @@ LAW = ModelSpec(
     name="Law",
     help="A force that answers motion",
     params=LawParams,
-    fidelities=RUNGS,
+    fidelities=LEVELS,
     default_fidelity="exact",
     inputs=(_in("position", "m"), _in("speed", "m/s")),
     outputs=(_signal("force", "N", depends=("position", "speed")), STATUS),

@@ -67,7 +67,7 @@ def test_outside_rows_are_no_numbers_and_say_so(shipped):
 
 
 def test_an_fmu_walks_over_the_rim_and_back_without_a_jump(shipped):
-    """At the rim map and field differ by what the card says; the memory goes over with it."""
+    """At the rim map and field differ by the verified error; the memory goes over with it."""
     speed = shipped.box["speed"][1]
     washer = DirectInstance(SPEC, parameters={"fidelity": "map"})
     washer.initialize(0.0, {**MIDDLE, "speed": speed})

@@ -1,11 +1,11 @@
-"""Pistons: courses of pressure, filling, lag and centrifugal head, exact inside a step."""
+"""Pistons: profiles of pressure, filling, lag and centrifugal head, exact inside a step."""
 
 import math
 
 import pytest
 
 from thrustwasher.errors import ParameterError
-from thrustwasher.transmission.parameters import TransmissionParams, course_fields
+from thrustwasher.transmission.parameters import TransmissionParams, profile_fields
 
 from test_transmission_step import Gearbox  # isort: skip
 
@@ -19,7 +19,9 @@ def pressed(**more):
         actuation="pressure",
         load_torque=0.0,
         **(
-            course_fields("clutch_pressure", CLUTCH) | course_fields("brake_pressure", BRAKE) | more
+            profile_fields("clutch_pressure", CLUTCH)
+            | profile_fields("brake_pressure", BRAKE)
+            | more
         ),
     )
 
@@ -63,7 +65,7 @@ def test_nothing_presses_before_the_piston_is_full():
 
 def test_a_slow_pressure_kisses_after_the_piston_is_full():
     """Behind a constant command p = p_1 (1 - exp(-t/lag)): the spring is passed at lag ln(...)."""
-    points = course_fields("clutch_pressure", ((0.0, 0.0), (1e-9, 6e4)))
+    points = profile_fields("clutch_pressure", ((0.0, 0.0), (1e-9, 6e4)))
     box = after(pressed(**points, clutch_pressure_lag=0.05), 0.01, 0.2)
     assert box["clutch_kiss_time"] == pytest.approx(0.05 * math.log(2.0), rel=1e-6)
     assert box["clutch_filled_time"] < 1e-9
@@ -73,7 +75,7 @@ def test_a_pressed_piston_goes_back_when_the_pressure_has_fallen_to_the_springs(
     """Behind a command of 0 p = p_0 exp(-t/lag); what was let out has to be filled again."""
     points = ((0.0, 1.2e5), (0.1, 1.2e5), (0.1 + 1e-9, 0.0), (0.3, 0.0), (0.3 + 1e-9, 1.2e5))
     box = pressed(
-        **course_fields("brake_pressure", points), brake_pressure_lag=0.05, brake_fill_volume=1e-5
+        **profile_fields("brake_pressure", points), brake_pressure_lag=0.05, brake_fill_volume=1e-5
     )
     after(box, 0.15)
     assert box["brake_filled"] == 1.0
@@ -92,7 +94,7 @@ def test_oil_that_turns_with_the_drum_presses_by_its_head():
     for i in range(n):
         r = 0.04 + 0.03 * (i + 0.5) / n
         force += 0.5 * 850.0 * 200.0**2 * (r * r - 9e-4) * 2.0 * math.pi * r * 0.03 / n
-    points = course_fields("clutch_pressure", ((0.0, 1e5),))
+    points = profile_fields("clutch_pressure", ((0.0, 1e5),))
     for share in (0.0, 0.9):
         box = pressed(**points, **radii, balance_share=share, initial_drum_speed=200.0)
         box.step(0.0)
@@ -108,16 +110,16 @@ def test_pressure_inputs_are_straight_over_a_step_and_stand_beside_the_points():
     assert box["clutch_load"] == pytest.approx((1e5 - SPRING) * AREA, rel=1e-12)
 
 
-def test_a_negative_pressure_is_refused_and_so_is_a_course_without_points():
+def test_a_negative_pressure_is_refused_and_so_is_a_profile_without_points():
     for points, said in ((((0.1, -1.0),), "clutch_pressure_1"), ((), "0 points")):
         with pytest.raises(ParameterError, match=said):
-            TransmissionParams(**course_fields("clutch_pressure", points))
+            TransmissionParams(**profile_fields("clutch_pressure", points))
     assert Gearbox(actuation="pressure").step(0.01, clutch_pressure=-1.0) != 0
 
 
 def test_the_engine_follows_its_points_inside_a_step():
     """Momentum is the integral of the torque, whatever the steps."""
-    points = course_fields("engine_torque", ((0.0, 100.0), (0.03, 40.0), (0.05, 0.0)))
+    points = profile_fields("engine_torque", ((0.0, 100.0), (0.03, 40.0), (0.05, 0.0)))
     for steps in ((0.1,), (0.017,) * 6):
         box = Gearbox(load_torque=0.0, initial_engine_speed=0.0, washers=0, **points)
         for dt in steps:

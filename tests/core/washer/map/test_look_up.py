@@ -112,7 +112,7 @@ def test_a_map_that_comes_goes_or_is_written_anew_is_seen_at_once(map_path, tmp_
 
     def write(data):
         draft = tmp_path / "draft"
-        draft.write_bytes(pack(data, small.card))
+        draft.write_bytes(pack(data, small.metadata))
         draft.replace(tmp_path / "mine.twm")
 
     shipped, small = answered(), read_map(map_path)
@@ -125,7 +125,7 @@ def test_a_map_that_comes_goes_or_is_written_anew_is_seen_at_once(map_path, tmp_
     narrow[L.BOX + 1] = 250.0  # N, the highest load
     write(narrow)
     assert answered()[0] == "field"
-    (tmp_path / "mine.twm").write_bytes(pack(small.data, small.card))  # in its place
+    (tmp_path / "mine.twm").write_bytes(pack(small.data, small.metadata))  # in its place
     assert answered() == first
     (tmp_path / "mine.twm").unlink()
     assert answered() == shipped

@@ -11,7 +11,15 @@ from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.washer.kernels.map import map_layout as L
 from thrustwasher.washer.map.look_up import WasherMap
 from thrustwasher.washer.map.map_build import build_lines, find_reach, journal_for, make_map, survey
-from thrustwasher.washer.map.map_file import CARD, NUMBERS, all_maps, pack, plain, read_map, unpack
+from thrustwasher.washer.map.map_file import (
+    METADATA,
+    NUMBERS,
+    all_maps,
+    pack,
+    plain,
+    read_map,
+    unpack,
+)
 from thrustwasher.washer.map.map_plan import plan_map
 from thrustwasher.washer.parameters import WasherParams
 from thrustwasher.washer.solve import solve_washer
@@ -27,17 +35,17 @@ TINY = {
 def test_what_is_packed_is_read_again(map_path, tmp_path):
     first = read_map(map_path)
     copy = tmp_path / "copy.twm"
-    copy.write_bytes(pack(first.data, first.card))
+    copy.write_bytes(pack(first.data, first.metadata))
     second = read_map(copy)
-    assert np.array_equal(first.data, second.data) and first.card == second.card
+    assert np.array_equal(first.data, second.data) and first.metadata == second.metadata
     assert copy.read_bytes() == map_path.read_bytes()  # the same bytes for the same map
 
 
 def test_the_card_says_what_the_map_is_worth(map_path):
-    card = read_map(map_path).card
-    held, allowed = card["held_out"], card["tolerance"] / 3.0
+    metadata = read_map(map_path).metadata
+    held, allowed = metadata["held_out"], metadata["tolerance"] / 3.0
     assert held["torque"] < allowed and held["fold_load"] < allowed and held["folds"] > 0
-    assert card["built_from"] == "field" and card["params"]["roughness"] == 5.15e-7
+    assert metadata["built_from"] == "field" and metadata["params"]["roughness"] == 5.15e-7
 
 
 def test_the_resource_of_an_fmu_holds_the_same_numbers(map_path):
@@ -49,7 +57,7 @@ def test_the_resource_of_an_fmu_holds_the_same_numbers(map_path):
 
 def damaged(path, change):
     with zipfile.ZipFile(path) as archive:
-        parts = {name: archive.read(name) for name in (NUMBERS, CARD)}
+        parts = {name: archive.read(name) for name in (NUMBERS, METADATA)}
     change(parts)
     with zipfile.ZipFile(path, "w") as archive:
         for name, content in parts.items():
@@ -75,7 +83,7 @@ def wrong_shape(parts):
 
 
 def no_card(parts):
-    parts[CARD] = b"[1, 2]"
+    parts[METADATA] = b"[1, 2]"
 
 
 def empty(parts):

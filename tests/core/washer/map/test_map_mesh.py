@@ -29,9 +29,9 @@ TINY = {**BOX, "load": (10.0, 14.0), "speed": (10.0, 10.0)}
 
 @pytest.mark.slow
 def test_few_lines_on_a_finer_mesh_make_good_what_the_mesh_misses(tmp_path):
-    card = make_map(WIDE, tmp_path / "wide.twm", box=BOX, tolerance=0.01, workers=1, points=6)
-    assert card["built_from"] == "field" and card["finer_lines"] == 3
-    assert card["mesh_made_good"] > 3e-3 and card["held_out"]["torque"] < 0.01
+    metadata = make_map(WIDE, tmp_path / "wide.twm", box=BOX, tolerance=0.01, workers=1, points=6)
+    assert metadata["built_from"] == "field" and metadata["finer_lines"] == 3
+    assert metadata["mesh_made_good"] > 3e-3 and metadata["held_out"]["torque"] < 0.01
     there = solve_washer(WIDE, **PLACE, fidelity="fine").friction_torque
     assert solve_washer(WIDE, **PLACE).friction_torque > 1.003 * there
     torque = WasherMap(WIDE, tmp_path / "wide.twm").torque(*PLACE.values())
@@ -55,8 +55,8 @@ def test_that_all_lines_go_to_the_finer_mesh_is_said(tmp_path, monkeypatch):
 
     monkeypatch.setattr(map_build, "change_of_mesh", rough)
     labels = []
-    card = made(tmp_path, labels)
-    assert card["built_from"] == "fine"
+    metadata = made(tmp_path, labels)
+    assert metadata["built_from"] == "fine"
     assert "the coarser mesh is 6.0% off: all lines on the finer mesh," in labels
 
 

@@ -91,8 +91,8 @@ def test_a_step_that_leaves_the_box_says_so_once_and_stays_bounded():
     assert model.outputs()[model.output_names.index("solver_status")] == Status.OK
 
 
-@pytest.mark.parametrize(("way", "rung"), [("solve", "field"), ("hold", "map")])
-def test_the_washer_with_its_solver_says_once_that_it_left_the_box(way, rung):
+@pytest.mark.parametrize(("way", "level"), [("solve", "field"), ("hold", "map")])
+def test_the_washer_with_its_solver_says_once_that_it_left_the_box(way, level):
     """Then it is back in the box, and says the next time again."""
     given = {"fidelity": "map", "outside_map": way, "holding": "off"}
     model, log = DirectInstance(SPEC, parameters=given), []
@@ -104,7 +104,7 @@ def test_the_washer_with_its_solver_says_once_that_it_left_the_box(way, rung):
         assert found["solver_status"] == (Status.OUTSIDE_MAP if tilt > 0.003 else Status.OK)
         log += [text for _, text in model.core.messages() if "OUTSIDE_MAP" in text]
     place = PLACE | {"tilt": 0.0035 if way == "solve" else 0.003}
-    wanted = solve_washer(WasherParams(), **place, fidelity=rung).friction_torque
+    wanted = solve_washer(WasherParams(), **place, fidelity=level).friction_torque
     assert found["friction_torque"] == pytest.approx(wanted, rel=1e-5)
     assert len(log) == 2
 
@@ -147,6 +147,6 @@ def test_the_map_alone_shows_no_parameter_of_the_solver_and_its_box():
         ({"models": ["washer"], "fidelity": "map", "target": "python"}, "--target native"),
     ],
 )
-def test_an_fmu_of_one_rung_that_there_is_not_is_refused(options, words, tmp_path):
+def test_an_fmu_of_one_level_that_there_is_not_is_refused(options, words, tmp_path):
     with pytest.raises(ParameterError, match=words):
         build(out=tmp_path, **options)

@@ -2,7 +2,7 @@
 
 ================  ===========================================================
 ``traced_pack``   a pack with the test rig that records it over time
-``pack_course``   it is stepped along a recording
+``pack_history``   it is stepped along a recording
 ``slip_scatter``  scatter of a slip that was found by the recorded torque
 ``trace_fit``     ``calibrate_traces``: parameters from recordings
 ================  ===========================================================

@@ -10,9 +10,9 @@ import numpy as np
 
 from ....clutch.parameters import DRUM, LOAD, OIL, SPEC, SPEED, ClutchParams
 from ....errors import ParameterError
+from ....model.levels import level_named
 from ....model.part_file import PartFile, find_part
 from ....model.point import from_box, taken_text
-from ....model.rungs import rung_named
 from ....numerics.jit import Array
 from ....settings import find_place, places
 from ....units import format_quantity, parse_quantity
@@ -25,7 +25,7 @@ from ..traces.recording import SLOW, Recording, Traces, pieces, recording
 from ..traces.trace_problem import TraceProblem, size_text
 from ..traces.trace_result import TraceCalibration
 from ..traces.traced import Traced
-from .pack_course import SLIDES, slip_by_torque, walk_pack
+from .pack_history import SLIDES, slip_by_torque, walk_pack
 from .slip_scatter import slip_scatter
 from .traced_pack import OF_RIG, TRACED, TracedPack, traced_pack
 
@@ -108,7 +108,7 @@ def calibrate_traces(
     Returns
     -------
     TraceCalibration : fitted ``params``; value, interval, verdict of every parameter; ``warnings``
-        of what the fit cannot follow; ``courses()`` over time
+        of what the fit cannot follow; ``histories()`` over time
 
     Raises
     ------
@@ -501,7 +501,7 @@ def _plan(
             )
     return Plan(
         spec=TRACED,
-        fidelity=rung_named(SPEC, fidelity or part.fidelity),
+        fidelity=level_named(SPEC, fidelity or part.fidelity),
         inputs=inputs,
         shown={name: inputs[:, i] for i, name in enumerate(names)},
         units={s.name: s.unit for s in TRACED.inputs},

@@ -138,7 +138,7 @@ class FrictionProblem(ModelProblem):
 
     rough, fine, resolution, evaluations = 1e-7, 1e-14, 1e-9, 250
     law, subject, counted_as, error_name = "law", "friction", "point", "friction_error"
-    by_rung, profiles, typical, instead = False, True, 1.0, TABLE
+    by_level, profiles, typical, instead = False, True, 1.0, TABLE
 
     @classmethod
     def asked(

@@ -1,6 +1,6 @@
 """Parameters fitted to recordings over time: what all models share.
 
-A model hands over what steps it along a recording (the clutch's ``calibration.pack_course``).
+A model hands over what steps it along a recording (the clutch's ``calibration.pack_history``).
 
 =================  =============================================================================
 ``recording``      rows over time, checked; the pieces between gaps and returns of time

@@ -12,7 +12,7 @@ from ..measured import output_units
 from .patterns import Pattern
 
 
-class CourseOver(NamedTuple):
+class HistoryOver(NamedTuple):
     """One output of one recording over time, measured and fitted."""
 
     name: str
@@ -39,7 +39,7 @@ class TraceCalibration(Calibration):
         """Time of each value in its recording [s], (n,)."""
         return np.asarray(self.points.time)  # type: ignore[attr-defined]
 
-    def courses(self) -> list[CourseOver]:
+    def histories(self) -> list[HistoryOver]:
         """Return every output of every recording over time."""
         points: Any = self.points
         units = output_units(points.plan.spec)
@@ -50,7 +50,7 @@ class TraceCalibration(Calibration):
             columns = (points.parts(name, x) for x in (self.time, points.value, self.fitted, half))
             for run, *values in zip(points.runs, *columns, strict=True):
                 if len(values[0]):
-                    found.append(CourseOver(name, units[name], run.name, *values))
+                    found.append(HistoryOver(name, units[name], run.name, *values))
         return found
 
     def remarks(self) -> list[str]:

@@ -12,8 +12,8 @@ from ....numerics.jit import Array
 from ..measured import Measured
 from .binned import Run
 
-Course = dict[str, Array]
-Walk = Callable[[Any, str, Run], "Course | Status"]
+History = dict[str, Array]
+Walk = Callable[[Any, str, Run], "History | Status"]
 """Steps a part (parameters, level) along a run: its outputs (m,), or why it cannot go on."""
 Follows = Callable[["Traced", Mapping[str, float]], tuple[Array, Array]]
 """Of recordings and changed parameters: changes of computed and of measured values, (n, columns)
@@ -56,7 +56,7 @@ class Traced(Measured):
         """Engagements in all runs."""
         return int(sum(run.engaged.max(initial=0) for run in self.runs))
 
-    def courses(self, changes: Mapping[str, float]) -> list[Course | Status]:
+    def histories(self, changes: Mapping[str, float]) -> list[History | Status]:
         """Return the outputs along every run with changed parameters, or why there are none."""
         assert self.walk is not None
         try:
@@ -70,11 +70,11 @@ class Traced(Measured):
         found = np.full(len(self.value), np.nan)
         failed: dict[int, Status] = {}
         place, output, starts = self.run_of, np.array(self.output), self.starts
-        for k, course in enumerate(self.courses(changes)):
-            if isinstance(course, Status):
-                failed |= dict.fromkeys(range(starts[k], starts[k + 1]), course)
+        for k, history in enumerate(self.histories(changes)):
+            if isinstance(history, Status):
+                failed |= dict.fromkeys(range(starts[k], starts[k + 1]), history)
                 continue
-            for name, values in course.items():
+            for name, values in history.items():
                 mine = (place == k) & (output == name)
                 found[mine] = values[self.row[mine] - starts[k]]
         return found, failed

@@ -12,7 +12,7 @@
 ``washer_plots``     the washer: maps over its annulus, its load curve with the folds
 ``efficiency_plot``  efficiency over torque and speed, and the losses by source along both
 ``optimum_plot``     designs that a search has tried: the front between two figures
-``rig_plot``         measured values of a measured data set with their errors
+``comparison_plot``         measured values of a measured data set with their errors
 ===================  ===========================================================================
 """
 

@@ -32,7 +32,7 @@ def optimum_figure(found: Any) -> Figure:
         _front(axis, found, scales, zeros)
         label(axis, "", names[0], names[1])
     else:
-        _course(axis, found, scales[0], zeros[0])
+        _profile(axis, found, scales[0], zeros[0])
         label(axis, "", "designs tried", names[0])
     wanted = " and ".join(g.words for g in goals)
     heading(figure, f"{found.target}: {wanted}")
@@ -71,7 +71,7 @@ def _tried(found: Any) -> Iterator[tuple[Any, dict[str, Any]]]:
         yield ~inside, {"color": GREY, "label": "tried, outside a limit", **hollow}
 
 
-def _course(axis: Any, found: Any, scale: float, zero: float) -> None:
+def _profile(axis: Any, found: Any, scale: float, zero: float) -> None:
     goal = found.problem.goals[0]
     tried = (found.tried[:, 0] - zero) / scale
     number = np.arange(1, len(tried) + 1)

@@ -16,32 +16,34 @@ MOST_RECORDINGS = 4  # that are drawn, each in a row of panels
 @styled
 def trace_figure(found: Any) -> Figure:
     """Return for each output of each recording measured and fit over time, and the residuals."""
-    courses = found.courses()
-    names = dict.fromkeys(course.name for course in courses)
-    shown = [c for name in names for c in [x for x in courses if x.name == name][:MOST_RECORDINGS]]
+    histories = found.histories()
+    names = dict.fromkeys(history.name for history in histories)
+    shown = [
+        c for name in names for c in [x for x in histories if x.name == name][:MOST_RECORDINGS]
+    ]
     figure, panels = new_figure(11.0, 1.2 + 2.8 * len(shown), len(shown), 2, head=2)
-    for course, left, right in zip(shown, panels[::2], panels[1::2], strict=True):
-        unit, factor = display_unit(float(abs(course.measured).max()), course.unit)
-        _draw_course(left, found, course, unit, factor)
+    for history, left, right in zip(shown, panels[::2], panels[1::2], strict=True):
+        unit, factor = display_unit(float(abs(history.measured).max()), history.unit)
+        _draw_history(left, found, history, unit, factor)
         look: Any = {"color": BLUE, "marker": ".", "ls": "", "ms": 3.5, "alpha": 0.85}
-        right.plot(course.time, (course.measured - course.computed) / factor, **look)
+        right.plot(history.time, (history.measured - history.computed) / factor, **look)
         right.axhline(0.0, color=BLACK, lw=0.9)
         label(right, "Residuals", "time [s]", f"measured - fitted [{unit}]")
-    left_out = len(courses) - len(shown)
+    left_out = len(histories) - len(shown)
     more = f"; {left_out} more are not drawn" if left_out else ""
     heading(figure, fit_heading(found) + more, fontsize=10)
     return figure
 
 
-def _draw_course(axis: Axes, found: Any, course: Any, unit: str, factor: float) -> None:
+def _draw_history(axis: Axes, found: Any, history: Any, unit: str, factor: float) -> None:
     """Draw one output of one recording, the fit with its band."""
-    time, computed, half = course.time, course.computed / factor, course.half / factor
+    time, computed, half = history.time, history.computed / factor, history.half / factor
     look: Any = {"color": BLUE, "marker": ".", "ls": "", "ms": 4.0, "zorder": 3}
-    axis.plot(time, course.measured / factor, label="measured", **look)
+    axis.plot(time, history.measured / factor, label="measured", **look)
     known = half < 10.0 * abs(computed).max()
     if known.all():
         name = f"{100 * found.confidence:g} % band"
         axis.fill_between(time, computed - half, computed + half, color=SKY, alpha=0.6, label=name)
     axis.plot(time, computed, color=ORANGE, label="fit", zorder=4)
-    label(axis, f"{course.name.replace('_', ' ')}, {course.recording}", "time [s]", f"[{unit}]")
+    label(axis, f"{history.name.replace('_', ' ')}, {history.recording}", "time [s]", f"[{unit}]")
     axis.legend(edgecolor=GREY)

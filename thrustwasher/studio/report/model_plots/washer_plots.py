@@ -175,19 +175,19 @@ def curve_figure(curve: Any, point: Mapping[str, float]) -> Figure:
 
 
 @styled
-def course_figure(course: Any) -> Figure:
+def history_figure(history: Any) -> Figure:
     """Return torque, film, temperatures and what drives them over time.
 
     Parameters
     ----------
-    course : a washer's time history, arrays over ``time`` [s]
+    history : a washer's time history, arrays over ``time`` [s]
     """
     figure, (torque, film, heat, inputs) = new_figure(10.4, 7.2, 2, 2, head=1)
-    t, across = course.time, "time [s]"
-    torque.plot(t, course.friction_torque, color=RED)
+    t, across = history.time, "time [s]"
+    torque.plot(t, history.friction_torque, color=RED)
     label(torque, "Friction torque", across, "friction torque [N·m]")
 
-    film.plot(t, np.maximum(course.film_ratio, LOWEST_RATIO), color=BLUE)
+    film.plot(t, np.maximum(history.film_ratio, LOWEST_RATIO), color=BLUE)
     film.set_yscale("log")
     for ratio, words in ((3.0, "3: mixed"), (1.0, "1: boundary")):
         film.axhline(ratio, color=ORANGE, lw=0.9, ls=":")
@@ -200,18 +200,18 @@ def course_figure(course: Any) -> Figure:
         ("temperature", "mean of carrier and washer", RED, "-"),
         ("oil_temperature", "oil", BLUE, ":"),
     ):
-        heat.plot(t, getattr(course, name) - CELSIUS, color=colour, ls=dashes, label=words)
+        heat.plot(t, getattr(history, name) - CELSIUS, color=colour, ls=dashes, label=words)
     label(heat, "Temperatures", across, "temperature [°C]")
     heat.legend()
 
-    inputs.plot(t, course.load, color=GREY, label="load [N]")
-    inputs.plot(t, course.speed, color=BLACK, ls="--", label="speed [rad/s]")
-    inputs.plot(t, 1e5 * course.tilt, color=ORANGE, ls=":", label="tilt [0.01 mrad]")
+    inputs.plot(t, history.load, color=GREY, label="load [N]")
+    inputs.plot(t, history.speed, color=BLACK, ls="--", label="speed [rad/s]")
+    inputs.plot(t, 1e5 * history.tilt, color=ORANGE, ls=":", label="tilt [0.01 mrad]")
     label(inputs, "What drives it", across, "load, speed, tilt")
     inputs.legend()
-    lost = t[course.distress]
+    lost = t[history.distress]
     words = f"film lost at {format_quantity(float(lost[0]), 's')}" if len(lost) else "film kept"
-    heading(figure, f"Thrust washer over time, {course.thermal_mode.replace('_', ' ')}: {words}")
+    heading(figure, f"Thrust washer over time, {history.thermal_mode.replace('_', ' ')}: {words}")
     return figure
 
 

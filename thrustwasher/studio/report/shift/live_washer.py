@@ -8,7 +8,7 @@ from ....model.parameters import as_numbers
 from ....native import shipped
 from ....numerics.banded import N_SIDES
 from ....shift.account.shift_record import Record
-from ....shift.account.worst_moments import LEAST_LOAD, rung_with_fields
+from ....shift.account.worst_moments import LEAST_LOAD, level_with_fields
 from ....washer.kernels import layout, newton, workspace
 from ....washer.kernels.constants import size_of_par
 from ....washer.kernels.workspace import size_of_state, size_of_work
@@ -38,7 +38,7 @@ WORKER = WebWorker(
         N_SIDES=N_SIDES,
         N_NODAL=workspace.N_NODAL,
     ),
-    rungs={
+    levels={
         name: {
             "grid": GRIDS[name],
             "code": list(SPEC.fidelities).index(name) + 1,
@@ -68,6 +68,6 @@ def live_washer(record: Record) -> dict[str, Any] | None:
         "script": WORKER.source(),
         "about": WORKER.data(part.spec),
         "parameters": as_numbers(part.params()),
-        "rung": rung_with_fields(part),
+        "level": level_with_fields(part),
         "least_load": LEAST_LOAD,
     }

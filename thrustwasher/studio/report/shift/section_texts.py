@@ -30,7 +30,7 @@ def temperature_texts(r: Record) -> list[str]:
     return [" ".join(texts)] if texts else []
 
 
-def rung_texts(r: Record) -> list[str]:
+def level_texts(r: Record) -> list[str]:
     """Return how levels were chosen, how far off they were and what was run again."""
     first = "A first run with the cheapest fidelity levels recorded the inputs to choose for."
     guard = r.guard

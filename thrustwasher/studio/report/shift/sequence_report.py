@@ -37,7 +37,7 @@ def sequence_page(result: Any) -> Page:
     texts = [f"{words}." for words in summary.step_words(result)]
     texts += [f"The run says: {message}." for message in result.messages]
     sections = [
-        Section("course", "The shifts over time", ["plots"], [], [still], [_table(records)]),
+        Section("profile", "The shifts over time", ["plots"], [], [still], [_table(records)]),
         *([Section("washer", "The thrust washer", ["discs"])] if washer else []),
         Section("energy", "Energy", ["flow"], [ENERGY_TEXT]),
         *([Section("trust", "How far to trust it", texts=texts)] if texts else []),

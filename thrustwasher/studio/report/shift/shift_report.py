@@ -19,7 +19,7 @@ from . import shift_tables
 from .how_sure import how_sure_sections, steady_is_doubted
 from .live_washer import live_washer
 from .overview_plot import overview_figure
-from .section_texts import USUAL_TEXT, cost_texts, rung_texts, simulated_texts, temperature_texts
+from .section_texts import USUAL_TEXT, cost_texts, level_texts, simulated_texts, temperature_texts
 from .shift_data import page_data, run_data, slip_of
 from .trust import trust_texts
 from .usual import beside, usual_table
@@ -57,7 +57,7 @@ def shift_page(record: Record, live: str = "") -> Page:
         "usual", "Compared with what is usual", texts=[USUAL_TEXT], tables=[usual], folded=True
     )
     sections = [
-        Section("course", "More over time", ["plots"], texts, tables=[phases]),
+        Section("profile", "More over time", ["plots"], texts, tables=[phases]),
         *_friction_sections(record),
         *_judder_sections(record),
         *(
@@ -81,7 +81,7 @@ def shift_page(record: Record, live: str = "") -> Page:
             printed=True,
         ),
         *(replace(section, folded=True) for section in how_sure_sections(record)),
-        *(replace(section, folded=True) for section in rung_sections(record)),
+        *(replace(section, folded=True) for section in level_sections(record)),
         Section("cost", "Time spent", texts=cost_texts(record), tables=[cost], folded=True),
         Section(
             "parameters", "What was simulated", texts=simulated, tables=parameters, folded=True
@@ -206,15 +206,15 @@ def _judder_sections(record: Record) -> list[Section]:
     return [Section("judder", TITLES[record.judder.kind], texts=texts, tables=tables)]
 
 
-def rung_sections(record: Record) -> list[Section]:
+def level_sections(record: Record) -> list[Section]:
     """Return which levels ran and why, how far off they were and what was run again."""
     if record.selection is None:
         return []
-    texts = [*record.selection.words(), *rung_texts(record)]
+    texts = [*record.selection.words(), *level_texts(record)]
     if record.guard is None:
-        return [Section("rungs", "Fidelity levels", texts=texts)]
+        return [Section("levels", "Fidelity levels", texts=texts)]
     tables = [shift_tables.check_table(record)]
-    return [Section("rungs", "Fidelity levels and their check", texts=texts, tables=tables)]
+    return [Section("levels", "Fidelity levels and their check", texts=texts, tables=tables)]
 
 
 def _moments(record: Record) -> dict[str, Moment | None]:

@@ -245,12 +245,12 @@ def parameter_table(part: Part) -> Table:
 def settings(record: Record) -> dict[str, str]:
     """Return what was simulated, by name: the scene, the steps, the levels, every parameter."""
     tables = [(part.name, parameter_table(part).rows) for part in record.parts]
-    rungs = [f"{name} {row[1]}" for name, rows in tables for row in rows if row[0] == "fidelity"]
+    levels = [f"{name} {row[1]}" for name, rows in tables for row in rows if row[0] == "fidelity"]
     given = {
         "scene": f"{record.name}: {record.title}",
         "communication step": say(record.step, "s"),
         "master": record.master,
-        "fidelity levels": ", ".join(rungs),
+        "fidelity levels": ", ".join(levels),
         "temperature of the oil": say(record.oil_temperature, "K"),
     }
     own = {

@@ -78,8 +78,8 @@ def _washer(r: Record) -> Iterator[str]:
     if part is None:
         return
     given, spec = part.parameters, part.spec
-    rung = given.get("fidelity", spec.default_fidelity)
-    text = f"Washer, fidelity {rung}: {spec.fidelities.get(rung, '')}."
+    level = given.get("fidelity", spec.default_fidelity)
+    text = f"Washer, fidelity {level}: {spec.fidelities.get(level, '')}."
     if given.get("thermal_mode") != "transient":
         text += " The washer is quasi-steady: every step is a steady state, whatever its bodies "
         text += f"store. {_steady_washer(r)}"

@@ -178,12 +178,12 @@ export class PointModel {
   }
 
   /** Solve with parameters and inputs of a draw of the scatter; return also what is in the way. */
-  *draw(parameters, rung, ...given) {
+  *draw(parameters, level, ...given) {
     yield;
     const { par, state, work, out } = this;
     Object.assign(this, (this.drawn ??= this.memory()));
     try {
-      const [broken] = [this.set(parameters, rung)].flat(),
+      const [broken] = [this.set(parameters, level)].flat(),
         found = broken ? { broken } : this.solve(...given);
       return found.code >= this.about.first_failure ? { problem: this.about.statuses[found.code] } : found;
     } finally {
@@ -194,14 +194,14 @@ export class PointModel {
   /**
    * Take parameters [numbers in their order] and a level.
    * @param {number[]} parameters
-   * @param {string} rung
+   * @param {string} level
    * @returns {any} the number of a broken rule, -1 if no constants follow, else 0; or a list that begins with it
    */
-  set(parameters, rung) {
+  set(parameters, level) {
     const par = this.par.view,
       { L, kernel } = this;
     par.fill(0);
-    par.set([...parameters, this.about.rungs[rung].code]);
+    par.set([...parameters, this.about.levels[level].code]);
     if ("P_THERMAL_MODE" in L) par[L.P_THERMAL_MODE] = L.QUASI_STEADY;
     return (
       kernel.call("broken_rule", this.par) ||

@@ -13,7 +13,7 @@ const NOISE = 1e-12,
 export const state = {
   inputs: {},
   parameters: {},
-  rung: ABOUT.rung,
+  level: ABOUT.level,
   branch: "",
   asked: "",
   held: "",
@@ -195,7 +195,7 @@ export function ruleWords(number, values, least) {
 function setParameters() {
   setting = true;
   view.scatter?.moved(true);
-  ask("set", { parameters: numbersOf(state.parameters), rung: state.rung }, (found, problem) => {
+  ask("set", { parameters: numbersOf(state.parameters), level: state.level }, (found, problem) => {
     if (anew) state.held = ""; // an address has no history
     setting = anew = false;
     waiting = null;
@@ -275,7 +275,7 @@ function received(result, fresh, took, gone) {
   if (fresh) {
     const look = state.strange || missing || advice || String(known).includes("outside") ? "problem" : "";
     say(
-      `${state.strange}${missing}${advice}solved in ${digits(took, 2)} ms; fidelity level ${state.rung} (${ABOUT.rungs[state.rung]}); ${known}`,
+      `${state.strange}${missing}${advice}solved in ${digits(took, 2)} ms; fidelity level ${state.level} (${ABOUT.levels[state.level]}); ${known}`,
       look,
     );
     state.strange = "";
@@ -313,18 +313,19 @@ function show(name, value) {
   if (name === "distress") place.className = value ? "bad" : "";
 }
 
-const size = (card, name, values) => (card.envelope[name].min >= 0 ? Math.abs(values[name]) : values[name]);
-const isOutside = (card, name, values) =>
+const size = (table, name, values) => (table.envelope[name].min >= 0 ? Math.abs(values[name]) : values[name]);
+const isOutside = (table, name, values) =>
   !(
-    size(card, name, values) >= card.envelope[name].min && size(card, name, values) <= card.envelope[name].max
+    size(table, name, values) >= table.envelope[name].min &&
+    size(table, name, values) <= table.envelope[name].max
   );
 
 /** Return the largest error measured around this point, null outside the verification table's box. */
-function errorOf(card, values) {
-  if (Object.keys(card.envelope).some((name) => isOutside(card, name, values))) return null;
-  const at = (name) => (name in card.envelope ? size(card, name, values) : values[name]);
+function errorOf(table, values) {
+  if (Object.keys(table.envelope).some((name) => isOutside(table, name, values))) return null;
+  const at = (name) => (name in table.envelope ? size(table, name, values) : values[name]);
   const here = (axes, row) => axes.every((name, k) => row[2 * k] <= at(name) && at(name) <= row[2 * k + 1]);
-  const known = card.divisions.filter(({ axes }) => axes.every((name) => Number.isFinite(values[name])));
+  const known = table.divisions.filter(({ axes }) => axes.every((name) => Number.isFinite(values[name])));
   return Math.min(
     ...known.map(({ axes, rows }) =>
       Math.max(...rows.filter((row) => here(axes, row)).map((row) => row.at(-1))),
@@ -338,21 +339,21 @@ function verified() {
     { branch, film_ratio } = last.outputs;
   const values = { film_ratio, ...(view.values?.(at) ?? at) },
     chart = view.chart ?? branch;
-  const cards = ABOUT.cards.filter(
-    (c) => c.fidelity === state.rung && (!c.chart || !chart || c.chart === chart),
+  const tables = ABOUT.error_tables.filter(
+    (c) => c.fidelity === state.level && (!c.chart || !chart || c.chart === chart),
   );
-  if (!ABOUT.cards.length || changes(ABOUT.given).length)
+  if (!ABOUT.error_tables.length || changes(ABOUT.given).length)
     return [null, "no error is verified for these parameters"];
-  if (!cards.length) return [null, "no error is verified at this fidelity level"];
-  const found = cards.map((c) => errorOf(c, values)).filter((e) => e !== null),
+  if (!tables.length) return [null, "no error is verified at this fidelity level"];
+  const found = tables.map((c) => errorOf(c, values)).filter((e) => e !== null),
     error = ABOUT.safety * Math.max(...found);
   if (found.length)
     return [
       error,
       `verified error of the torque ${view.where ?? "here"}: ${error < 1e-5 ? "below 0.001" : `at most ${digits(100 * error, 2)}`} %`,
     ];
-  const out = Object.entries(cards[0].envelope).filter(([name]) =>
-    cards.every((c) => isOutside(c, name, values)),
+  const out = Object.entries(tables[0].envelope).filter(([name]) =>
+    tables.every((c) => isOutside(c, name, values)),
   );
   const range = ([name, a]) =>
     `${name} ${shown(values[name], a.unit)} (${shown(a.min, a.unit)} .. ${shown(a.max, a.unit)})`;
@@ -374,7 +375,7 @@ export function settled() {
       Object.entries(ABOUT.oils[name]).every(([n, v]) => state.parameters[n] === v),
     ) ?? "";
   const pairs = [...Object.entries(state.inputs), ...changes(ABOUT.given)];
-  if (state.rung !== ABOUT.rung) pairs.push(["fidelity", state.rung]);
+  if (state.level !== ABOUT.level) pairs.push(["fidelity", state.level]);
   if (state.branch) pairs.push(["branch", state.branch]);
   if (view.scatter?.on) pairs.push(["scatter", "true"]);
   if (Units.mode !== "mixed") pairs.push(["units", Units.mode]);
@@ -392,12 +393,12 @@ const fillBoxes = () =>
 function reproduced() {
   const changed = changes(ABOUT.defaults),
     { key, name, python } = ABOUT,
-    rung = state.rung;
+    level = state.level;
   const inputs = Object.entries(state.inputs),
     { solve: solved, params } = python;
   const literal = (v) => (typeof v === "string" ? `"${v}"` : v === true ? "True" : v === false ? "False" : v);
   const more = [];
-  if (rung !== ABOUT.usual_rung) more.push(["fidelity", rung]);
+  if (level !== ABOUT.usual_level) more.push(["fidelity", level]);
   if (state.branch) more.push(["branch", state.branch]);
   const options = [...inputs, ...more].map(([n, v]) => `--${n.replaceAll("_", "-")} ${v}`);
   const sets = changed.map(([n, v]) => `--set ${n}=${v}`),
@@ -407,7 +408,7 @@ function reproduced() {
   return {
     command: `thrustwasher ${key} ${[...options, ...sets].join(" ")}`,
     python: `from thrustwasher import ${params}, ${solved}\n\nparams = ${params}(${given})\nresult = ${solved}(params, ${values})\nprint(result.${Object.keys(ABOUT.outputs)[0]})`,
-    part: `model = "${key}"\nname = "${name}"\nfidelity = "${rung}"\n\n[parameters]\n${changed.map(([n, v]) => `${n} = ${JSON.stringify(v)}`).join("\n")}`,
+    part: `model = "${key}"\nname = "${name}"\nfidelity = "${level}"\n\n[parameters]\n${changed.map(([n, v]) => `${n} = ${JSON.stringify(v)}`).join("\n")}`,
     ...own,
   };
 }
@@ -440,8 +441,8 @@ function readAddress() {
     } else if (name === "branch" && "branch" in ABOUT.outputs) {
       if (!BRANCHES_ASKED.includes(text)) strange.push(`branch = ${text}, allowed: film or contact`);
     } else if (name === "fidelity") {
-      if (!Object.hasOwn(ABOUT.worker.rungs, text))
-        strange.push(`fidelity = ${text}, allowed: ${Object.keys(ABOUT.worker.rungs).join(" or ")}`);
+      if (!Object.hasOwn(ABOUT.worker.levels, text))
+        strange.push(`fidelity = ${text}, allowed: ${Object.keys(ABOUT.worker.levels).join(" or ")}`);
     } else if (name === "units") {
       if (Units.wrong) strange.push(Units.wrong);
     } else if (name === "scatter" && view.scatter) {
@@ -458,9 +459,9 @@ function readAddress() {
   }
   quiet = false;
   const branch = words.get("branch") ?? "",
-    rung = words.get("fidelity") ?? ABOUT.rung;
+    level = words.get("fidelity") ?? ABOUT.level;
   state.asked = BRANCHES_ASKED.includes(branch) ? branch : "";
-  if (Object.hasOwn(ABOUT.worker.rungs, rung)) state.rung = byId("fidelity").value = rung;
+  if (Object.hasOwn(ABOUT.worker.levels, level)) state.level = byId("fidelity").value = level;
   view.scatter?.set(TRUE.includes(words.get("scatter")));
   state.strange = strange.length ? `The address: ${strange.join("; ")}. ` : "";
   anew = true;
@@ -500,14 +501,14 @@ function builtControls() {
     group.append(...ABOUT.group.map((name) => fields[name].box)); // in their own order
     group.parentNode.open = innerWidth > 760; // above the results where it is narrower
   }
-  const rungs = el(
+  const levels = el(
     "select",
     { id: "fidelity" },
-    ...Object.keys(ABOUT.worker.rungs).map((r) => el("option", { value: r, title: ABOUT.rungs[r] }, r)),
+    ...Object.keys(ABOUT.worker.levels).map((r) => el("option", { value: r, title: ABOUT.levels[r] }, r)),
   );
-  rungs.value = state.rung;
-  rungs.addEventListener("change", () => {
-    state.rung = rungs.value;
+  levels.value = state.level;
+  levels.addEventListener("change", () => {
+    state.level = levels.value;
     parametersChanged();
   });
   main.prepend(
@@ -515,7 +516,7 @@ function builtControls() {
       "div",
       { class: "field" },
       el("label", { for: "fidelity" }, "fidelity level: mesh and laws", el("code", {}, "fidelity")),
-      rungs,
+      levels,
     ),
   );
   const oils = el(

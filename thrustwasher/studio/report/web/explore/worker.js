@@ -46,7 +46,7 @@ export function serve(Model) {
         postMessage({ id, task });
       } else if (task === "set") {
         jobs.clear();
-        postMessage({ id, task, result: solver.set(data.parameters, data.rung) });
+        postMessage({ id, task, result: solver.set(data.parameters, data.level) });
       } else if (task === "stop") jobs.clear();
       else if (task === "solve")
         postMessage({ id, task, result: solver.solve(data.point, data.fresh, data.branch, data.extra) });

@@ -1,6 +1,6 @@
 /* Key figures of a finished run, by the kernels that Python reads them with. */
 
-import { effective } from "./course.js";
+import { effective } from "./profile.js";
 
 /** Return lists of numbers as arrays in the kernels' memory, until the next ones are lent. */
 function lent(kernel, lists) {

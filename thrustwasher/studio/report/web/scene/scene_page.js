@@ -13,14 +13,14 @@ const DRAWN = 420; // points of a line, at most
 const MOST_TIMES = 131; // instants of a band
 const LOOKS = ["one", "two", "three"];
 const WASHERS = Object.keys(ABOUT.washers),
-  OWN = WASHERS.length ? ABOUT.washers[WASHERS[0]].rung : "";
+  OWN = WASHERS.length ? ABOUT.washers[WASHERS[0]].level : "";
 const QUICK =
   WASHERS.length && OWN !== "map"
     ? WASHERS.every((name) => ABOUT.washers[name].map)
       ? "map"
       : "recorded"
     : "";
-const RUNG_WORDS = {
+const LEVEL_WORDS = {
   map: "by their map",
   recorded: "with the torque of the last full run",
   "": WASHERS.length ? `at their own fidelity level, ${OWN}` : "none in this scene",
@@ -202,7 +202,7 @@ function settled() {
       if (which !== changes) return;
       if (problem)
         say(
-          `The washers at their own fidelity level: ${problem}. The figures are those ${RUNG_WORDS[QUICK]}.`,
+          `The washers at their own fidelity level: ${problem}. The figures are those ${LEVEL_WORDS[QUICK]}.`,
           "problem",
         );
       else {
@@ -224,13 +224,13 @@ function received(result, profiles, washers, which) {
   document.body.classList.remove("stale");
   byId("run_count").value = byId("run_count").textContent = String(count);
   byId("washer_level").value = washers || OWN;
-  byId("washer_level").textContent = RUNG_WORDS[washers];
+  byId("washer_level").textContent = LEVEL_WORDS[washers];
   showFigures();
   const warned = showWarnings(result.warnings, washers);
   drawViews();
   const later = washers && solvedFor !== which ? `; at their own fidelity level, ${OWN}, in a moment` : "";
   say(
-    `${strange}This run took ${digits(result.took, 2)} ms${WASHERS.length ? `, the washers ${RUNG_WORDS[washers]}${later}` : ""}.${warned ? ` ${warned} warning${warned > 1 ? "s" : ""}, listed above the plots.` : ""}`,
+    `${strange}This run took ${digits(result.took, 2)} ms${WASHERS.length ? `, the washers ${LEVEL_WORDS[washers]}${later}` : ""}.${warned ? ` ${warned} warning${warned > 1 ? "s" : ""}, listed above the plots.` : ""}`,
     strange ? "problem" : "",
   );
   if (washers === QUICK) document.documentElement.dataset.took = String(result.took);

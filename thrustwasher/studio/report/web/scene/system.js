@@ -1,6 +1,6 @@
 /* A scene as connected kernels: the same parts, connections and steps as Python's loop. */
 
-import { commandAt, shiftOf } from "./course.js";
+import { commandAt, shiftOf } from "./profile.js";
 import { changesOf, figuresOf, wantedUntil } from "./figures.js";
 import { number, textOf, writer } from "./quantity.js";
 import { cutOff, failedBecause, warningsOf, watched } from "./warnings.js";
@@ -209,10 +209,10 @@ export class Model {
   }
 
   /** Return the parameters of a part in a draw, those of its profiles with them; the same array for the same values. */
-  numbers(name, rung, profiles, draw) {
+  numbers(name, level, profiles, draw) {
     const { about } = this,
       washer = about.washers[name],
-      own = rung === "map" ? washer.map.numbers : about.parts[name].numbers;
+      own = level === "map" ? washer.map.numbers : about.parts[name].numbers;
     const changes = [...(draw?.parts[name] ?? [])];
     if (name === "transmission") {
       for (const [profile, { at, factor }] of Object.entries(about.profiles)) {
@@ -262,13 +262,13 @@ export class Model {
     /** @type {Record<string, any>} */
     const parts = { ...this.parts };
     for (const [name, part] of Object.entries(this.parts)) {
-      const rung = name in about.washers ? washers : "";
-      if (rung === "recorded") {
+      const level = name in about.washers ? washers : "";
+      if (level === "recorded") {
         parts[name] = new Recorded(part, this.recorded[name]);
         continue;
       }
-      const known = rung === "map" ? about.tables[name] : null;
-      part.reset(this.numbers(name, rung, profiles, draw), known);
+      const known = level === "map" ? about.tables[name] : null;
+      part.reset(this.numbers(name, level, profiles, draw), known);
     }
     const named = Object.fromEntries(
       Object.entries(parts).map(([name, part]) => [

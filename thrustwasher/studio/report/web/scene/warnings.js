@@ -1,6 +1,6 @@
 /* Warnings of a finished run, by the rules of Python's `shift`: each is a list of texts by key, [[key, values], ...]. */
 
-import { effective } from "./course.js";
+import { effective } from "./profile.js";
 
 const PACKS = ["clutch", "brake"];
 const WASHER_INPUTS = ["load", "speed", "tilt", "oil_temperature"];

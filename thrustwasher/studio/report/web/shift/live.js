@@ -6,7 +6,7 @@ import * as Runs from "./decode.js";
 const page = window;
 const NEAR = 0.05; // relative difference of film ratios on one branch
 
-async function begin({ module, script, about, parameters, rung }) {
+async function begin({ module, script, about, parameters, level }) {
   const worker = new Worker(URL.createObjectURL(new Blob([script], { type: "text/javascript" })));
   const asked = new Map();
   const ask = (task, given) =>
@@ -20,7 +20,7 @@ async function begin({ module, script, about, parameters, rung }) {
     else asked.get(id)?.resolve(result);
   };
   await ask("begin", { bytes: await Runs.inflate(module), about });
-  await ask("set", { parameters, rung });
+  await ask("set", { parameters, level });
   return ask;
 }
 

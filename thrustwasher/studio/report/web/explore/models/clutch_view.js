@@ -29,11 +29,11 @@ export const VIEW = {
     });
     this.scatter = new Scatter(wide, {
       of: "The band of torque and temperature over the time",
-      depends: () => [state.inputs, state.parameters, state.rung, state.extra],
+      depends: () => [state.inputs, state.parameters, state.level, state.extra],
       show: () => this.plot(),
       given: (values, k) => [
         numbersOf(values),
-        state.rung,
+        state.level,
         ABOUT.inputs.map((s) => values[s.name]),
         true,
         "",
@@ -170,12 +170,14 @@ export const VIEW = {
   reproduced(params, inputs, sets) {
     const { ramp } = state.extra,
       { duration, speed, ...rest } = inputs,
-      rung = state.rung === ABOUT.usual_rung ? "" : `, fidelity="${state.rung}"`;
+      level = state.level === ABOUT.usual_level ? "" : `, fidelity="${state.level}"`;
     return {
       command: this.straight()
         ? `thrustwasher engage ${this.straight()} --speed ${speed} ${Object.entries(rest)
             .map(([n, v]) => `--${n.replaceAll("_", "-")} ${v}`)
-            .join(" ")}${state.rung === ABOUT.usual_rung ? "" : ` --fidelity ${state.rung}`} ${sets}`.trim()
+            .join(
+              " ",
+            )}${state.level === ABOUT.usual_level ? "" : ` --fidelity ${state.level}`} ${sets}`.trim()
         : "The command knows straight ramps only: take the Python lines.",
       python: [
         "import numpy as np",
@@ -186,7 +188,7 @@ export const VIEW = {
         `result = engage_clutch(ClutchParams(${params}), time=time, load=load, speed=${speed} * (1 - time / ${duration}),`,
         `    ${Object.entries(rest)
           .map(([n, v]) => `${n}=${v}`)
-          .join(", ")}${rung})`,
+          .join(", ")}${level})`,
         "print(abs(result.friction_torque).max(), result.temperature.max())",
       ].join("\n"),
     };

@@ -279,9 +279,9 @@ export const VIEW = {
     });
     this.scatter = new Scatter(temperatures, {
       of: "The band of flank and scuffing safety along the path",
-      depends: () => [state.inputs, state.parameters, state.rung],
+      depends: () => [state.inputs, state.parameters, state.level],
       show: () => this.draw(),
-      given: (values) => [numbersOf(values), state.rung, ABOUT.inputs.map((s) => values[s.name])],
+      given: (values) => [numbersOf(values), state.level, ABOUT.inputs.map((s) => values[s.name])],
       told: () =>
         bandWords(["surface_temperature", "scuffing_safety", "friction_torque"], this.scatter.sound),
     });

@@ -12,8 +12,8 @@ export class Model extends PointModel {
   place;
 
   /** As all models; if the pinion has too few teeth (rule 1), return also the minimum number of them. */
-  set(parameters, rung) {
-    const broken = super.set(parameters, rung),
+  set(parameters, level) {
+    const broken = super.set(parameters, level),
       teeth = this.L.P_PINION_TEETH,
       par = this.par.view;
     while (broken === 1 && (par[teeth] += 1) < MOST_TEETH)

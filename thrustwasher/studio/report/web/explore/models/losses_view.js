@@ -36,9 +36,9 @@ export const VIEW = {
     });
     this.scatter = new Scatter(wide, {
       of: "The band of the heat",
-      depends: () => [state.inputs, state.parameters, state.rung],
+      depends: () => [state.inputs, state.parameters, state.level],
       show: () => this.draw(),
-      given: (values) => [numbersOf(values), state.rung, ABOUT.inputs.map((s) => values[s.name])],
+      given: (values) => [numbersOf(values), state.level, ABOUT.inputs.map((s) => values[s.name])],
       told: () => bandWords(["oil_heat", "input_torque"], this.scatter.sound),
     });
     this.warm = new Plot(panel(), {

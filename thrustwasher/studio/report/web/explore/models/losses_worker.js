@@ -13,9 +13,9 @@ export class Model extends PointModel {
   flags;
 
   /** Take parameters and a level; there are no rules between them. */
-  set(parameters, rung) {
+  set(parameters, level) {
     this.par.view.fill(0);
-    this.par.view.set([...parameters, this.about.rungs[rung].code]);
+    this.par.view.set([...parameters, this.about.levels[level].code]);
     return this.kernel.call("derive", this.par) >= this.about.first_failure ? -1 : 0;
   }
 

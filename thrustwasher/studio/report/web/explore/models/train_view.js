@@ -76,9 +76,9 @@ export const VIEW = {
     this.over = new Plot(wide, { title: "Losses over the torque", part, x: torque, y, height: 320 });
     this.scatter = new Scatter(wide, {
       of: "The band of the loss",
-      depends: () => [state.inputs, state.parameters, state.rung],
+      depends: () => [state.inputs, state.parameters, state.level],
       show: () => this.draw(),
-      given: (values) => [numbersOf(values), state.rung, ABOUT.inputs.map((s) => values[s.name])],
+      given: (values) => [numbersOf(values), state.level, ABOUT.inputs.map((s) => values[s.name])],
       told: () => bandWords(["loss", "efficiency", "bearing_life"], this.scatter.sound),
     });
     this.efficiency = new Plot(panel(), {

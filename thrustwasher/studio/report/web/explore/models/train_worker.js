@@ -16,11 +16,11 @@ export class Model extends PointModel {
   flags;
 
   /** Take parameters and a level; return the number of the first shaft whose bearings lie at one place. */
-  set(parameters, rung) {
+  set(parameters, level) {
     const { L, kernel, about } = this,
       par = this.par.view;
     par.fill(0);
-    par.set([...parameters, about.rungs[rung].code]);
+    par.set([...parameters, about.levels[level].code]);
     for (let shaft = 0; shaft <= par[L.P_MESHES]; shaft += 1) {
       const at = L.P_SHAFT + shaft * L.SHAFT_ROW + L.B_BEARING + L.C_POSITION;
       if (!(Math.abs(par[at] - par[at + L.BEARING_ROW]) >= APART)) return shaft + 1;

@@ -80,10 +80,10 @@ export const VIEW = {
       show: () => this.drawCurve(),
       told: () => this.scatterWords(),
       lacks: ({ up }) => up.length < LOADS.length || up.includes(null),
-      depends: () => [{ ...state.inputs, load: 0 }, state.parameters, state.rung],
+      depends: () => [{ ...state.inputs, load: 0 }, state.parameters, state.level],
       given: (values, k) => [
         numbersOf(values),
-        state.rung,
+        state.level,
         ABOUT.inputs.map((s) => values[s.name]),
         LOADS.map((load) => drawnLoad(load, k)),
       ],
@@ -133,7 +133,7 @@ export const VIEW = {
   },
 
   askCurves() {
-    const own = JSON.stringify([last.point.slice(1), state.parameters, state.rung]);
+    const own = JSON.stringify([last.point.slice(1), state.parameters, state.level]);
     if (own !== this.known) {
       this.known = own;
       this.trail = [];

@@ -30,16 +30,16 @@ export class Model {
   }
 
   /** Take parameters [numbers in their order] and a level; return the number of a broken rule. */
-  set(parameters, rung) {
-    const broken = this.fill((this.mesh = this.memory(rung)), parameters, rung);
-    this.grid = this.about.rungs[rung].grid;
+  set(parameters, level) {
+    const broken = this.fill((this.mesh = this.memory(level)), parameters, level);
+    this.grid = this.about.levels[level].grid;
     return broken;
   }
 
   /** Return memory for a level, one of each name. */
-  memory(rung, name = rung) {
+  memory(level, name = level) {
     const { kernel } = this,
-      { sizes } = this.about.rungs[rung];
+      { sizes } = this.about.levels[level];
     return (this.meshes[name] ??= {
       par: kernel.array(sizes.par),
       state: kernel.array(sizes.state),
@@ -49,9 +49,9 @@ export class Model {
   }
 
   /** Fill the constants of a mesh; return the number of a broken rule, -1 if no constants follow. */
-  fill({ par, state }, parameters, rung) {
+  fill({ par, state }, parameters, level) {
     const { kernel, L } = this,
-      { grid, code } = this.about.rungs[rung];
+      { grid, code } = this.about.levels[level];
     par.view.fill(0);
     par.view.set([...parameters, code]);
     par.view[L.P_THERMAL_MODE] = L.QUASI_STEADY;
@@ -199,11 +199,11 @@ export class Model {
    * Go over rising loads with the parameters and inputs of a draw of the scatter. Return outputs by load, `up` on the film
    * branch to its fold, then in contact, `down` only where the contact branch is another solution; or a `broken` rule.
    */
-  *draw(parameters, rung, point, loads) {
+  *draw(parameters, level, point, loads) {
     const kept = [this.mesh, this.grid],
-      { grid } = this.about.rungs[rung],
-      mesh = this.memory(rung, `${rung}, draws`);
-    const [broken, par] = this.constants(mesh, parameters, rung);
+      { grid } = this.about.levels[level],
+      mesh = this.memory(level, `${level}, draws`);
+    const [broken, par] = this.constants(mesh, parameters, level);
     if (broken) return { broken };
     const own = () => ([this.mesh, this.grid] = [{ ...mesh, par }, grid]),
       back = () => ([this.mesh, this.grid] = kept);
@@ -217,16 +217,16 @@ export class Model {
   }
 
   /** Return the number of a broken rule and the constants of a draw, made once for the same parameters. */
-  constants({ state }, parameters, rung) {
+  constants({ state }, parameters, level) {
     const known = (this.drawn ??= new Map()),
-      key = JSON.stringify([parameters, rung]),
-      size = this.about.rungs[rung].sizes.par;
+      key = JSON.stringify([parameters, level]),
+      size = this.about.levels[level].sizes.par;
     if (!known.has(key)) {
       const oldest = known.size < MOST_DRAWN ? undefined : known.keys().next().value,
         free = known.get(oldest)?.[1];
       known.delete(oldest);
       const par = free?.length === size ? free : this.kernel.array(size);
-      known.set(key, [this.fill({ par, state }, parameters, rung), par]);
+      known.set(key, [this.fill({ par, state }, parameters, level), par]);
     }
     return known.get(key);
   }

@@ -32,7 +32,7 @@ ERROR = "_error"
 
 
 @dataclass(frozen=True)
-class Rig:
+class DataSet:
     """What was measured, where it is published, and what stands for it here."""
 
     folder: Path
@@ -72,7 +72,7 @@ class Rig:
         return f"scene {self.target.name}, {self.gear} gear"
 
 
-def load_rig(path: str | Path) -> Rig:
+def load_data_set(path: str | Path) -> DataSet:
     """Return the measured data set of a folder.
 
     Parameters
@@ -128,7 +128,7 @@ def load_rig(path: str | Path) -> Rig:
             "allowed: at most as many points as the fit has coefficients"
         )
     several = len(found) > 1
-    return Rig(
+    return DataSet(
         folder=folder,
         texts={key: " ".join(table[key].split()) for key in TEXTS},
         target=target,

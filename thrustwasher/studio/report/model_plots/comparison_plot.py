@@ -12,18 +12,18 @@ SIGMAS = 1.645  # 5 .. 95 %
 
 
 @styled
-def rig_figure(found: Any) -> Figure:
+def comparison_figure(found: Any) -> Figure:
     """Return measured and computed values over the varied input, or of several results."""
-    rig = found.rig
-    if len({*rig.outputs}) > 1:
+    data_set = found.data_set
+    if len({*data_set.outputs}) > 1:
         return _of_several(found)
-    order = np.argsort(rig.inputs[rig.vary], kind="stable")
-    x, unit = rig.inputs[rig.vary][order], _unit(rig)
+    order = np.argsort(data_set.inputs[data_set.vary], kind="stable")
+    x, unit = data_set.inputs[data_set.vary][order], _unit(data_set)
     figure, (axis, *_) = new_figure(6.4, 4.2)
     axis.errorbar(
         x,
-        rig.measured[order],
-        SIGMAS * rig.error[order],
+        data_set.measured[order],
+        SIGMAS * data_set.error[order],
         fmt="o",
         color=BLACK,
         capsize=3,
@@ -41,26 +41,33 @@ def rig_figure(found: Any) -> Figure:
     )
     used = ~found.judged[order]
     if used.any():
-        axis.plot(x[used], rig.measured[order][used], "o", color=ORANGE, label="used for the fit")
+        axis.plot(
+            x[used], data_set.measured[order][used], "o", color=ORANGE, label="used for the fit"
+        )
     axis.legend()
-    label(axis, rig.texts["title"], f"{rig.vary} [{unit}]", f"{rig.output} [{rig.unit}]")
+    label(
+        axis,
+        data_set.texts["title"],
+        f"{data_set.vary} [{unit}]",
+        f"{data_set.output} [{data_set.unit}]",
+    )
     return figure
 
 
 def _of_several(found: Any) -> Figure:
     """Return what was computed over what was measured, a line for each point."""
-    rig, places = found.rig, np.arange(len(found.rig.measured))
+    data_set, places = found.data_set, np.arange(len(found.data_set.measured))
     figure, (axis, *_) = new_figure(6.4, 0.34 * len(places) + 1.4)
-    ratio = found.computed / rig.measured
-    ends = np.abs(np.array([found.low, found.high]) / rig.measured - ratio)
+    ratio = found.computed / data_set.measured
+    ends = np.abs(np.array([found.low, found.high]) / data_set.measured - ratio)
     axis.errorbar(ratio, places, xerr=ends, fmt="s", color=BLUE, capsize=4)
     axis.axvline(1.0, color=BLACK)
-    axis.set_yticks(places, rig.outputs)
+    axis.set_yticks(places, data_set.outputs)
     axis.invert_yaxis()
-    label(axis, rig.texts["title"], "computed over measured", "")
+    label(axis, data_set.texts["title"], "computed over measured", "")
     return figure
 
 
-def _unit(rig: Any) -> str:
+def _unit(data_set: Any) -> str:
     known = {"load": "N", "speed": "rad/s", "torque": "N m", "power": "W", "tilt": "rad"}
-    return known.get(rig.vary, "SI")
+    return known.get(data_set.vary, "SI")

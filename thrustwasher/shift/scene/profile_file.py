@@ -17,7 +17,7 @@ from ...errors import ParameterError, within
 from ...model.toml_tables import quantity
 from ...storage.tables.table import Table, numbers
 from ...storage.tables.table_file import read_table
-from ...transmission.parameters import COURSES, POINTS
+from ...transmission.parameters import POINTS, PROFILES
 from ...transmission.vehicle import GRAVITY, Vehicle
 from ...units import format_quantity, parse_quantity
 from .connections import PACKS
@@ -48,7 +48,7 @@ def without_old(below: Mapping[str, Any], new: Mapping[str, Any]) -> dict[str, A
     return kept
 
 
-def with_courses(where: str, table: dict[str, Any]) -> dict[str, Any]:
+def with_profiles(where: str, table: dict[str, Any]) -> dict[str, Any]:
     """Return the tables of a scene with numbers in place of files; ``where`` begins messages.
 
     ParameterError if a file cannot be read, with its line and column.
@@ -64,7 +64,7 @@ def with_courses(where: str, table: dict[str, Any]) -> dict[str, Any]:
     return table
 
 
-def course_notes(table: dict[str, Any]) -> Iterator[tuple[str, bool]]:
+def profile_notes(table: dict[str, Any]) -> Iterator[tuple[str, bool]]:
     """Yield for every profile of a file what it was made of, and whether that is doubtful."""
     for place in _places(table):
         about = place.table.get(place.source)
@@ -92,7 +92,7 @@ class _Place:
     name: str  # of the table
     columns: tuple[str, ...]  # of the file: over what, what; then other names of the last
     unit: str
-    course: str = ""  # of the transmission; "": a vehicle's road load
+    profile: str = ""  # of the transmission; "": a vehicle's road load
 
     @property
     def given(self) -> Any:
@@ -102,7 +102,7 @@ class _Place:
     @property
     def how(self) -> str:
         """What is made of the rows, a participle."""
-        return "simplified" if self.course else "fitted"
+        return "simplified" if self.profile else "fitted"
 
     @property
     def source(self) -> str:
@@ -123,10 +123,10 @@ def _places(table: dict[str, Any]) -> Iterator[_Place]:
             (down, pack, "sequence.down", name),
         ]
     found.append((down, "engine", "sequence.down", "engine_torque"))
-    for own, key, name, course in found:
+    for own, key, name, profile in found:
         if isinstance(own, dict):
-            what = course.partition("_")[2]
-            yield _Place(own, key, name, ("time", what, course), COURSES[course][0], course)
+            what = profile.partition("_")[2]
+            yield _Place(own, key, name, ("time", what, profile), PROFILES[profile][0], profile)
     if isinstance(own := table.get("vehicle"), dict):
         yield _Place(own, "points", "vehicle", ("speed", "force"), "N")
 
@@ -144,12 +144,12 @@ def _read(place: _Place, window: tuple[float, float]) -> None:
     """Put numbers in place of a file."""
     over, value, table = _columns(place)
     rows = len(over)
-    if not place.course:
+    if not place.profile:
         about = _road_load(place, over, value)
     else:
         over, value = _in_window(place, table, over, value, window)
         found = few_points(over, value, POINTS)
-        heights = np.clip(found.value, *COURSES[place.course][1:3])
+        heights = np.clip(found.value, *PROFILES[place.profile][1:3])
         place.table[place.key] = np.column_stack([found.time, heights]).tolist()
         span = float(np.ptp(value))
         about = {"rms": found.rms, "share": found.rms / span if span else 0.0}
@@ -187,7 +187,7 @@ def _in_window(
     place: _Place, table: Table, time: Array, value: Array, window: tuple[float, float]
 ) -> tuple[Array, Array]:
     """Return the rows that act, checked: one before and one behind the run stay."""
-    unit, low, high, _ = COURSES[place.course]
+    unit, low, high, _ = PROFILES[place.profile]
     if (np.diff(time) < 0.0).any():
         row = int(np.argmax(np.diff(time) < 0.0)) + 1
         raise ParameterError(

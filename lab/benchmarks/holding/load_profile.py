@@ -1,6 +1,6 @@
 """Slip and torque of a pack between two inertias over time, with holding off and identified.
 
-python -m lab.benchmarks.holding.course [FOLDER]
+python -m lab.benchmarks.holding.profile [FOLDER]
 
 0.15 and 1 kg m2, a slip of 200 rad/s, 100 N m that drive and 20 N m that brake; the load on the
 default pack rises from 200 to 6000 N in 0.3 s. Both inertias are stepped exactly by a host that
@@ -31,7 +31,7 @@ CLOSE = (0.45, 0.6)  # s, of the insets
 PASSED = {0: "fresh torque", 1: "torque a step old"}
 
 
-def course(holding: str, host: float, delay: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def profile(holding: str, host: float, delay: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return times, slip at them and the torque that acts from them on."""
     gain = PACK.faces * PACK.friction_radius * PACK.constant_friction
     whole = SimpleNamespace(gain=gain, loads=LOADS)  # loads and torques as they are
@@ -63,7 +63,7 @@ def draw(folder: Path) -> None:
             upper, lower = axes[2 * i : 2 * i + 2, j]
             small = upper.inset_axes((0.66, 0.5, 0.32, 0.38))
             for holding, style in STYLES.items():
-                add((upper, small, lower), course(holding, host, delay), holding, style)
+                add((upper, small, lower), profile(holding, host, delay), holding, style)
             small.set_xlim(*CLOSE)
             small.set_xticks([])
             small.set_title(f"slip after {CLOSE[0]:g} s", fontsize=7, pad=2)

@@ -31,36 +31,36 @@ GONE = [
     ("gearmesh", "closed", 1, "field"),
     ("gearmesh", "stribeck", 2, "field"),
 ]
-each = pytest.mark.parametrize(("model", "name", "number", "rung"), GONE)
+each = pytest.mark.parametrize(("model", "name", "number", "level"), GONE)
 
 
-def line(name, rung):
+def line(name, level):
     return (
-        f"fidelity = {name!r} is gone: {rung!r}, the next better fidelity level, runs in its place"
+        f"fidelity = {name!r} is gone: {level!r}, the next better fidelity level, runs in its place"
     )
 
 
-def test_no_other_rung_is_gone():
+def test_no_other_level_is_gone():
     found = [
-        (key, name, list(find_spec(key).fidelities).index(name) + 1, rung)
+        (key, name, list(find_spec(key).fidelities).index(name) + 1, level)
         for key in SOLVED
-        for name, rung in find_spec(key).successors.items()
+        for name, level in find_spec(key).successors.items()
     ]
     assert found == GONE
 
 
 @each
-def test_in_python_and_part_files(model, name, number, rung, tmp_path):
+def test_in_python_and_part_files(model, name, number, level, tmp_path):
     solve, params, point = SOLVED[model]
-    found, better = (solve(params, **point, fidelity=f) for f in (name, rung))
-    assert found.friction_torque == better.friction_torque and found.fidelity == rung
-    assert found.warnings == (line(name, rung), *better.warnings)
+    found, better = (solve(params, **point, fidelity=f) for f in (name, level))
+    assert found.friction_torque == better.friction_torque and found.fidelity == level
+    assert found.warnings == (line(name, level), *better.warnings)
     path = tmp_path / "mine.toml"
     path.write_text(f'model = "{model}"\nname = "Mine"\nfidelity = "{name}"\n')
     part = load_part(path)
-    assert part.model.default_fidelity == rung
+    assert part.model.default_fidelity == level
     for made in (part.solve(**point), run_sweep(part, {"speed": [point["speed"]]})):
-        assert made.fidelity == rung and line(name, rung) in made.warnings
+        assert made.fidelity == level and line(name, level) in made.warnings
 
 
 def test_on_the_command_line_and_in_scenes(tmp_path, capsys):
@@ -76,10 +76,10 @@ def test_on_the_command_line_and_in_scenes(tmp_path, capsys):
 
 
 @each
-def test_in_an_fmu(model, name, number, rung):
+def test_in_an_fmu(model, name, number, level):
     spec = find_spec(model)
     cores = []
-    for code in (number, list(spec.fidelities).index(rung) + 1):
+    for code in (number, list(spec.fidelities).index(level) + 1):
         core = Core(interface(spec))
         known = {v.name: v.reference for v in core.variables}
         core.set([known["fidelity"]], [code], "Enumeration")
@@ -91,5 +91,5 @@ def test_in_an_fmu(model, name, number, rung):
         cores.append((core.out.tobytes(), said, core.advice()))
         assert core.get([known["fidelity"]], "Enumeration") == [code]
     (out, said, later), (better, plain, _) = cores
-    assert out == better and said == [f"{spec.name} at t = 0 s: {line(name, rung)}", *plain]
+    assert out == better and said == [f"{spec.name} at t = 0 s: {line(name, level)}", *plain]
     assert not any("gone" in text for text in later)

@@ -11,7 +11,7 @@ from thrustwasher.shift.tolerance.selection_record import (
     Selected,
     Selection,
 )
-from thrustwasher.studio.report.shift.shift_report import rung_sections, shift_page
+from thrustwasher.studio.report.shift.shift_report import level_sections, shift_page
 
 WORDS = ("washer: map, friction_torque within 0.01 % (asked 0.6 %), 2 µs per call",)
 CHOSEN = Selection([Selected("washer", ("map", "field"), 0.006, True, WORDS, {}, ())])
@@ -29,7 +29,7 @@ def record(**changes):
 
 
 def test_the_page_has_the_section_with_reasons_checks_and_what_ran_again():
-    (section,) = [s for s in shift_page(record()).sections if s.anchor == "rungs"]
+    (section,) = [s for s in shift_page(record()).sections if s.anchor == "levels"]
     assert WORDS[0] in section.texts and any("first run" in t for t in section.texts)
     assert "Run again with washer field." in section.texts
     assert "washer: fine gave no solution at t = 0.1 s: no" in section.texts
@@ -39,12 +39,12 @@ def test_the_page_has_the_section_with_reasons_checks_and_what_ran_again():
 
 
 def test_a_choice_that_was_not_checked_says_so():
-    (section,) = rung_sections(replace(record(), guard=None))
+    (section,) = level_sections(replace(record(), guard=None))
     assert any("not checked" in text for text in section.texts) and not section.tables
 
 
-def test_a_rung_that_left_what_it_is_verified_for_is_told():
+def test_a_level_that_left_what_it_is_verified_for_is_told():
     left = CHECKS[0]._replace(outside="it says itself from t = 0.2 s that it is not verified")
-    (section,) = rung_sections(replace(record(), guard=CheckRecord([left], [], 0.0)))
+    (section,) = level_sections(replace(record(), guard=CheckRecord([left], [], 0.0)))
     assert f"washer, map: {left.outside}." in section.texts
     assert "Nothing had to run again." in section.texts

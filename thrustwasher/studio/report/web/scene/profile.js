@@ -10,10 +10,10 @@ export function shiftOf(about, profiles) {
       : [about.shift.start, duration];
     return { start, duration: lasts, from, to, engaging: to >= from ? "clutch" : "brake" };
   }
-  const course = (pack) => effective(about, profiles, `${pack}_pressure`) ?? [[0, 0]],
+  const profile = (pack) => effective(about, profiles, `${pack}_pressure`) ?? [[0, 0]],
     rise = (points) => points.at(-1)[1] - points[0][1];
-  const engaging = rise(course("brake")) > rise(course("clutch")) ? "brake" : "clutch",
-    points = course(engaging);
+  const engaging = rise(profile("brake")) > rise(profile("clutch")) ? "brake" : "clutch",
+    points = profile(engaging);
   const at = points.findIndex(([, p], i) => i + 1 < points.length && points[i + 1][1] > p),
     [start] = points[Math.max(at, 0)];
   const [from, to] = engaging === "clutch" ? [0, 1] : [1, 0];

@@ -82,9 +82,9 @@ def test_a_mesh_has_the_derivatives_of_its_steps(load):
 
 def test_bodies_that_store_heat_warm_up_towards_their_steady_state():
     params = WasherParams(thermal_mode="transient", thermal_start="oil")
-    course = follow_washer(
+    profile = follow_washer(
         params, time=[0.0, 0.5, 2.0], load=300.0, speed=545.0, tilt=2e-3, grid=GRID
     )
     steady = solve_washer(WasherParams(), load=300.0, speed=545.0, tilt=2e-3, grid=GRID)
-    first, middle, last = course.temperature
+    first, middle, last = profile.temperature
     assert first < middle < last < steady.temperature + 1e-3

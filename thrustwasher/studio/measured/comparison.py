@@ -18,7 +18,7 @@ from ...shift.scene.scene import Scene
 from ...shift.scene.variation import varied_scene
 from ...shift.steady_points import efficiency_map
 from ...shown import Card, Line, Tabled
-from .rig_file import KINDS, Rig
+from .data_set_file import KINDS, DataSet
 
 Array = NDArray[np.float64]
 DRAWS, NOISE, SEED = 64, 256, 1
@@ -30,7 +30,7 @@ READ = 0.05  # of a measured value: what it counts for in a fit without reading 
 class Comparison(Tabled):
     """Measured and computed values of a data set; ``judged``: those that the figures are of."""
 
-    rig: Rig
+    data_set: DataSet
     computed: Array
     low: Array
     """Lower end of the band: 5 % of scatter and reading error together."""
@@ -43,12 +43,12 @@ class Comparison(Tabled):
     @property
     def deviations(self) -> Array:
         """Computed over measured less 1, of the points judged."""
-        return (self.computed / self.rig.measured - 1.0)[self.judged]
+        return (self.computed / self.data_set.measured - 1.0)[self.judged]
 
     @property
     def inside(self) -> NDArray[np.bool_]:
         """Which of the points judged lie in the band."""
-        m = self.rig.measured
+        m = self.data_set.measured
         return ((self.low <= m) & (m <= self.high))[self.judged]
 
     @property
@@ -59,28 +59,28 @@ class Comparison(Tabled):
 
     def _columns(self) -> dict[str, Any]:
         own = ("computed", "low", "high", "judged")
-        found = {"measured": self.rig.measured, **{name: getattr(self, name) for name in own}}
-        return {**self.rig.inputs, **found}
+        found = {"measured": self.data_set.measured, **{name: getattr(self, name) for name in own}}
+        return {**self.data_set.inputs, **found}
 
     def _card(self) -> Card:
         found = self.to_dict()
         lines = [
             Line("points", str(found["points"]), "that are judged"),
-            Line("kind", self.rig.kind, KINDS[self.rig.kind]),
+            Line("kind", self.data_set.kind, KINDS[self.data_set.kind]),
             Line("mean_deviation", f"{100.0 * found['mean_deviation']:+.3g} %", "with its sign"),
             Line("largest_deviation", f"{100.0 * found['largest_deviation']:+.3g} %", ""),
             Line("inside_band", f"{100.0 * found['inside_band']:.3g} %", "of the points"),
             *(Line(name, f"{value:.4g}", "fitted") for name, value in self.fitted.items()),
         ]
-        title = f"{self.rig.name}: computed against {len(self.computed)} measured values"
+        title = f"{self.data_set.name}: computed against {len(self.computed)} measured values"
         return Card(title, lines, (), self.warnings)
 
     def to_dict(self) -> dict[str, Any]:
         """Return what JSON has of it; deviations have their signs, as on the page."""
         d = self.deviations
         return {
-            "rig": self.rig.name,
-            "kind": self.rig.kind,
+            "data_set": self.data_set.name,
+            "kind": self.data_set.kind,
             "points": int(self.judged.sum()),
             "mean_deviation": float(np.mean(d)),
             "largest_deviation": float(d[np.argmax(np.abs(d))]),
@@ -88,7 +88,7 @@ class Comparison(Tabled):
             "inside_band": float(self.inside.mean()),
             "inside_band_interval": self.interval,
             "fitted": dict(self.fitted),
-            "measured": self.rig.measured.tolist(),
+            "measured": self.data_set.measured.tolist(),
             "computed": self.computed.tolist(),
             "low": self.low.tolist(),
             "high": self.high.tolist(),
@@ -97,7 +97,7 @@ class Comparison(Tabled):
 
 
 def compare(
-    rig: Rig,
+    data_set: DataSet,
     *,
     fit: int = 0,
     draws: int = DRAWS,
@@ -107,7 +107,7 @@ def compare(
 
     Parameters
     ----------
-    rig : as ``load_rig`` returns it
+    data_set : as ``load_data_set`` returns it
     fit : number of parameters, the first of the data set's own list, that are fitted to every
         second point in the order of ``vary``; 0: blind, nothing is fitted
     draws : of the scatter, for the band
@@ -118,46 +118,46 @@ def compare(
     ParameterError : ``fit`` is more than the measured data set lists, or leaves no point to judge
     SolveError : a point has no solution
     """
-    if not 0 <= fit <= len(rig.fit):
+    if not 0 <= fit <= len(data_set.fit):
         raise ParameterError(
-            f"fit = {fit}, allowed: 0 .. {len(rig.fit)}, the parameters that the measured "
+            f"fit = {fit}, allowed: 0 .. {len(data_set.fit)}, the parameters that the measured "
             f"data set lists"
         )
-    judged = np.ones(len(rig.measured), bool)
+    judged = np.ones(len(data_set.measured), bool)
     fitted: dict[str, float] = {}
     if fit:
-        order = np.argsort(rig.inputs[rig.vary], kind="stable")
+        order = np.argsort(data_set.inputs[data_set.vary], kind="stable")
         judged[order[::2]] = False
         if judged.sum() < 1 or (~judged).sum() < fit:
             raise ParameterError(
                 f"fit = {fit}, allowed with {len(judged)} points: at most half of them"
             )
-        fitted = _fitted(rig, rig.fit[:fit], ~judged)
-    computed = values_of(rig, fitted)
+        fitted = _fitted(data_set, data_set.fit[:fit], ~judged)
+    computed = values_of(data_set, fitted)
     if not np.isfinite(computed).all():
         row = int(np.flatnonzero(~np.isfinite(computed))[0])
-        raise SolveError(f"measured data set {rig.name}: point {row + 1} has no solution here")
-    low, high, warnings = _band(rig, fitted, computed, draws, progress)
-    warnings = tuple(filter(None, (_not_measured(rig), *warnings)))
-    return Comparison(rig, computed, low, high, judged, fitted, warnings)
+        raise SolveError(f"measured data set {data_set.name}: point {row + 1} has no solution here")
+    low, high, warnings = _band(data_set, fitted, computed, draws, progress)
+    warnings = tuple(filter(None, (_not_measured(data_set), *warnings)))
+    return Comparison(data_set, computed, low, high, judged, fitted, warnings)
 
 
-def values_of(rig: Rig, changes: Mapping[str, float]) -> Array:
+def values_of(data_set: DataSet, changes: Mapping[str, float]) -> Array:
     """Return what is computed with changed parameters, a value per point; NaN without solution."""
-    if isinstance(rig.target, Scene):
-        return _of_scene(rig, rig.target, changes)
-    return _of_part(rig, rig.target, changes)
+    if isinstance(data_set.target, Scene):
+        return _of_scene(data_set, data_set.target, changes)
+    return _of_part(data_set, data_set.target, changes)
 
 
-def _of_part(rig: Rig, part: PartFile, changes: Mapping[str, object]) -> Array:
+def _of_part(data_set: DataSet, part: PartFile, changes: Mapping[str, object]) -> Array:
     model, found = find_model(part.spec.key), []
     try:
         params, _ = part.varied(changes)
     except ParameterError:
-        return np.full(len(rig.measured), np.nan)
-    for i in range(len(rig.measured)):
-        point = _point(rig, part, i).values
-        output = rig.outputs[i]
+        return np.full(len(data_set.measured), np.nan)
+    for i in range(len(data_set.measured)):
+        point = _point(data_set, part, i).values
+        output = data_set.outputs[i]
         if output in model.fits.units and model.fits.computed:
             whole = {**part.starts, **point}
             value = model.fits.computed(params, whole, part.fidelity).get(output, np.nan)
@@ -169,38 +169,38 @@ def _of_part(rig: Rig, part: PartFile, changes: Mapping[str, object]) -> Array:
     return np.array(found)
 
 
-def _point(rig: Rig, part: PartFile, i: int) -> Point:
+def _point(data_set: DataSet, part: PartFile, i: int) -> Point:
     """Return the inputs of a point; those without a column from the part's box or by default."""
-    return point_of(part, {name: float(column[i]) for name, column in rig.inputs.items()})
+    return point_of(part, {name: float(column[i]) for name, column in data_set.inputs.items()})
 
 
-def _not_measured(rig: Rig) -> str:
+def _not_measured(data_set: DataSet) -> str:
     """Say which inputs have no column, and what was taken for them."""
-    if isinstance(rig.target, Scene):
+    if isinstance(data_set.target, Scene):
         return ""
-    taken = _point(rig, rig.target, 0).taken
+    taken = _point(data_set, data_set.target, 0).taken
     return f"inputs without a column in points.csv: {taken}" if taken else ""
 
 
-def _of_scene(rig: Rig, scene: Scene, changes: Mapping[str, object]) -> Array:
+def _of_scene(data_set: DataSet, scene: Scene, changes: Mapping[str, object]) -> Array:
     try:
         own = varied_scene(scene, changes) if changes else scene
-        found = np.full(len(rig.measured), np.nan)
-        for w in np.unique(rig.inputs["speed"]):
-            rows = np.flatnonzero(rig.inputs["speed"] == w)
-            torques = rig.inputs["torque"][rows]
+        found = np.full(len(data_set.measured), np.nan)
+        for w in np.unique(data_set.inputs["speed"]):
+            rows = np.flatnonzero(data_set.inputs["speed"] == w)
+            torques = data_set.inputs["torque"][rows]
             order = np.argsort(torques, kind="stable")
-            columns = efficiency_map(own, torques, [w], gear=rig.gear).columns
-            found[rows[order]] = columns[rig.output]
+            columns = efficiency_map(own, torques, [w], gear=data_set.gear).columns
+            found[rows[order]] = columns[data_set.output]
         return found
     except (ParameterError, SolveError):
         if not changes:
             raise
-        return np.full(len(rig.measured), np.nan)
+        return np.full(len(data_set.measured), np.nan)
 
 
 def _band(
-    rig: Rig,
+    data_set: DataSet,
     fitted: Mapping[str, float],
     computed: Array,
     draws: int,
@@ -210,7 +210,7 @@ def _band(
 
     What was fitted scatters no more; the conditions of the points do not scatter.
     """
-    target = rig.target
+    target = data_set.target
     if isinstance(target, Scene):
         scatter, known = scene_scatter(target), set(scene_places(target)) - {"oil_temperature"}
     else:
@@ -223,7 +223,7 @@ def _band(
         scatter = replace(scatter, sources=tuple(kept), pairs=())
         u = qmc.Sobol(len(kept), seed=SEED).random(draws)
         for i, draw in enumerate(scatter.values(u)):
-            rows.append(values_of(rig, {**draw, **fitted}))
+            rows.append(values_of(data_set, {**draw, **fitted}))
             if progress:
                 progress(i + 1, draws)
     sample = np.array(rows[1:] or rows)
@@ -231,30 +231,30 @@ def _band(
     lost = len(sample) - len(good)
     if not len(good):
         good = computed[None]
-    noise = rng.standard_normal((NOISE, 1, len(computed))) * rig.error
+    noise = rng.standard_normal((NOISE, 1, len(computed))) * data_set.error
     low, high = np.quantile((good + noise).reshape(-1, len(computed)), BAND, axis=0)
     words = [f"{lost} of {len(sample)} draws have no solution and are left out"] if lost else []
     return low, high, tuple(words)
 
 
-def _fitted(rig: Rig, names: Sequence[str], used: NDArray[np.bool_]) -> dict[str, float]:
+def _fitted(data_set: DataSet, names: Sequence[str], used: NDArray[np.bool_]) -> dict[str, float]:
     """Return the parameters that lie nearest to the measured values in least squares."""
-    target = rig.target
+    target = data_set.target
     places = scene_places(target) if isinstance(target, Scene) else target.places()
     for name in names:
         if name not in places:
             raise ParameterError(
-                f"measured data set {rig.name}: fit has {name!r}, which is no parameter here"
+                f"measured data set {data_set.name}: fit has {name!r}, which is no parameter here"
             )
     own = [places[name] for name in names]
     start = np.array([float(p.nominal) for p in own])
     scale = np.where(start != 0.0, np.abs(start), np.array([p.high - p.low for p in own]) * 0.1)
     bounds = np.array([(p.low, p.high) for p in own]).T
-    weight = np.where(rig.error > 0.0, rig.error, READ * np.abs(rig.measured))
+    weight = np.where(data_set.error > 0.0, data_set.error, READ * np.abs(data_set.measured))
 
     def off(x: Array) -> Array:
-        values = values_of(rig, dict(zip(names, (x * scale).tolist(), strict=True)))
-        gap = (values - rig.measured) / weight
+        values = values_of(data_set, dict(zip(names, (x * scale).tolist(), strict=True)))
+        gap = (values - data_set.measured) / weight
         return np.where(np.isfinite(gap), gap, 1e3)[used]
 
     found = least_squares(

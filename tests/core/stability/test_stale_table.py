@@ -24,16 +24,16 @@ def put(tmp_path, monkeypatch):
     (shipped,) = home.load_tables("washer", WasherParams())
 
     def write(*stale):
-        rungs = [
+        levels = [
             replace(
-                rung,
+                level,
                 sources="0" * 64
-                if rung.fidelity in stale
-                else home.sources_of("washer", rung.fidelity, rung.files),
+                if level.fidelity in stale
+                else home.sources_of("washer", level.fidelity, level.files),
             )
-            for rung in shipped.rungs
+            for level in shipped.levels
         ]
-        home.write_tables([replace(shipped, rungs=tuple(rungs))], tmp_path / "washer.json")
+        home.write_tables([replace(shipped, levels=tuple(levels))], tmp_path / "washer.json")
         home.forget()
 
     monkeypatch.setattr(home, "table_folders", lambda: [tmp_path])
@@ -48,7 +48,7 @@ def test_fresh_errors_choose_and_estimate(put):
     assert solve_washer(WasherParams(), **POINT).error_estimate < 0.01
 
 
-def test_one_stale_rung_is_passed_over_and_the_next_one_serves(put):
+def test_one_stale_level_is_passed_over_and_the_next_one_serves(put):
     first = choose("washer", POINT, tol=0.01).fidelity
     put(first)
     second = choose("washer", POINT, tol=0.01)

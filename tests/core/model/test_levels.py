@@ -29,7 +29,7 @@ LADDER = {
     "gearmesh": ["field", "fine"],
 }
 HAS_MAP = find_map(as_numbers(WasherParams())) is not None
-RUNGS = [(model, rung) for model, rungs in LADDER.items() for rung in rungs]
+LEVELS = [(model, level) for model, levels in LADDER.items() for level in levels]
 # load, speed, (tilt), oil temperature, (drum's speed): light, ordinary, heavy
 POINTS = {
     "washer": [
@@ -41,29 +41,29 @@ POINTS = {
 }  # fmt: skip
 
 
-def settled(model, rung, **changes):
+def settled(model, level, **changes):
     """Return a part that has reached its steady state at every call."""
-    if rung == "map" and not HAS_MAP:
+    if level == "map" and not HAS_MAP:
         pytest.skip("no map of the default washer is shipped")
     if model == "clutch":
         changes = {"starts_pressed": True, **changes}
-    return Part(model, rung, **changes)
+    return Part(model, level, **changes)
 
 
-def test_the_ladder_has_its_rungs_in_this_order():
-    assert {model: list(find_spec(model).rungs) for model in LADDER} == LADDER
+def test_the_ladder_has_its_levels_in_this_order():
+    assert {model: list(find_spec(model).levels) for model in LADDER} == LADDER
 
 
-def test_kernels_count_rungs_as_the_fmu_does():
-    for model, rung in RUNGS:
+def test_kernels_count_levels_as_the_fmu_does():
+    for model, level in LEVELS:
         spec = find_spec(model)
         items = {i.name: i.value for i in interface(spec).enumerations["Fidelity"]}
-        assert items[rung] == getattr(kernel_of(spec).L, rung.upper())
+        assert items[level] == getattr(kernel_of(spec).L, level.upper())
 
 
-@pytest.mark.parametrize(("model", "rung"), RUNGS)
-def test_every_output_is_finite_and_passive(model, rung):
-    part = settled(model, rung)
+@pytest.mark.parametrize(("model", "level"), LEVELS)
+def test_every_output_is_finite_and_passive(model, level):
+    part = settled(model, level)
     for point in POINTS[model]:
         for side in (1.0, -1.0):
             inputs = np.array(point)
@@ -77,9 +77,9 @@ def test_every_output_is_finite_and_passive(model, rung):
             assert part["temperature"] >= inputs[oil] - 1e-9
 
 
-@pytest.mark.parametrize(("model", "rung"), RUNGS)
-def test_the_torque_is_odd_in_speed_and_all_else_even(model, rung):
-    one, other = settled(model, rung), settled(model, rung)
+@pytest.mark.parametrize(("model", "level"), LEVELS)
+def test_the_torque_is_odd_in_speed_and_all_else_even(model, level):
+    one, other = settled(model, level), settled(model, level)
     odd = {"friction_torque", "contact_torque", "viscous_torque"}
     for point in POINTS[model]:
         inputs = np.array(point)
@@ -90,9 +90,9 @@ def test_the_torque_is_odd_in_speed_and_all_else_even(model, rung):
             assert other[name] == pytest.approx(-one[name] if name in odd else one[name], rel=1e-5)
 
 
-@pytest.mark.parametrize(("model", "rung"), RUNGS)
-def test_standstill_gives_no_torque_and_no_load_gives_numbers(model, rung):
-    part = settled(model, rung)
+@pytest.mark.parametrize(("model", "level"), LEVELS)
+def test_standstill_gives_no_torque_and_no_load_gives_numbers(model, level):
+    part = settled(model, level)
     for load, speed in ((POINTS[model][1][0], 0.0), (0.0, 100.0), (0.0, 0.0)):
         inputs = np.array(POINTS[model][1])
         inputs[0], inputs[1] = load, speed
@@ -102,28 +102,28 @@ def test_standstill_gives_no_torque_and_no_load_gives_numbers(model, rung):
             assert part["friction_torque"] == 0.0 == part["friction_power"]
 
 
-@pytest.mark.parametrize(("model", "rung"), RUNGS)
-def test_rungs_agree_on_the_torque_of_an_ordinary_point_within_their_class(model, rung):
+@pytest.mark.parametrize(("model", "level"), LEVELS)
+def test_levels_agree_on_the_torque_of_an_ordinary_point_within_their_class(model, level):
     """A constant coefficient within a factor of three, all others within a third of the finest."""
     top = settled(model, LADDER[model][-1])
-    part = settled(model, rung)
+    part = settled(model, level)
     top.step(POINTS[model][1])
     part.step(POINTS[model][1])
     ratio = part["friction_torque"] / top["friction_torque"]
-    low = 1.0 / 3.0 if rung == "closed" else 2.0 / 3.0
+    low = 1.0 / 3.0 if level == "closed" else 2.0 / 3.0
     assert low < ratio < 1.0 / low
 
 
-def washer(rung, params=None, **changes):
+def washer(level, params=None, **changes):
     at = {"load": 300.0, "speed": 545.0, "tilt": 2e-3, "oil_temperature": 297.15, **changes}
-    return solve_washer(params or WasherParams(), **at, fidelity=rung)
+    return solve_washer(params or WasherParams(), **at, fidelity=level)
 
 
-def test_a_level_washer_lies_on_its_asperities_at_every_rung():
-    for rung in LADDER["washer"]:
-        if rung == "map" and not HAS_MAP:
+def test_a_level_washer_lies_on_its_asperities_at_every_level():
+    for level in LADDER["washer"]:
+        if level == "map" and not HAS_MAP:
             continue
-        r = washer(rung, tilt=0.0, speed=0.1)
+        r = washer(level, tilt=0.0, speed=0.1)
         assert r.fluid_load == pytest.approx(0.0, abs=1e-9)
         mean = 2.0 / 3.0 * (0.0227**3 - 0.0111**3) / (0.0227**2 - 0.0111**2)
         dry = (0.48 - 0.05 * math.log(300.0)) * 300.0 * mean
@@ -133,9 +133,9 @@ def test_a_level_washer_lies_on_its_asperities_at_every_rung():
 # --- the gear mesh, resolved along the line of action
 
 
-def mesh(rung, power=7500.0, speed=180.0, **changes):
+def mesh(level, power=7500.0, speed=180.0, **changes):
     params = GearMeshParams.preset("paper", **changes)
-    return solve_gearmesh(params, power=power, speed=speed, fidelity=rung)
+    return solve_gearmesh(params, power=power, speed=speed, fidelity=level)
 
 
 @pytest.mark.parametrize(
@@ -172,24 +172,24 @@ def test_where_the_start_bears_little_the_hottest_position_lies_further_on():
 
 SMOOTH = {"friction_law": "wang"}  # over slip, above its stick speed
 NARROW = {"inner_radius": 0.0795, "outer_radius": 0.08}
-COURSE = np.linspace(0.0, 0.3, 31)
+PROFILE = np.linspace(0.0, 0.3, 31)
 
 
-def engaged(rung, rings=None, **changes):
+def engaged(level, rings=None, **changes):
     """Return an engagement: pressure rises over 0.1 s, the slip falls to nothing over 0.4 s."""
     params = ClutchParams(**changes)
     if rings is None:
         return engage_clutch(
             params,
-            time=COURSE,
-            load=6e3 * np.minimum(COURSE / 0.1, 1.0),
-            speed=120.0 * (1.0 - COURSE / 0.4),
+            time=PROFILE,
+            load=6e3 * np.minimum(PROFILE / 0.1, 1.0),
+            speed=120.0 * (1.0 - PROFILE / 0.4),
             oil_temperature=350.0,
-            fidelity=rung,
+            fidelity=level,
         )
-    part = Part("clutch", rung, input_profile="linear", **changes)
+    part = Part("clutch", level, input_profile="linear", **changes)
     derive_rings(part.par, rings)
-    for t in COURSE:
+    for t in PROFILE:
         part.step([6e3 * min(t / 0.1, 1.0), 120.0 * (1.0 - t / 0.4), 350.0, 0.0], 0.01)
     return part
 
@@ -215,8 +215,8 @@ def test_rings_converge_with_second_order():
 
 
 def test_a_narrow_pack_is_as_good_lumped_as_in_rings():
-    wide = [engaged(rung, **SMOOTH).friction_torque[-1] for rung in ("fine", "field")]
-    narrow = [engaged(rung, **NARROW, **SMOOTH).friction_torque[-1] for rung in ("fine", "field")]
+    wide = [engaged(level, **SMOOTH).friction_torque[-1] for level in ("fine", "field")]
+    narrow = [engaged(level, **NARROW, **SMOOTH).friction_torque[-1] for level in ("fine", "field")]
     assert abs(wide[0] / wide[1] - 1.0) > 1e-3
     assert narrow[0] == pytest.approx(narrow[1], rel=2e-6)
 
@@ -230,9 +230,9 @@ def test_outer_rings_are_hotter_and_their_mean_is_shown():
     assert surface[0] < part["temperature"] < surface[-1]
 
 
-def test_clutch_rungs_hold_the_same_static_torque():
+def test_clutch_levels_hold_the_same_static_torque():
     held = [
-        solve_clutch(ClutchParams(), load=5e3, speed=0.0, fidelity=rung).torque_capacity
-        for rung in LADDER["clutch"][1:]
+        solve_clutch(ClutchParams(), load=5e3, speed=0.0, fidelity=level).torque_capacity
+        for level in LADDER["clutch"][1:]
     ]
     assert held == pytest.approx([held[0]] * len(held), rel=1e-9)

@@ -8,7 +8,7 @@ import pytest
 from thrustwasher import ParameterError, load_scene
 from thrustwasher.shift.scene.polyline import few_points
 from thrustwasher.shift.scene.variation import scene_text, varied_scene
-from thrustwasher.transmission.parameters import POINTS, course_points
+from thrustwasher.transmission.parameters import POINTS, profile_points
 
 CORNERS = np.array([[0.1, 0], [0.11, 0.4], [0.2, 0.4], [0.4, 3.4], [0.8, 3.6], [0.97, 7.2]])
 HEAD = 'base = "planetary"\n'
@@ -36,7 +36,7 @@ def scene(folder, text=CLUTCH, data=None):
 
 
 def points(found, name="clutch_pressure"):
-    return np.array(course_points(found.parts["transmission"].params, name))
+    return np.array(profile_points(found.parts["transmission"].params, name))
 
 
 def test_a_short_file_is_taken_to_the_bit(tmp_path):
@@ -89,7 +89,7 @@ def test_what_is_made_of_a_scene_carries_the_numbers(tmp_path):
     assert whole["pressure"]["clutch"]["points_from"]["file"] == "trace.csv"
 
 
-def test_a_course_that_few_points_cannot_follow_is_doubted(tmp_path):
+def test_a_profile_that_few_points_cannot_follow_is_doubted(tmp_path):
     time = np.linspace(0.0, 1.2, 600)
     shaking = 3.0 + 2.0 * np.sin(60.0 * time)
     rows = (f"{t:.4f},{p:.4f}" for t, p in zip(time, shaking, strict=True))
@@ -148,7 +148,7 @@ def test_a_file_that_cannot_be_used_is_refused_with_table_line_and_column(
 
 
 def test_noise_is_averaged_not_followed():
-    """Points of least squares lie nearer to the course than its rows do."""
+    """Points of least squares lie nearer to the profile than its rows do."""
     time = np.linspace(0.0, 1.0, 4000)
     rows = np.interp(time, *CORNERS.T) + 0.1 * np.random.default_rng(2).standard_normal(4000)
     found = few_points(time, rows, 10)

@@ -12,7 +12,7 @@ from ....clutch.solve import prepare
 from ....errors import ParameterError, Status
 from ....numerics.jit import Array
 from ..traces.binned import Run
-from ..traces.traced import Course
+from ..traces.traced import History
 from .traced_pack import TracedPack
 
 SLIDES = 0.05  # of the largest slip: below it is near its end
@@ -29,7 +29,7 @@ class Way:
     slip: Array  # [rad/s]
 
 
-def walk_pack(params: TracedPack, fidelity: str, run: Run) -> Course | Status:
+def walk_pack(params: TracedPack, fidelity: str, run: Run) -> History | Status:
     """Return torque, temperature and slip along a run, (m,) each, or why there are none."""
     load = pressing_force(params, run)
     pack = params.pack()

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from ...model.toml_tables import read_file
-from .rig_comparison import Comparison
-from .rig_file import Rig
+from .comparison import Comparison
+from .data_set_file import DataSet
 
 DEFAULTS = "inputs without a column in points.csv: taken by default"
 WIDTH = 150
@@ -51,21 +51,21 @@ many points of a published fit count as it has coefficients.
 """
 
 
-def shelf_page(blind: Sequence[Comparison], fits: Sequence[Comparison], wanted: Path) -> str:
+def collection_page(blind: Sequence[Comparison], fits: Sequence[Comparison], wanted: Path) -> str:
     """Return the page as Markdown; ``wanted``: the list of what is not available."""
     lines = [HEAD]
     for title, ours in (("Measured", True), ("Compared", False)):
-        chosen = [c for c in blind if (c.rig.kind == "measured") == ours]
-        later = [c for c in fits if (c.rig.kind == "measured") == ours]
+        chosen = [c for c in blind if (c.data_set.kind == "measured") == ours]
+        later = [c for c in fits if (c.data_set.kind == "measured") == ours]
         lines += [f"## {title}", "", _counted(chosen), "", *_table([*chosen, *later]), ""]
     lines.pop()
     for c in blind:
-        texts = c.rig.texts
+        texts = c.data_set.texts
         text = (
             f"**{texts['title']}.** {texts['measured'].rstrip('.')}. Source: {texts['source']}. "
             f"Likely reason: {texts['reason']}"
         )
-        lines += ["", f"## {c.rig.name}", "", textwrap.fill(text, WIDTH), "", *_points(c)]
+        lines += ["", f"## {c.data_set.name}", "", textwrap.fill(text, WIDTH), "", *_points(c)]
         lines += [f"\n{text.replace(DEFAULTS, 'Default')}." for text in c.warnings]
     lines += [
         "",
@@ -81,56 +81,59 @@ def shelf_page(blind: Sequence[Comparison], fits: Sequence[Comparison], wanted: 
 
 def _points(c: Comparison) -> list[str]:
     """Return what all points share in a line, the rest in a table."""
-    rig = c.rig
-    columns = dict(zip(rig.inputs, rig.input_units, strict=True))
-    shared = {name: x[0] for name, x in rig.inputs.items() if np.ptp(x) == 0.0}
+    data = c.data_set
+    columns = dict(zip(data.inputs, data.input_units, strict=True))
+    shared = {name: x[0] for name, x in data.inputs.items() if np.ptp(x) == 0.0}
     at = [f"{name} {x:.5g} {columns[name]}" for name, x in shared.items()]
     own = [name for name in columns if name not in shared]
-    how = "published" if rig.kind == "calculated" else "measured"
-    if len(rig.measured) == 1:
-        line = f"{rig.output} {rig.measured[0]:.4g}{_unit(rig, 0)} {how}, {c.computed[0]:.4g} "
+    how = "published" if data.kind == "calculated" else "measured"
+    if len(data.measured) == 1:
+        line = f"{data.output} {data.measured[0]:.4g}{_unit(data, 0)} {how}, {c.computed[0]:.4g} "
         return [f"At {', '.join(at)}: {line}computed (band {c.low[0]:.4g} .. {c.high[0]:.4g})."]
-    several = len({*rig.outputs}) > 1
+    several = len({*data.outputs}) > 1
     wide = c.high - c.low > NARROW * np.abs(c.computed)
-    title = f"{'Results' if several else rig.output} {how}; computed{'; band' if any(wide) else ''}"
+    title = (
+        f"{'Results' if several else data.output} {how}; computed{'; band' if any(wide) else ''}"
+    )
     lines = [f"{title}{', at ' if at else ''}{', '.join(at)}:", ""]
-    for i in range(len(rig.measured)):
-        point = [f"{name} {rig.inputs[name][i]:.5g} {columns[name]}" for name in own]
-        point += [f"{rig.outputs[i]}{_unit(rig, i)}"] if several else []
-        value = f"{rig.measured[i]:.4g}{'' if several else _unit(rig, i)}; {c.computed[i]:.4g}"
-        origin = f"; {rig.origin[i]}" if len({*rig.origin}) > 1 else ""
+    for i in range(len(data.measured)):
+        point = [f"{name} {data.inputs[name][i]:.5g} {columns[name]}" for name in own]
+        point += [f"{data.outputs[i]}{_unit(data, i)}"] if several else []
+        value = f"{data.measured[i]:.4g}{'' if several else _unit(data, i)}; {c.computed[i]:.4g}"
+        origin = f"; {data.origin[i]}" if len({*data.origin}) > 1 else ""
         band = f"; {c.low[i]:.4g} .. {c.high[i]:.4g}" if wide[i] else ""
         lines.append(f"- {', '.join(point)}: {value}{band}{origin}")
     return lines
 
 
-def _unit(rig: Rig, i: int) -> str:
-    unit = rig.units[i]
+def _unit(data_set: DataSet, i: int) -> str:
+    unit = data_set.units[i]
     if unit == "1":
         return ""
-    return f" [{unit}]" if len({*rig.outputs}) > 1 else f" {unit}"
+    return f" [{unit}]" if len({*data_set.outputs}) > 1 else f" {unit}"
 
 
-def _counted(rigs: Sequence[Comparison]) -> str:
-    points, inside = sum(len(c.deviations) for c in rigs), sum(int(c.inside.sum()) for c in rigs)
+def _counted(found: Sequence[Comparison]) -> str:
+    points = sum(len(c.deviations) for c in found)
+    inside = sum(int(c.inside.sum()) for c in found)
     words = [
         f"{n} {what}{'' if n == 1 else 's'}"
-        for n, what in ((len(rigs), "data set"), (points, "point"))
+        for n, what in ((len(found), "data set"), (points, "point"))
     ]
     return f"{', '.join(words)}, {inside} of them inside the band."
 
 
-def _table(rigs: Sequence[Comparison]) -> list[str]:
+def _table(found: Sequence[Comparison]) -> list[str]:
     lines = [
         "| data set | result | kind | mean deviation | largest | inside |",
         "|---|---|---|---|---|---|",
     ]
-    for c in rigs:
-        numbers = c.to_dict()
+    for c in found:
+        data, numbers = c.data_set, c.to_dict()
         how = f", after a fit of {', '.join(c.fitted)}" if c.fitted else ""
         lines.append(
-            f"| [{c.rig.name}](#{c.rig.name}){how} | {c.rig.output} of {c.rig.target_name} "
-            f"| {c.rig.kind} | {100.0 * numbers['mean_deviation']:+.1f} % "
+            f"| [{data.name}](#{data.name}){how} | {data.output} of {data.target_name} "
+            f"| {data.kind} | {100.0 * numbers['mean_deviation']:+.1f} % "
             f"| {100.0 * numbers['largest_deviation']:+.1f} % "
             f"| {int(c.inside.sum())} of {numbers['points']} |"
         )

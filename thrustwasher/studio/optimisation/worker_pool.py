@@ -54,7 +54,7 @@ class Given:
         return by.solve(self.rows, self.figures, self.whole)
 
 
-class Crew:
+class WorkerPool:
     """Does pieces in their order; the answers depend neither on the workers nor on a stop."""
 
     def __init__(

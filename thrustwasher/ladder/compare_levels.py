@@ -61,12 +61,12 @@ class Comparison:
         self._model = find_model(spec.key)
         self._known: dict[str, list[float]] = {}
 
-    def difference(self, rung: str, above: str) -> float:
+    def difference(self, level: str, above: str) -> float:
         """Return the largest difference of two levels, as errors are measured.
 
         Points at which one of them has no solution do not count; infinite if all are such.
         """
-        pairs = zip(self._solved(rung), self._solved(above), strict=True)
+        pairs = zip(self._solved(level), self._solved(above), strict=True)
         both = [(a, b) for a, b in pairs if math.isfinite(a) and math.isfinite(b)]
         floor = FLOOR * max((abs(b) for _, b in both), default=0.0) or 1e-300
         relative = QUANTITIES[self._quantity] is None
@@ -75,15 +75,15 @@ class Comparison:
             default=math.inf,
         )
 
-    def _solved(self, rung: str) -> list[float]:
-        if rung not in self._known:
-            self._known[rung] = [self._value(rung, point) for point in self.points]
-        return self._known[rung]
+    def _solved(self, level: str) -> list[float]:
+        if level not in self._known:
+            self._known[level] = [self._value(level, point) for point in self.points]
+        return self._known[level]
 
-    def _value(self, rung: str, point: Point) -> float:
+    def _value(self, level: str, point: Point) -> float:
         model, params = self._model, self._params
         try:
-            result = model.solve(params, **model.back(dict(point)), fidelity=rung, throw=False)
+            result = model.solve(params, **model.back(dict(point)), fidelity=level, throw=False)
         except (ParameterError, SolveError):
             return math.nan
         return math.nan if result.status.is_failure else float(getattr(result, self._quantity))

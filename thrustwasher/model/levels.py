@@ -10,17 +10,17 @@ OFFLINE = (
 )
 
 
-def rung_named(spec: ModelSpec, name: str) -> str:
+def level_named(spec: ModelSpec, name: str) -> str:
     """Return the level that runs under this name; ParameterError if there is none."""
     if name == "reference":
         raise ParameterError(OFFLINE.format(spec.key))
     if name not in spec.fidelities:
-        known = " or ".join(map(repr, spec.rungs))
+        known = " or ".join(map(repr, spec.levels))
         raise ParameterError(f"fidelity = {name!r}, allowed: {known}")
     return spec.successors.get(name, name)
 
 
-def gone_rung(spec: ModelSpec, name: str) -> tuple[str, ...]:
+def gone_level(spec: ModelSpec, name: str) -> tuple[str, ...]:
     """Return the line on a level that is gone and the one in its place; nothing of others."""
     if name not in spec.successors:
         return ()

@@ -1,4 +1,4 @@
-"""Measured against computed: a rig made of the model agrees, a shifted one is fitted back."""
+"""Measured against computed: a data set made of the model agrees, a shifted one is fitted back."""
 
 import json
 from pathlib import Path
@@ -9,9 +9,9 @@ from scipy.stats import binomtest
 
 from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
 from thrustwasher.cli import main
-from thrustwasher.studio.rigs.rig_comparison import compare
-from thrustwasher.studio.rigs.rig_file import load_rig
-from thrustwasher.studio.rigs.shelf_page import shelf_page
+from thrustwasher.studio.measured.collection_page import collection_page
+from thrustwasher.studio.measured.comparison import compare
+from thrustwasher.studio.measured.data_set_file import load_data_set
 
 TEXTS = ("title", "source", "measured", "conditions", "rights", "read", "reason")
 HEAD = "power [kW], speed [rad/s], friction_torque, friction_torque_error, origin"
@@ -25,7 +25,7 @@ viscosity_scale = "10 %"
 POWERS = (2.0, 4.0, 6.0, 8.0, 10.0, 12.0)
 
 
-def rig(tmp_path, lines, head=HEAD, extra='fit = ["viscosity_scale"]\n', **changed):
+def data_set(tmp_path, lines, head=HEAD, extra='fit = ["viscosity_scale"]\n', **changed):
     texts = {key: f"{key} of it" for key in TEXTS} | changed
     text = "".join(f'{k} = "{x}"\n' for k, x in texts.items() if x)
     (tmp_path / "rig.toml").write_text(text + 'part = "part.toml"\n' + extra, "utf-8")
@@ -43,7 +43,7 @@ def lines(thicker=1.0, error=0.02):
 
 
 def test_what_the_model_gave_has_no_deviation_and_is_inside(tmp_path):
-    found = compare(load_rig(rig(tmp_path, lines())))
+    found = compare(load_data_set(data_set(tmp_path, lines())))
     assert np.abs(found.deviations).max() < 1e-12 and found.inside.all()
     told = found.to_dict()
     assert told["points"] == 6 and told["inside_band"] == 1.0 and told["fitted"] == {}
@@ -53,7 +53,10 @@ def test_what_the_model_gave_has_no_deviation_and_is_inside(tmp_path):
 
 
 def test_a_parameter_that_is_off_is_found_from_every_second_point(tmp_path):
-    made, usual = load_rig(rig(tmp_path, lines(thicker=1.4))), GearMeshParams().viscosity_scale
+    made, usual = (
+        load_data_set(data_set(tmp_path, lines(thicker=1.4))),
+        GearMeshParams().viscosity_scale,
+    )
     blind, fitted = compare(made), compare(made, fit=1)
     assert np.abs(blind.deviations).min() > 1e-3
     assert fitted.fitted["viscosity_scale"] == pytest.approx(1.4 * usual, rel=1e-3)
@@ -62,8 +65,8 @@ def test_a_parameter_that_is_off_is_found_from_every_second_point(tmp_path):
 
 
 def test_the_band_holds_the_scatter_and_the_reading_error(tmp_path):
-    scatter = compare(load_rig(rig(tmp_path, lines(error=1e-9))))
-    both = compare(load_rig(rig(tmp_path, lines(error=0.2))))
+    scatter = compare(load_data_set(data_set(tmp_path, lines(error=1e-9))))
+    both = compare(load_data_set(data_set(tmp_path, lines(error=0.2))))
     assert ((scatter.low < scatter.computed) & (scatter.computed < scatter.high)).all()
     wide = (both.high - both.low) / both.computed
     assert (wide > (scatter.high - scatter.low) / scatter.computed).all()
@@ -73,12 +76,12 @@ def test_the_band_holds_the_scatter_and_the_reading_error(tmp_path):
 def test_deviations_keep_their_signs_everywhere(tmp_path):
     thick = tmp_path / "thick"  # the model's oil is thinner than what was measured
     thick.mkdir()
-    found = compare(load_rig(rig(thick, lines(thicker=1.4))), draws=8)
+    found = compare(load_data_set(data_set(thick, lines(thicker=1.4))), draws=8)
     told, d = found.to_dict(), found.deviations
     assert told["mean_deviation"] == pytest.approx(np.mean(d)) and abs(np.mean(d)) > 1e-3
     assert abs(told["largest_deviation"]) == np.abs(d).max()
     assert told["largest_deviation"] in d.tolist()
-    page = shelf_page([found], [], tmp_path / "none.toml")
+    page = collection_page([found], [], tmp_path / "none.toml")
     assert f"| {100.0 * np.mean(d):+.1f} % | {100.0 * told['largest_deviation']:+.1f} %" in page
 
 
@@ -87,15 +90,15 @@ def test_only_what_was_measured_blind_on_the_same_machine_is_called_measured(tmp
     for kind, ours in kinds.items():
         folder = tmp_path / kind.replace(" ", "-")
         folder.mkdir()
-        made = load_rig(rig(folder, lines(), extra=f'kind = "{kind}"\n'))
-        page = shelf_page([compare(made, draws=8)], [], tmp_path / "none.toml")
+        made = load_data_set(data_set(folder, lines(), extra=f'kind = "{kind}"\n'))
+        page = collection_page([compare(made, draws=8)], [], tmp_path / "none.toml")
         measured = page.partition("## Measured")[2].partition("## Compared")[0]
         assert ("1 data set, 6 points" in measured) == ours and (made.name in measured) == ours
 
 
 def test_the_shelf_says_what_each_rig_is():
     names = [path.name for path in Path("examples/measured").iterdir() if path.is_dir()]
-    found = {name: load_rig(f"examples/measured/{name}").kind for name in names}
+    found = {name: load_data_set(f"examples/measured/{name}").kind for name in names}
     assert "not said" not in found.values()
     assert found["vw-transaxle"] == found["oh-58a"] == "other machine"
     assert found["jackson-green-2006"] == "calculated" and found["wang-2012"] == "used"
@@ -123,12 +126,12 @@ GOOD = "2.0, 180, 0.5, 0.01, table"
 def test_what_is_wrong_in_a_rig_is_named(tmp_path, change, words):
     given = {"lines": [GOOD]} | change
     with pytest.raises(ParameterError, match=words):
-        load_rig(rig(tmp_path, **given))
+        load_data_set(data_set(tmp_path, **given))
 
 
 def test_the_command_says_the_figures_and_writes_them(tmp_path, capsys):
-    (tmp_path / "rig").mkdir()
-    folder, out = rig(tmp_path / "rig", lines()), tmp_path / "out"
+    (tmp_path / "data_set").mkdir()
+    folder, out = data_set(tmp_path / "data_set", lines()), tmp_path / "out"
     assert main(["compare", str(folder), "--json", "--draws", "8", "--out", str(out)]) == 0
     told = json.loads(capsys.readouterr().out)
     assert {"points", "mean_deviation", "largest_deviation", "inside_band"} <= told.keys()
@@ -145,7 +148,7 @@ def test_a_report_has_several_results_of_a_point(tmp_path):
     r = solve_gearmesh(GearMeshParams(film_heat="loss"), power=4e3, speed=180.0)
     head = HEAD.replace("origin", "contact_ratio, origin")
     line = f"4.0, 180, {r.friction_torque!r}, 0.01, {1.1 * r.contact_ratio!r}, table"
-    made = load_rig(rig(tmp_path, [line], head))
+    made = load_data_set(data_set(tmp_path, [line], head))
     assert made.outputs == ("friction_torque", "contact_ratio") and made.units == ("N.m", "1")
     assert made.error.tolist() == [0.01, 0.0] and made.origin == ("table", "table")
     found = compare(made, draws=8)
@@ -155,7 +158,7 @@ def test_a_report_has_several_results_of_a_point(tmp_path):
 
 @pytest.mark.parametrize("name", ["wind-stage-3", "gearpie-c14", "gearpie-c40"])
 def test_reports_of_others_are_met_but_for_what_their_rigs_explain(name):
-    made = load_rig(Path(__file__).parents[3] / "examples" / "measured" / name)
+    made = load_data_set(Path(__file__).parents[3] / "examples" / "measured" / name)
     off = dict(zip(made.outputs, compare(made, draws=2).deviations, strict=True))
     assert abs(off.pop("friction_power")) < 0.16
     assert max(map(abs, off.values())) < 0.03
@@ -178,5 +181,5 @@ def test_wrong_input_is_said_in_a_line(words, said, capsys):
 
 @pytest.mark.parametrize("name", ["fzg-c-mod", "wang-2012"])
 def test_rigs_of_the_shelf_can_be_compared(name):
-    found = compare(load_rig(f"examples/measured/{name}"), draws=8)
+    found = compare(load_data_set(f"examples/measured/{name}"), draws=8)
     assert np.abs(found.deviations).max() < 0.02

@@ -1,13 +1,17 @@
 """Names of earlier versions work for one version, with a warning that names the new one."""
 
 import pickle
+import re
+from pathlib import Path
 
 import pytest
 
 import thrustwasher
 from thrustwasher import ClutchParams, ParameterError, load_part
+from thrustwasher.clutch import parameters
 from thrustwasher.fmu.description.interface import interface
 from thrustwasher.model.registry import find_spec
+from thrustwasher.model.toml_tables import spec_beside
 from thrustwasher.washer import follow
 
 NOW = "input_course is now input_profile"
@@ -53,6 +57,15 @@ def test_a_part_file_with_a_former_name(tmp_path):
     path.write_text('model = "clutch"\nname = "Pack"\n[parameters]\ninput_course = "linear"\n')
     with pytest.warns(FutureWarning, match=rf"pack\.toml.* {NOW}"):
         assert load_part(path).params.input_profile == "linear"
+
+
+def test_the_interface_of_an_own_model_with_a_former_name(tmp_path):
+    own = tmp_path / "interface.toml"
+    text = Path(parameters.__file__).with_name(own.name).read_text("utf-8")
+    own.write_text(re.sub("(?m)^profile = ", "course = ", text), "utf-8")
+    with pytest.warns(FutureWarning, match=r"interface\.toml: course is now profile"):
+        spec = spec_beside(str(own.with_name("parameters.py")), ClutchParams)
+    assert spec.profile == find_spec("clutch").profile != ()
 
 
 def test_the_fmu_has_the_new_name_alone():

@@ -7,6 +7,7 @@ import re
 import tomllib
 import warnings
 from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -92,6 +93,17 @@ def test_the_layers_on_the_page_are_those_that_are_checked():
     assert {f for f in folders if f"\n  {f}/ " not in page} == set()
     steps = re.findall(r"(?m)^\d+\. `([\w/]+\.(?:py|c|toml))`", page)
     assert len(steps) == len(set(steps)) == 20
+
+
+def test_commands_of_the_lab_that_any_text_names_are_there():
+    texts = [p for end in ("md", "py", "toml") for p in (ROOT / "lab").rglob(f"*.{end}")]
+    found = {
+        name.rstrip(".")
+        for path in [*PAGES, *texts]
+        for name in re.findall(r"python -m (lab\.[a-z0-9_.]+)", path.read_text("utf-8"))
+    }
+    missing = [name for name in found if find_spec(name) is None]
+    assert len(found) > 20 and not missing, missing
 
 
 @pytest.mark.slow

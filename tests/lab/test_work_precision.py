@@ -42,8 +42,8 @@ class Method:
 
 
 def sampled(way, quantities=(RELATIVE,)):
-    level = Configuration("family", "label", "knob", "1", lambda: way, "turns")
-    return measure(level, CASES, KNOWN, quantities, repeats=3)
+    found = Configuration("family", "label", "knob", "1", lambda: way, "turns")
+    return measure(found, CASES, KNOWN, quantities, repeats=3)
 
 
 def test_worst_and_rms_are_over_all_cases_and_the_worst_is_named():
@@ -162,7 +162,7 @@ def test_a_changed_list_has_another_digest():
 
 @pytest.mark.parametrize("model", ["washer", "clutch", "gearmesh"])
 def test_every_configuration_has_a_label_of_its_own(model):
-    found = [level.label for level in CHARTS[model].series(spec_of(model))]
+    found = [series.label for series in CHARTS[model].series(spec_of(model))]
     assert len(set(found)) == len(found)
     assert {r.label for r in CHARTS[model].series(spec_of(model), quick=True)} <= set(found)
     assert set(spec_of(model).levels) <= set(found)

@@ -110,7 +110,8 @@ def spec_beside(
     may follow; an output depends on all inputs unless these say otherwise. ``more`` are fields of
     the ``ModelSpec`` that are no data.
     """
-    table = now_named(module, {"course": "profile"}, table_beside(module, "interface.toml"))
+    path = Path(module).with_name("interface.toml")
+    table = now_named(str(path), {"course": "profile"}, table_beside(module, path.name))
     numbers = {"inputs": ("low", "high", "nominal", "start"), "outputs": ("nominal",)}
     signals: dict[str, Any] = {"inputs": [], "outputs": []}
     for kind, names in numbers.items():

@@ -1,4 +1,4 @@
-"""Where methods fail, and the limits of co-simulation: measured by ``lab/benchmarks/stability.py``.
+"""Where methods fail, and the limits of coupling: measured by ``lab.benchmarks.same_everywhere``.
 
 Methods of the trade, small ones written for this, and the package's own meet hazards. The method of
 the washer's paper is charted as well, by ``lab/benchmarks/chart_2006.py``.

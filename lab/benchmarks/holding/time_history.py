@@ -1,6 +1,6 @@
 """Slip and torque of a pack between two inertias over time, with holding off and identified.
 
-python -m lab.benchmarks.holding.profile [FOLDER]
+python -m lab.benchmarks.holding.time_history [FOLDER]
 
 0.15 and 1 kg m2, a slip of 200 rad/s, 100 N m that drive and 20 N m that brake; the load on the
 default pack rises from 200 to 6000 N in 0.3 s. Both inertias are stepped exactly by a host that

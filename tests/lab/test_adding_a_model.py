@@ -10,6 +10,7 @@ import zipfile
 from pathlib import Path
 
 import fmpy
+import needed
 import pytest
 
 MODEL = Path(__file__).parents[2] / "examples" / "own_model"
@@ -80,6 +81,7 @@ def test_the_sweep_writes_a_table(run, solved, folder):
 @pytest.fixture(scope="module")
 def fmu(run, folder):
     """The native FMU for this machine, without a finding of the validator."""
+    needed.linker()
     made = json.loads(run("build", "JournalBearing", "--platforms=local", "--out=fmus", "--json"))
     assert made["findings"] == []
     return folder / made["fmus"][0]

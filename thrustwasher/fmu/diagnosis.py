@@ -16,6 +16,7 @@ from ..model.registry import all_specs, kernel_of
 from ..native.compiling.portable import MISSING, maker
 from ..native.files import VARIABLE, code_folder, private_folder, why_not_kept
 from ..native.link import find_linker
+from . import packages
 from .model_kernels import is_compiled, package_version
 from .package.model_sources import source_folder
 from .shell import c_sources
@@ -33,11 +34,10 @@ class Check:
 
 def diagnose() -> list[Check]:
     """Look at everything this package uses; nothing is changed and no kernel is compiled."""
-    version = platform.python_version()
     looks: list[tuple[str, Callable[[], str]]] = [
         ("thrustwasher", _version),
-        ("Python", lambda: f"{version} in {sys.executable}, {platform.platform()}"),
-        *((name, _importable(name)) for name in ("numpy", "numba", "fmpy", "pythonfmu")),
+        ("Python", lambda: f"{packages.python()} in {sys.executable}, {platform.platform()}"),
+        *((asked.name, _package(asked)) for asked in packages.ranges()),
         ("models", lambda: ", ".join(s.name for s in all_specs() if kernel_of(s))),
         ("compiled kernels", _kernels),
         ("kept maps", _kept),
@@ -48,6 +48,7 @@ def diagnose() -> list[Check]:
         ("native FMUs, compiler", _compiler),
         ("C sources (--sources)", _c_sources),
         ("FMU checker (optional)", _importable("fmu_manipulation_toolbox")),
+        *((f"extra {name} (optional)", _extra(name)) for name in packages.OPTIONAL),
     ]
     return [_look(name, look) for name, look in looks]
 
@@ -77,6 +78,26 @@ def _importable(name: str) -> Callable[[], str]:
         except ImportError as problem:
             raise ParameterError(f"{problem}; pip install {name.replace('_', '-')}") from None
         return metadata.version(name.replace("_", "-"))
+
+    return look
+
+
+def _package(asked: packages.Range) -> Callable[[], str]:
+    def look() -> str:
+        text = packages.described(asked)
+        importlib.import_module(asked.name.lower())
+        return text
+
+    return look
+
+
+def _extra(name: str) -> Callable[[], str]:
+    def look() -> str:
+        try:
+            found = [f"{r.name} {packages.described(r)}" for r in packages.ranges(name)]
+        except ParameterError as problem:
+            raise ParameterError(f"{problem}: pip install 'thrustwasher[{name}]'") from None
+        return ", ".join(found)
 
     return look
 

@@ -35,17 +35,29 @@ def package_version() -> str:
 
 
 def content_digest(spec: ModelSpec) -> str:
-    """Return 16 hex digits over everything that decides the numbers: kernels, maps, parameters."""
+    """Return 16 hex digits over everything that decides the numbers: kernels, maps, the model."""
     return _content_digest(spec.kernel, spec.params.__module__, tables_of(spec) is not None)
 
 
 @cache
 def _content_digest(kernel: str, params: str, table: bool) -> str:
-    found = [importlib.util.find_spec(name) for name in (kernel, params)]
-    files = [Path(s.origin) for s in found if s and s.origin]
-    if table:
-        files += sorted((Path(__file__).parents[1] / "data" / "maps").glob("*.twm"))
     hashed = hashlib.sha256(f"{package_version()} {kernel_digest()}".encode())
-    for file in files:
+    for file in content_files(kernel, params, table):
         hashed.update(file.name.encode() + file.read_bytes())
     return hashed.hexdigest()[:16]
+
+
+def content_files(kernel: str, params: str, table: bool) -> list[Path]:
+    """Return the files that a model's digest is made of, beside the kernels of the package.
+
+    They are the module of its kernel and that of its parameters, all sources and lists beside the
+    latter where they are a package, and the maps that are shipped where it looks into one.
+    """
+    found = [importlib.util.find_spec(name) for name in (kernel, params)]
+    files = [Path(s.origin) for s in found if s and s.origin]
+    if "." in params:
+        folder = files[-1].parent
+        files += sorted(path for path in folder.iterdir() if path.suffix in (".py", ".toml"))
+    if table:
+        files += sorted((Path(__file__).parents[1] / "data" / "maps").glob("*.twm"))
+    return files

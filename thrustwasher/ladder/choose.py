@@ -7,7 +7,7 @@ the box, the level is compared with the one above it at some points.
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -66,7 +66,7 @@ class Choice:
 
     fidelity: str
     error: float
-    seconds: float
+    seconds: float = field(compare=False)  # NaN is not equal to itself
     reasons: tuple[str, ...]
     is_verified: bool = True
 

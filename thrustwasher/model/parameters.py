@@ -5,7 +5,7 @@ Numbers that come with a call are checked here too.
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import field, fields, make_dataclass
+from dataclasses import field, fields
 from functools import cache, wraps
 from operator import attrgetter
 from typing import Any, TypeVar
@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 from ..errors import ParameterError
 from ..moved import now_named
 from ..units import into_range, meant
+from .derived import derived
 from .spec import ModelSpec, Rule
 
 T = TypeVar("T")
@@ -73,11 +74,7 @@ def allowed(meta: Any) -> str:
 
 def extended(params: type[T], name: str, more: Mapping[str, object]) -> type[T]:
     """Return a parameter dataclass of this name with more fields, behind its own."""
-    space = {"__module__": params.__module__, "__doc__": params.__doc__}
-    fields_ = [(n, float, f) for n, f in more.items()]
-    return make_dataclass(
-        name, fields_, bases=(params,), frozen=True, kw_only=True, namespace=space
-    )
+    return derived(params, name, [(n, float, f) for n, f in more.items()])
 
 
 def other_names(params: type[T]) -> type[T]:

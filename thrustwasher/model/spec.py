@@ -5,9 +5,11 @@ The FMU variables, the command line's columns and the documentation come from th
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields, make_dataclass, replace
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any, NamedTuple
+
+from .derived import derived
 
 REGIMES = {
     "film": "film ratio above 3: the oil film carries",
@@ -197,14 +199,7 @@ def tailored(
         (f.name, f.type, field(default=parameters.get(f.name, f.default), metadata=f.metadata))
         for f in fields(spec.params)
     ]
-    params = make_dataclass(
-        spec.params.__name__,
-        kept,
-        bases=(spec.params,),
-        frozen=True,
-        kw_only=True,
-        namespace={"__module__": spec.params.__module__, "__doc__": spec.params.__doc__},
-    )
+    params = derived(spec.params, spec.params.__name__, kept)
     params()  # raises what the model says about values that do not go together
     own = {
         "params": params,

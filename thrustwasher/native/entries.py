@@ -1,50 +1,17 @@
 """Which functions of the kernels can be called from Python, and the library each is in.
 
 A model's library holds the entries of its step ABI for the FMU's shell, with arrays of fixed
-length, and functions for Python, with the lengths as they are given. What these take
-follows from their annotations: numbers, arrays, tuples of these. The head of a model's package of
-kernels lists them: ``CALLED``, module of the library -> functions, those of a module as "module:
-name name" or each by its full name. An array has one dimension unless it is named behind that one
-function as having two.
+length, and functions for Python, with the lengths as they are given (``signatures``). The head of
+a model's package of kernels lists them: ``CALLED``, module of the library -> functions, those of a
+module as "module: name name" or each by its full name. An array has one dimension unless it is
+named behind that one function as having two.
 """
 
-from __future__ import annotations
-
 import importlib
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
 from functools import cache
-from typing import Any, get_args, get_origin, get_type_hints
 
 from ..model.registry import OTHERS, compiled_packages
-
-ITEMS = ("float64", "int32", "int64", "uint8")  # of arrays
-
-
-@dataclass(frozen=True, slots=True)
-class Kind:
-    """What an argument is to a C function.
-
-    ``name``: "float", "int", "bool" or "array"; an array's ``item`` is the name of its numpy type,
-    ``ndim`` its dimensions. ``parts``: of a tuple, whose class is ``made_by`` (None: a plain one).
-    """
-
-    name: str
-    item: str = ""
-    ndim: int = 0
-    parts: tuple[Kind, ...] = ()
-    made_by: Any = None
-
-
-@dataclass(frozen=True, slots=True)
-class Entry:
-    """A function, its symbol in a library, what it takes and returns."""
-
-    symbol: str
-    function: Callable[..., Any]
-    takes: tuple[Kind, ...]
-    returns: tuple[Kind, ...]
-    is_tuple: bool  # what it returns is a tuple, also of one
 
 
 @cache
@@ -119,37 +86,3 @@ def called_modules(library: str) -> list[str]:
 def symbol_of(module: str, name: str) -> str:
     """Return the name a function has in its library."""
     return f"tw_call_{module.partition('.')[2].replace('.', '_')}_{name}"
-
-
-def entries(library: str) -> list[Entry]:
-    """Return the functions of a library that Python calls; imports all their modules."""
-    return [
-        describe(getattr(importlib.import_module(module), name), two)
-        for module, name, two in called(library)
-    ]
-
-
-def describe(function: Any, two: Sequence[str]) -> Entry:
-    """Return what a function takes and returns; ``two``: its arrays of two dimensions."""
-    plain = getattr(function, "py_func", function)
-    hints = get_type_hints(plain)
-    back = hints.pop("return")
-    takes = tuple(_kind(hint, 2 if arg in two else 1) for arg, hint in hints.items())
-    is_tuple = get_origin(back) is tuple
-    given = get_args(back) if is_tuple else (() if back is type(None) else (back,))
-    module, name = plain.__module__, plain.__name__
-    returns = tuple(_kind(b, 1) for b in given)
-    return Entry(symbol_of(module, name), function, takes, returns, is_tuple)
-
-
-def _kind(hint: object, ndim: int) -> Kind:
-    """Return the kind of an annotation."""
-    if hint in (float, int, bool):
-        return Kind(hint.__name__)
-    if get_origin(hint) is tuple:
-        return Kind("tuple", parts=tuple(_kind(part, 1) for part in get_args(hint)))
-    if isinstance(hint, type) and issubclass(hint, tuple):
-        parts = tuple(_kind(part, 1) for part in get_type_hints(hint).values())
-        return Kind("tuple", parts=parts, made_by=hint)
-    item = get_args(get_args(hint)[1])[0]  # NDArray[item]
-    return Kind("array", item=item.__name__, ndim=ndim)

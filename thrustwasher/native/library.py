@@ -11,10 +11,11 @@ from typing import Any
 from ..errors import EnvironmentProblem
 from . import binaries, files, link, mathematics, shipped
 from .digest import HERE, read
-from .entries import Kind, entries, symbols
+from .entries import symbols
 from .files import Note, to_stderr
 from .kept import forget_old, kept_folder
 from .link import this_level, this_platform
+from .signatures import Kind, entries
 from .targets import WEB, Platform
 
 TABLE = "tw_table"  # the one function a library shows: the addresses of the others, in their order

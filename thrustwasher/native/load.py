@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 
 from ..errors import EnvironmentProblem
-from .entries import ITEMS, Entry, Kind, arrays_of_two, describe, library_of, symbol_of
+from .entries import arrays_of_two, library_of, symbol_of
 from .files import to_stderr
+from .signatures import ITEMS, Entry, Kind, describe
 
 _BACK = {"float": "_numbers[{}]", "int": "int(_numbers[{}])", "bool": "_numbers[{}] != 0.0"}
-_ITEMS = {name: np.dtype(name) for name in ITEMS}
+_ITEMS = {name: np.dtype(name) for name in ITEMS.values()}
 _Native = ctypes.CFUNCTYPE(
     ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p
 )
@@ -63,8 +64,9 @@ def address(array: object, item: object, ndim: int) -> int:
     """Return where an array's numbers lie; Unfit if it is not contiguous, or of another kind."""
     if type(array) is not np.ndarray or array.ndim != ndim or array.dtype != item:
         raise Unfit(item, ndim)
+    memory: Any = array  # how far an array is a buffer differs between releases of numpy's types
     try:
-        return ctypes.addressof(ctypes.c_char.from_buffer(array))  # type: ignore[arg-type]
+        return ctypes.addressof(ctypes.c_char.from_buffer(memory))
     except (TypeError, ValueError, BufferError):  # read only, empty, or not contiguous
         if not array.flags.c_contiguous:
             raise Unfit(item, ndim) from None

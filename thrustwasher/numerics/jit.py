@@ -20,15 +20,12 @@ from functools import cache, update_wrapper
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ..errors import EnvironmentProblem
 from ..native.files import VARIABLE, code_folder, forget_old, is_trusted, private_folder
 from ..native.load import native_function
+from ..native.signatures import Array as Array  # the kinds of array that kernels have
+from ..native.signatures import Ints as Ints
 
-Array = NDArray[np.float64]
-Ints = NDArray[np.int32]
 F = TypeVar("F", bound=Callable[..., Any])
 NUMBAS = "NUMBA_CACHE_DIR"
 KEPT_VERSIONS = 5

@@ -7,11 +7,12 @@ from types import SimpleNamespace
 
 import pytest
 from kernel_files import ROOT
+from packaging.requirements import Requirement
 from toy.places import HERE
 
 from thrustwasher import __version__
 from thrustwasher.errors import ParameterError
-from thrustwasher.fmu import diagnosis
+from thrustwasher.fmu import diagnosis, packages
 from thrustwasher.fmu.model_kernels import package_version
 
 
@@ -49,6 +50,32 @@ def test_the_version_of_the_code_is_that_of_the_project():
 def test_a_missing_package_is_a_finding_with_the_command_that_helps():
     check = diagnosis._look("x", diagnosis._importable("no_such_package"))
     assert not check.ok and "pip install no-such-package" in check.text
+
+
+@pytest.mark.parametrize(
+    ("version", "words"),
+    [
+        ("2.0.1", "2.0.1 (tried: 2.0 .. 2.5.5)"),
+        ("2.5.5.post1", "(tried: 2.0 .. 2.5.5)"),
+        ("2.6.0rc1", "2.6.0rc1, newer than what was tried (2.0 .. 2.5.5): it may well do"),
+    ],
+)
+def test_a_package_is_shown_beside_the_versions_that_were_tried(version, words, monkeypatch):
+    monkeypatch.setattr(packages.metadata, "version", lambda name: version)
+    assert words in packages.described(packages.Range("numpy", "2.0", "2.5.5"))
+
+
+def test_a_package_older_than_required_is_a_finding(monkeypatch):
+    monkeypatch.setattr(packages.metadata, "version", lambda name: "1.26.4")
+    with pytest.raises(ParameterError, match=r"1\.26\.4 is older than what is required: 2\.0"):
+        packages.described(packages.Range("numpy", "2.0", "2.5.5"))
+
+
+def test_every_package_that_commands_use_was_tried_in_some_version():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    extras = (project["optional-dependencies"][name] for name in packages.OPTIONAL)
+    lines = [*project["dependencies"], *(line for extra in extras for line in extra)]
+    assert {"python", *(Requirement(line).name for line in lines)} == packages.newest_tried().keys()
 
 
 def test_a_folder_that_cannot_be_written_to_is_a_finding(tmp_path):

@@ -212,3 +212,8 @@ def test_at_a_point_the_error_is_that_which_the_solution_estimates():
     finest = thrustwasher.solve_washer(WasherParams(), **at, grid=(41, 128))
     true = abs(solved.friction_torque / finest.friction_torque - 1.0)
     assert true <= choice.error <= 20.0 * true
+
+
+def test_equal_choices_without_a_time_are_equal():
+    one, other = (home.Choice("map", 0.01, float("nan"), ("map: cheapest",)) for _ in "ab")
+    assert one == other

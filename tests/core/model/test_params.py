@@ -1,12 +1,16 @@
 """Parameters of every model: each bounded, documented, checked by name and in its place."""
 
+import importlib
 import math
+import pickle
 import re
 from dataclasses import fields
+from pathlib import Path
 
 import pytest
 
 from thrustwasher import ParameterError, WasherParams
+from thrustwasher.fmu.model_kernels import content_files
 from thrustwasher.model.parameters import as_numbers, check_number
 from thrustwasher.model.registry import HELPERS, MODELS, find_spec, kernel_of
 from thrustwasher.units import UNITS
@@ -109,3 +113,17 @@ def test_a_material_has_one_place_for_all_bodies_with_their_own_behind_it():
     assert numbers[names.index("friction_law")] == 2.0
     assert numbers[names.index("conduction")] == 3.0
     assert numbers[names.index("outer_radius")] == 0.0227
+
+
+@each_model
+def test_parameters_are_at_home_in_their_model_and_can_be_sent_to_other_processes(spec):
+    home = find_spec(spec.key).kernel.partition(".kernels")[0]
+    assert spec.params.__module__.startswith(f"{home}.")
+    assert pickle.loads(pickle.dumps(spec.params())) == spec.params()
+
+
+@each_model
+def test_an_edit_of_any_file_of_a_model_changes_its_digest(spec):
+    home = Path(importlib.import_module(spec.params.__module__).__file__).parent
+    own = {path for path in home.iterdir() if path.suffix in (".py", ".toml")}
+    assert own and own <= set(content_files(spec.kernel, spec.params.__module__, False))

@@ -1,12 +1,16 @@
 """Kernels called from Python: compiled where a library has them, plain Python where not."""
 
 import pickle
+from pathlib import Path
 
 import numpy as np
 import pytest
 from children import child
+from numpy.typing import NDArray
 
-from thrustwasher.native import entries, load
+from thrustwasher.errors import ParameterError
+from thrustwasher.native import entries, load, signatures
+from thrustwasher.native.digest import MAKERS
 from thrustwasher.numerics import banded
 from thrustwasher.numerics.jit import way
 from thrustwasher.numerics.smoothing import sign_of
@@ -56,7 +60,7 @@ def test_an_array_that_is_not_contiguous_goes_to_the_kernel_as_python():
 
 
 def test_arrays_of_two_dimensions_are_known():
-    entry = entries.describe(map_rows.map_folds, ("folds",))
+    entry = signatures.describe(map_rows.map_folds, ("folds",))
     assert [kind.ndim for kind in entry.takes if kind.name == "array"] == [1, 1, 2]
 
 
@@ -77,7 +81,7 @@ def test_a_bound_kernel_works_on_its_arrays():
 
 @pytest.mark.parametrize("library", entries.libraries())
 def test_every_listed_function_is_there_and_described(library):
-    found = entries.entries(library)
+    found = signatures.entries(library)
     assert [e.symbol for e in found] and len(found) == len(entries.symbols(library))
     for entry in found:
         assert entries.library_of(entry.function.__module__, entry.function.__name__)
@@ -90,3 +94,18 @@ def test_an_unknown_way_is_refused_by_name():
         "except EnvironmentProblem as problem:\n print(problem)\n"
     )
     assert "THRUSTWASHER_KERNELS" in words_of(code, THRUSTWASHER_KERNELS="fast")
+
+
+@pytest.mark.parametrize("annotation", [list[float], complex, np.ndarray, NDArray[np.float32]])
+def test_an_annotation_that_no_compiled_function_has_is_named(annotation):
+    def area(sides):
+        return 0.0
+
+    area.__annotations__ = {"sides": annotation, "return": float}
+    with pytest.raises(ParameterError, match=r"area: sides is annotated .*Array \(float64\)"):
+        signatures.describe(area, ())
+
+
+def test_what_decides_digests_reads_no_annotations():
+    source = Path(entries.__file__).read_text("utf-8")
+    assert "entries.py" in MAKERS and "typing" not in source and "numpy" not in source

@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from ...errors import EnvironmentProblem
-from ..entries import ITEMS, Entry, Kind, entries
+from ..signatures import ITEMS, Entry, Kind, entries
 
 # Entries of the step ABI: name in the kernel module -> name in the FMU's shell, lengths of the
 # arrays ("": a number). NGIVEN: inputs, and their rates behind them where the model takes them;
@@ -125,7 +125,7 @@ def compiled(callback: Callback) -> Any:
     scope = {"carray": compiler.carray, **callback.scope}
     scope |= {
         f"at_{item}": pointer(types.CPointer(getattr(types, item)))
-        for item in ITEMS
+        for item in ITEMS.values()
         if f"at_{item}(" in callback.source
     }
     exec(callback.source, scope)

@@ -92,9 +92,9 @@ def read_off(scene: Scene, time: Array, signals: Signals) -> Found:
         of_one = {part: signals[signal]} if signal in signals else {}
         known = of_all(scene, signals, quantity) if part == "meshes" else of_one
         if known:
-            extreme = np.min if reading in ("minimum", "turning") else np.max
+            extreme = np.minimum if reading in ("minimum", "turning") else np.maximum
             speed = signals.get(f"{next(iter(known))}.{SPEED}", time)
-            values = extreme(list(known.values()), axis=0)
+            values: Array = extreme.reduce(list(known.values()))
             found[name] = READINGS[reading](values, time, speed)
     return found
 

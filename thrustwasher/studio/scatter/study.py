@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import ParameterError
+from ...native.files import to_stderr
 from ...numerics.jit import kernel_digest
 from ...storage.journal import Journal
 from ..jobs.rows import Rows
@@ -101,6 +102,9 @@ def _sendable(target: Target, workers: int | None, *, needed: bool) -> int | Non
         pickle.dumps(target)
     except (pickle.PicklingError, AttributeError, TypeError) as problem:
         if not needed and workers is None:
+            to_stderr(
+                f"{target.name} cannot be sent to other processes ({problem}); it runs in one"
+            )
             return 1
         raise ParameterError(
             f"workers: {target.name} cannot be sent to other processes ({problem}); define it at "

@@ -25,8 +25,9 @@ OILS = np.linspace(253.15, 423.15, 69)
 def losses_figure(result: Any, point: Mapping[str, float], params: object) -> Figure:
     """Return heat by source, stacked, over all speeds together and over the oil's temperature."""
     speeds = [name for name in point if name.endswith("_speed")]
-    faster = [dict(point) | {name: f * point[name] for name in speeds} for f in FACTORS]
-    warmer = [dict(point) | {"oil_temperature": t} for t in OILS]
+    given: dict[str, Any] = dict(point)
+    faster = [given | {name: f * point[name] for name in speeds} for f in FACTORS]
+    warmer = [given | {"oil_temperature": t} for t in OILS]
     oil = point["oil_temperature"] - CELSIUS
     figure, axes = new_figure(9.6, 4.3, 1, 2, head=1)
     for axis, x, points, here, words, over in (

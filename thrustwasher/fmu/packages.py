@@ -53,7 +53,7 @@ def ranges(extra: str = "") -> Iterator[Range]:
 
 
 def described(asked: Range) -> str:
-    """Return the version that is installed beside those that were tried; a newer one is a note.
+    """Return the version that is installed and the range that was tried; a newer one is a note.
 
     ParameterError: it is missing, or older than what is required.
     """
@@ -64,7 +64,7 @@ def described(asked: Range) -> str:
 
 
 def python() -> str:
-    """Return the version of this Python beside those that were tried."""
+    """Return the version of this Python and the range that was tried."""
     lowest = Requirement(f"python{metadata.metadata(HOME)['Requires-Python']}").specifier
     oldest = next(s.version for s in lowest if s.operator == ">=")
     return _beside(platform.python_version(), Range("python", oldest, newest_tried()["python"]))

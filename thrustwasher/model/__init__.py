@@ -2,7 +2,6 @@
 
 ===============  ===============================================================================
 ``spec``         what a model shows to the outside: inputs, outputs, parameters, kernel; as data
-``derived``      a dataclass made of another one by a call, at home in the same module
 ``record``       all that the rest of the package knows of a model
 ``registry``     the models and their kernels by name
 ``parameters``   fields with unit, range and meaning; checks of numbers and profiles over time

@@ -13,8 +13,7 @@ from typing import Any, TypeVar
 from ..errors import ParameterError
 from ..moved import now_named
 from ..units import into_range, meant
-from .derived import derived
-from .spec import ModelSpec, Rule
+from .spec import ModelSpec, Rule, derived
 
 T = TypeVar("T")
 Renew = Callable[[dict[str, Any]], dict[str, Any]]

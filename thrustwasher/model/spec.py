@@ -5,12 +5,11 @@ The FMU variables, the command line's columns and the documentation come from th
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, fields, make_dataclass, replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
-from .derived import derived
-
+T = TypeVar("T")
 REGIMES = {
     "film": "film ratio above 3: the oil film carries",
     "mixed": "film ratio 1 to 3: film and asperities share the load",
@@ -184,6 +183,19 @@ class ModelSpec:
     def real_outputs(self) -> list[str]:
         """Names of the outputs that are real numbers, as they lie in `out`."""
         return [signal.name for signal in self.outputs if signal.kind == "real"]
+
+
+def derived(base: type[T], name: str, more: Sequence[tuple[str, Any, Any]]) -> type[T]:
+    """Return a frozen dataclass of this name: the base's fields, then ``more``.
+
+    ``more``: name, type and field of each. It belongs to the base's module, where digests look for its source and pickle for its name.
+    ``make_dataclass`` alone writes its caller's module from Python 3.12 on, whatever is given.
+    """
+    made = make_dataclass(
+        name, more, bases=(base,), frozen=True, kw_only=True, namespace={"__doc__": base.__doc__}
+    )
+    made.__module__ = base.__module__
+    return made
 
 
 def tailored(

@@ -91,8 +91,11 @@ def run(arguments: argparse.Namespace) -> int:
         )
     if arguments.no_report and arguments.out != FOLDER:
         raise ParameterError(f"--out {arguments.out}: --no-report writes no files; leave one out")
+    from ..fmu.shell.platform_libraries import require_linker
     from ..shift.from_fmus import check_levels
 
+    if arguments.fmu == "native" or arguments.ssp:
+        require_linker()
     scene = _scene(arguments, arguments.scene or "planetary")
     if scene.sequence:
         if arguments.ssp:

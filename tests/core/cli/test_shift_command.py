@@ -13,6 +13,7 @@ from built import built_fmu
 
 from thrustwasher.cli import main
 from thrustwasher.errors import SolveError
+from thrustwasher.native import link
 
 ROOT = Path(__file__).parents[3]
 
@@ -184,3 +185,15 @@ def test_a_study_that_fails_leaves_the_shift(scattered, tmp_path, capsys, monkey
     report = (tmp_path / "r" / "report.html").read_text(encoding="utf-8")
     assert "Key figures" in report and 'id="how-sure"' not in report
     assert (tmp_path / "r" / "shift.csv").is_file()
+
+
+def test_a_missing_linker_is_said_before_anything_is_compiled(monkeypatch, capsys, tmp_path):
+    made = []
+    monkeypatch.setattr("thrustwasher.fmu.shell.platform_libraries.is_shipped", lambda spec: False)
+    monkeypatch.setattr("thrustwasher.native.link._of_this_machine", lambda: None)
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    monkeypatch.setattr("thrustwasher.cli.shift._scene", lambda *given: made.append(given))
+    link.find_linker.cache_clear()
+    link.local_linker.cache_clear()
+    assert main(["shift", "--out", str(tmp_path / "r")]) == 2
+    assert "need a C compiler to be built" in capsys.readouterr().err and not made

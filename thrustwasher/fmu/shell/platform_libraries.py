@@ -14,6 +14,7 @@ from pathlib import Path
 
 from ...errors import ParameterError
 from ...model.prepare import tables_of
+from ...model.registry import all_specs
 from ...model.spec import ModelSpec
 from ...native import digest, files, mathematics, shipped
 from ...native.compiling.objects import objects
@@ -68,6 +69,12 @@ def library_identity(spec: ModelSpec, *, local: bool) -> str:
 
 def _levels(platform: Platform) -> str:
     return "-".join(level.name for level in platform.levels)
+
+
+def require_linker() -> None:
+    """Raise EnvironmentProblem if FMUs have to be linked and nothing links: before compiling."""
+    if not all(map(is_shipped, all_specs(helpers=True))):
+        local_linker()
 
 
 def native_contents(shown: Interface, order: Order, guid: str) -> dict[str, bytes]:

@@ -188,8 +188,9 @@ class ModelSpec:
 def derived(base: type[T], name: str, more: Sequence[tuple[str, Any, Any]]) -> type[T]:
     """Return a frozen dataclass of this name: the base's fields, then ``more``.
 
-    ``more``: name, type and field of each. It belongs to the base's module, where digests look for its source and pickle for its name.
-    ``make_dataclass`` alone writes its caller's module from Python 3.12 on, whatever is given.
+    ``more``: name, type and field of each. It belongs to the base's module, where digests look for
+    its source and pickle for its name; ``make_dataclass`` alone writes its caller's module from
+    Python 3.12 on, whatever is given.
     """
     made = make_dataclass(
         name, more, bases=(base,), frozen=True, kw_only=True, namespace={"__doc__": base.__doc__}

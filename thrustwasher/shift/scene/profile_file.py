@@ -164,9 +164,11 @@ def _columns(place: _Place) -> tuple[Array, Array, Table]:
     if not Path(place.given).exists():
         raise ParameterError(f"points = {place.given!r}: there is no such file")
     table = read_table(place.given).renamed(names)
-    named = {c.name.lower().replace(" ", "_"): c for c in table.columns}
     over, *wanted = place.columns
-    what = next((name for name in wanted if name in named), wanted[0])
+    known = {c.plain for c in table.columns}
+    what = next((name for name in wanted if name in known), wanted[0])
+    table = table.of_columns((over, what))
+    named = {c.plain: c for c in table.columns}
     found = []
     for name, unit in ((over, "m/s" if over == "speed" else "s"), (what, place.unit)):
         if name not in named:

@@ -147,7 +147,8 @@ def calibrate_traces(
         f"real parameters of {SPEC.name}, and of the test rig {', '.join(OF_RIG)}",
     )
     _check_rig(rig, names)
-    wholes = [_completed(whole, start, rig, held) for whole in _read(recordings, rig)]
+    read, remarks = _read(recordings, rig)
+    wholes = [_completed(whole, start, rig, held) for whole in read]
     parts = [
         (piece, float(whole.inputs["load"].max())) for whole in wholes for piece in pieces(whole)
     ]
@@ -173,7 +174,8 @@ def calibrate_traces(
             f"{counted(len(names), 'parameter')}, allowed: as many values as parameters, or more"
         )
     problem, first = TraceProblem.of(points, names, _bounds(rig, names, bounds or {}))
-    notes = (f"{size_text(runs, points.n_engagements)}.", *said, *_notes(rig, runs, torque_at))
+    size = f"{size_text(runs, points.n_engagements)}."
+    notes = (size, *remarks, *said, *_notes(rig, runs, torque_at))
     if by_torque:
         notes = (*notes, "Slip: by the recorded torque, the drag and the inertia.")
     problem = replace(problem, deviation=deviation, notes=notes)
@@ -240,19 +242,20 @@ def _bounds(
     return found
 
 
-def _read(recordings: Any, rig: TracedPack) -> list[Recording]:
-    """Return the recordings, files read, with ``load`` for ``pressure``."""
-    found = []
+def _read(recordings: Any, rig: TracedPack) -> tuple[list[Recording], list[str]]:
+    """Return the recordings, files read, with ``load`` for ``pressure``; what was not plain."""
+    found, said = [], []
     for name, given in _named(recordings):
         columns = given
         if not isinstance(given, Mapping):
             from ..traces.trace_file import read_trace
 
-            columns, _ = read_trace(given, COLUMNS, MEASURED)
+            columns, _, remarks = read_trace(given, COLUMNS, MEASURED)
+            said += [f"{name}: read with {', '.join(remarks)}."] if remarks else []
         found.append(_with_load(recording(name, columns, COLUMNS, MEASURED), rig))
     if not found:
         raise ParameterError("recordings: none, allowed: one or more")
-    return found
+    return found, said
 
 
 def _named(recordings: Any) -> Iterator[tuple[str, Any]]:

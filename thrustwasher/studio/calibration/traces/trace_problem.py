@@ -127,10 +127,10 @@ class TraceProblem(ModelProblem):
         largest = float(np.abs(self.measured[points.of(name)]).max())
         if abs(mean) <= max(3.0 * error, OFFSET * largest):
             return ()
+        share = f" ({100.0 * abs(mean) / largest:.2g} % of the largest torque)" if largest else ""
         return (
-            f"With the open pack the recorded torque lies {mean:+.3g} N.m off the model's drag "
-            f"({100.0 * abs(mean) / largest:.2g} % of the largest torque): if that is a zero "
-            "offset of the sensor, subtract it from the column.",
+            f"With the open pack the recorded torque lies {mean:+.3g} N.m off the model's drag"
+            f"{share}: if that is a zero offset of the sensor, subtract it from the column.",
         )
 
     def result(
@@ -160,6 +160,11 @@ def _laid_out(points: Traced) -> Array:
 
 def _shape_text(found: Pattern, unit: str) -> str:
     """Say that residuals hang together in time."""
+    if not found.span:
+        return (
+            f"The recorded {found.output} is one number in all rows, the model's is not: is its "
+            "channel connected, in this file and in this column?"
+        )
     size = f"{found.size:.3g} {unit}".removesuffix(" 1")
     rows = ""
     if found.chi_square is not None and found.chi_square > 2.0:

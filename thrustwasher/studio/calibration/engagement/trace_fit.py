@@ -85,7 +85,7 @@ def calibrate_traces(
         ``pressure`` [Pa]; ``speed``: slip [rad/s]; ``oil_temperature`` [K] and ``drum_speed``
         [rad/s] where they are recorded; measured ``friction_torque`` [N m] and ``temperature`` [K]
         of the interface (None: not measured). Where time goes back or leaps by more than 20 usual
-        steps another recording begins
+        steps another recording begins; a gap of 0.1 s or less within an engagement is bridged
     fit : names of parameters of the pack, and of the test rig: ``fill_time`` [s],
         ``kiss_pressure`` [Pa], ``drag_torque`` [N m], ``inertia`` [kg m2]; friction_scale and
         permeability by default
@@ -150,7 +150,9 @@ def calibrate_traces(
     read, remarks = _read(recordings, rig)
     wholes = [_completed(whole, start, rig, held) for whole in read]
     parts = [
-        (piece, float(whole.inputs["load"].max())) for whole in wholes for piece in pieces(whole)
+        (piece, float(whole.inputs["load"].max()))
+        for whole in wholes
+        for piece in pieces(whole, "load")
     ]
     most = min(MOST_MEANS, max(FEW_MEANS, ALL_MEANS // len(parts)))
     runs = tuple(binned(piece, most, "load", largest) for piece, largest in parts)
@@ -501,6 +503,13 @@ def _plan(
         if lasts > SLOW:
             doubts.append(
                 f"{run.name} lasts {lasts:.4g} s: if time is in ms, name the column time [ms]"
+            )
+        if run.engaged[0] and not rig.starts_pressed:
+            force = format_quantity(float(run.inputs["load"][0]), "N", digits=3)
+            doubts.append(
+                f"{run.name}: a recording starts under load ({force} at {run.time[0]:.6g} s): film "
+                "and heat of before are not known, it starts settled and as warm as the oil or the "
+                "first temperature; leave it out, or record from before the load rises"
             )
     return Plan(
         spec=TRACED,

@@ -8,11 +8,13 @@ import numpy as np
 
 from ....errors import SolveError
 from ....numerics.jit import Array
+from ....units import format_quantity
 from ..identifiability import MOST_TOGETHER, Verdict, counted, widening
 from ..measured import Measured, output_units
 from ..model_fit import ModelProblem
 from .binned import Run
 from .patterns import Pattern, lag_one, pattern_of
+from .recording import BETWEEN
 from .trace_result import TraceCalibration
 from .traced import Traced
 
@@ -185,7 +187,13 @@ def size_text(runs: tuple[Run, ...], engagements: int) -> str:
     words = f"{counted(engagements, 'engagement')} in {counted(len(runs), 'recording')}"
     if len(names) != len(runs):
         words += f", parted where time jumps, of {', '.join(names)}"
-    if rows == means:
+    gaps = [gap for run in runs for gap in run.gaps]
+    if gaps:
+        words += (
+            f", {counted(len(gaps), 'gap')} up to {format_quantity(max(gaps), 's')} bridged, load "
+            "and slip straight in between"
+        )
+    if all(run.n_rows + BETWEEN * len(run.gaps) == len(run.time) for run in runs):
         return f"{words}; {rows} rows, each as it is"
     lost = sorted({name for run in runs for name in run.kept})
     kept = ", ".join(

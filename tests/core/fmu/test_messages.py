@@ -2,6 +2,7 @@
 
 import pytest
 
+from thrustwasher.cli import main
 from thrustwasher.errors import Status
 from thrustwasher.fmu.build import build
 from thrustwasher.fmu.running.direct_instance import DirectInstance
@@ -152,3 +153,17 @@ def test_an_input_that_leaves_box_or_verified_range_is_told_once_in_a_run_and_so
     assert "0.002 s: load = 60 N.m is outside 0 .. 50 N.m, the part's box: solved all the" in first
     assert "0.003 s: OUTSIDE_VERIFIED: oil_temperature = 430 K is outside 253.15 .. 423" in second
     assert count == "Boxed: load left the part's box 2 times in this run; the first is told above"
+
+
+def test_a_new_pack_engages_without_a_warning(tmp_path):
+    """From the open pack at full slip to a stop under load, as ``part new`` writes the part."""
+    part = tmp_path / "pack.toml"
+    assert main(["part", "new", "clutch", "--name", "Pack", "--out", str(part)]) == 0
+    (native,) = build([str(part)], out=tmp_path, platforms=["linux64"])
+    pack = Listener(native)
+    pack.begin(load=0.0, speed=-100.0, oil_temperature=353.15)
+    for i in range(500):
+        pack.set(load=50.0 * min(i, 100), speed=min(-100.0 + 0.25 * i, 0.0))
+        pack.fmu.doStep(i * H, H)
+    pack.fmu.terminate()
+    assert pack.heard("logStatusWarning") == []

@@ -204,7 +204,15 @@ def least_of(name: str) -> float:
 
 def coverable(box: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
     """Return a box cut at what a map can cover, without what a map has no axis for."""
-    return {n: (max(low, least_of(n)), high) for n, (low, high) in box.items() if n in INPUTS}
+    return {n: (first_of(n, ends), ends[1]) for n, ends in box.items() if n in INPUTS}
+
+
+def first_of(name: str, ends: tuple[float, float]) -> float:
+    """Return where a map of a part with this box begins; from rest on at the usual load."""
+    low, usual = ends[0], DEFAULT_BOX["load"][0]
+    if name == "load" and low <= 0.0 and ends[1] > 2.0 * usual:
+        return usual
+    return max(low, least_of(name))
 
 
 def lines_about(params: WasherParams, box: dict[str, tuple[float, float]], tolerance: float) -> int:

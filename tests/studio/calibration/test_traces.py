@@ -434,46 +434,6 @@ def test_jumps_of_time_part_a_recording():
     assert [len(piece.time) for piece in pieces(whole, "load")] == [6, 5, 5]
 
 
-def stopped(scale, inertia=0.25, steps=25):
-    """Return a recording of a wheel that a pack stops, by repeated integration of its torque."""
-    way = history(601) | {"speed": np.full(601, 300.0)}
-    for _ in range(steps):
-        made = engage_clutch(ClutchParams(friction_scale=scale), **way, oil_temperature=OIL)
-        torque = made.friction_torque
-        area = 0.5 * (torque[1:] + torque[:-1]) * np.diff(way["time"])
-        way["speed"] = np.maximum(300.0 - np.append(0.0, np.cumsum(area)) / inertia, 0.0)
-    return {**way, "oil_temperature": OIL, "friction_torque": torque}
-
-
-def without(data, low, high):
-    """Return a recording without its rows between two times [s]."""
-    kept = (data["time"] <= low) | (data["time"] >= high)
-    return {name: x[kept] if np.ndim(x) else x for name, x in data.items()}
-
-
-WHEEL = {"inertia": 0.25, "errors": {"slip": 0.3, "friction_torque": 1.0}}
-
-
-@pytest.mark.parametrize(
-    ("low", "about"), [(0.08, {}), (0.12, WHEEL), (0.2, {}), (0.3, WHEEL)], ids=str
-)
-def test_a_short_gap_in_an_engagement_carries_film_and_heat_on(low, about):
-    """The same recording without its gap gives 0.9 too; two recordings would give 0.87 .. 0.895."""
-    data = without(stopped(0.9), low, low + 0.03)
-    found = calibrate_traces(PACK, data, fit=["friction_scale"], **about)
-    assert found["friction_scale"].value == pytest.approx(0.9, rel=5e-4)
-    assert found.engagements == 1 and not found.warnings
-    assert any("1 gap up to 30 ms bridged" in text for text in found.notes)
-
-
-def test_a_recording_that_starts_under_load_is_named_and_counted_beside_the_number():
-    data = without(stopped(0.9), 0.15, 0.26)  # longer than what is bridged
-    found = calibrate_traces(PACK, data, fit=["friction_scale"])
-    assert len(found.points.runs) == 2
-    assert "(452 friction_torque) of 2 recordings" in str(found)
-    assert any("starts under load (5 kN at 0.26 s)" in text for text in found.warnings)
-
-
 def wrong(**changes):
     """Return a recording with columns changed, or left out where None."""
     data = {**recorded(), **changes}

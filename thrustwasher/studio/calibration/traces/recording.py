@@ -135,7 +135,7 @@ def pieces(whole: Recording, pressing: str) -> list[Recording]:
             whole.name,
             whole.time[part],
             {key: x[part] for key, x in whole.inputs.items()},
-            {key: x[part] for key, x in whole.outputs.items()},
+            {key: x[part] for key, x in whole.outputs.items() if np.isfinite(x[part]).any()},
         )
         found.append(_bridged(piece, np.flatnonzero(bridged[first : end - 1]) + 1))
     return found
@@ -161,6 +161,29 @@ def _bridged(piece: Recording, behind: NDArray[np.int64]) -> Recording:
         {key: between(x) for key, x in piece.inputs.items()},
         {key: unknown(x) for key, x in piece.outputs.items()},
         tuple(slice(int(k), int(k) + BETWEEN) for k in starts),
+    )
+
+
+def measured_part(piece: Recording, output: str) -> Recording:
+    """Return a piece from the first to the last row of a measured output.
+
+    ParameterError: there are too few such rows.
+    """
+    known = np.flatnonzero(np.isfinite(piece.outputs.get(output, np.full(1, np.nan))))
+    if len(known) < LEAST_ROWS:
+        raise ParameterError(
+            f"{piece.name}: {output} has {len(known)} values from {piece.time[0]:.6g} to "
+            f"{piece.time[-1]:.6g} s, and slip is found by it; allowed: {LEAST_ROWS} or more, or a "
+            "column speed"
+        )
+    first, end = int(known[0]), int(known[-1]) + 1
+    gaps = (g for g in piece.gaps if first <= g.start and g.stop <= end)
+    return Recording(
+        piece.name,
+        piece.time[first:end],
+        {key: x[first:end] for key, x in piece.inputs.items()},
+        {key: x[first:end] for key, x in piece.outputs.items()},
+        tuple(slice(g.start - first, g.stop - first) for g in gaps),
     )
 
 

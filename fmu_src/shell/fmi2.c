@@ -63,6 +63,7 @@ fmi2Status fmi2ExitInitializationMode(fmi2Component c) {
 fmi2Status fmi2Terminate(fmi2Component c) {
     ENTER(fmi2Terminate);
     m->now.mode = TERMINATED;
+    tell_counts(m);
     return fmi2OK;
 }
 

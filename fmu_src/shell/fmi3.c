@@ -137,6 +137,7 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discrete
 fmi3Status fmi3Terminate(fmi3Instance instance) {
     ENTER(fmi3Terminate);
     m->now.mode = TERMINATED;
+    tell_counts(m);
     return fmi3OK;
 }
 

@@ -9,6 +9,8 @@ int reset(Instance *m) {
     m->now.mode = INSTANTIATED;
     m->now.dirty = 1;
     memset(m->beyond, 0, sizeof m->beyond);
+    memset(m->left, 0, sizeof m->left);
+    memset(m->cared, 0, sizeof m->cared);
     m->unsolved = m->work_fits = m->last_step = m->table_ready = 0;
     m->happened = m->is_early = 0;
     m->warned = -1;

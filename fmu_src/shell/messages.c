@@ -187,38 +187,37 @@ void tell_effort(const Instance *m) {
     tell(&m->log, GOOD, LOG_SOLVER, &text);
 }
 
-/* Warn once when an input leaves a range of its own. Returns if one is outside what was verified. */
-static int tell_ranges(Instance *m) {
+/* Whether an input is outside a range of its own: k = 0 the part's box, 1 what was verified. */
+static int is_beyond(const Instance *m, const Variable *v, int k) {
+    const double *range = m->part.ranges[k][v->slot];
+    const double near = within(range[0], range[1], m->now.inp[v->slot]);
+    return near < range[0] || near > range[1];
+}
+
+/* Warn once in a run of an input that leaves a range of its own, and count how often it does. */
+static void tell_ranges(Instance *m, int k) {
     static const char *const
         begin[] = {"", "OUTSIDE_VERIFIED: "},
         *const end[] = {
             "the part's box: solved all the same, but it is not what the part is meant for; change the "
             "input, or [box] in the part file",
             "for which the accuracy was verified; use with care"};
-    int unverified = 0;
     for (int i = 1; VARIABLES[i].store == STORE_INP; i++) { /* the first variables after time */
         const Variable *v = &VARIABLES[i];
-        for (int k = 0; k < 2; k++) {
-            const double *range = m->part.ranges[k][v->slot], value = m->now.inp[v->slot];
-            const double near = within(range[0], range[1], value);
-            uint8_t *told = &m->beyond[k][v->slot], is_beyond = near < range[0] || near > range[1];
-            unverified |= k && is_beyond;
-            if (is_beyond && !*told) {
-                Text text = begun(m, m->now.time);
-                add(&text, " s: %s", begin[k]);
-                add_quantity(&text, v, value);
-                add(&text, " is outside ");
-                add_range(&text, v, range[0], range[1]);
-                add(&text, ", %s", end[k]);
-                tell(&m->log, WARNING, LOG_WARNING, &text);
-            }
-            *told = is_beyond;
-        }
+        const int was_beyond = m->beyond[k][v->slot];
+        m->beyond[k][v->slot] = (uint8_t)is_beyond(m, v, k);
+        if (was_beyond || !m->beyond[k][v->slot] || m->left[k][v->slot]++) continue;
+        Text text = begun(m, m->now.time);
+        add(&text, " s: %s", begin[k]);
+        add_quantity(&text, v, m->now.inp[v->slot]);
+        add(&text, " is outside ");
+        add_range(&text, v, m->part.ranges[k][v->slot][0], m->part.ranges[k][v->slot][1]);
+        add(&text, ", %s", end[k]);
+        tell(&m->log, WARNING, LOG_WARNING, &text);
     }
-    return unverified;
 }
 
-/* Warn once when the solution begins to need care. */
+/* Warn once in a run when the solution begins to need care for a reason, the gravest first. */
 void tell_advice(Instance *m) {
     for (int i = 0; m->warned < 0 && i < N_GONE_LEVELS; i++) {
         if (GONE_LEVELS[i].number != m->now.par[LEVEL]) continue;
@@ -226,15 +225,38 @@ void tell_advice(Instance *m) {
         add(&text, " s: %s", GONE_LEVELS[i].name);
         tell(&m->log, WARNING, LOG_WARNING, &text);
     }
-    int unverified = tell_ranges(m);
+    int unverified = 0;
+    for (int i = 1; VARIABLES[i].store == STORE_INP; i++) unverified |= is_beyond(m, &VARIABLES[i], 1);
     int32_t status = IO_STATUS < 0 ? 0 : m->now.solution.iout[AT_LEAST_ONE(IO_STATUS + 1) - 1];
     if (m->now.latch) status = m->now.latch;
     int told = status == m->warned || (status == STATUS_OUTSIDE_VERIFIED && unverified);
-    if (!told && status > STATUS_OK && status < FIRST_FAILURE) {
+    m->warned = status;
+    if (!told && status > STATUS_OK && status < FIRST_FAILURE && !m->cared[status]++) {
         Text text = begun(m, m->now.time);
         add(&text, " s: %s: %s; ", status_text(status)->name, status_text(status)->advice);
         add_point(&text, m, 1);
         tell(&m->log, WARNING, LOG_WARNING, &text);
     }
-    m->warned = status;
+    for (int k = 1; k >= 0; k--) tell_ranges(m, k);
+}
+
+static void tell_count(const Instance *m, const char *what, const char *name, uint32_t n) {
+    Text text = {0};
+    if (n < 2) return;
+    add(&text, "%s: %s%s %lu times in this run; the first is told above", m->part.name, name, what,
+        (unsigned long)n);
+    tell(&m->log, WARNING, LOG_WARNING, &text);
+}
+
+/* At the end of a run: how often it was as was warned of once. */
+void tell_counts(const Instance *m) {
+    static const char *const what[] = {" left the part's box", " left the verified range"};
+    for (int i = STATUS_OK + 1; i < FIRST_FAILURE; i++) {
+        tell_count(m, "", status_text(i)->name, m->cared[i]);
+    }
+    for (int k = 1; k >= 0; k--) {
+        for (int i = 1; VARIABLES[i].store == STORE_INP; i++) {
+            tell_count(m, what[k], VARIABLES[i].name, m->left[k][VARIABLES[i].slot]);
+        }
+    }
 }

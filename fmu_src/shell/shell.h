@@ -71,7 +71,9 @@ typedef struct {
     int32_t unsolved;  /* the failure of the solve at the present values, or 0 */
     int32_t warned;    /* the status the host was last told, -1: nothing yet */
     int32_t told_late; /* the host was told that a step did not begin where the last one ended */
-    uint8_t beyond[2][AT_LEAST_ONE(NINP)]; /* the inputs that it was told are outside their ranges */
+    uint8_t beyond[2][AT_LEAST_ONE(NINP)]; /* the inputs that are outside their ranges ... */
+    uint32_t left[2][AT_LEAST_ONE(NINP)];  /* ... and how often they left them in this run */
+    uint32_t cared[FIRST_FAILURE];         /* how often a solution began to need care, by its status */
     int32_t work_fits;                     /* `work` belongs to the present solution */
     int32_t last_step;                     /* what the last step returned */
     int32_t has_events;                    /* the host goes through event mode; FMI 3 only */
@@ -223,6 +225,7 @@ void tell_late_step(Instance *m, double t, double h, double expected);
 void tell_switches(Instance *m);
 void tell_effort(const Instance *m);
 void tell_advice(Instance *m);
+void tell_counts(const Instance *m);
 const StatusText *status_text(int32_t status);
 
 #endif

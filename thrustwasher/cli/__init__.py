@@ -47,6 +47,7 @@ WIDTH = 79  # of what stands below the examples
 SIGNALS: dict[int, str] = {signal.SIGINT: "stopped", signal.SIGTERM: "terminated"}
 if hasattr(signal, "SIGHUP"):  # not on Windows
     SIGNALS[signal.SIGHUP] = "the terminal has closed"
+PLAIN = "THRUSTWASHER_KERNELS"  # "python": kernels are not compiled
 GRACE = 1.0  # s in which another signal to stop does not count
 RARELY = 100_000  # new objects between two searches for garbage: imports and plots leave hardly any
 EPILOG = (
@@ -110,6 +111,7 @@ def _ended(run: Callable[[], int], label: str, *, is_program: bool) -> int:
     try:
         if is_program:  # no function in somebody's process
             watch.begin()
+            _tell_plain_python()
             gc.set_threshold(RARELY)
             warnings.showwarning = _show_warning  # type: ignore[assignment]
         status = run()
@@ -121,6 +123,19 @@ def _ended(run: Callable[[], int], label: str, *, is_program: bool) -> int:
         if watch.number or isinstance(error, KeyboardInterrupt):
             return _say(label, watch.word, watch.status)
         return _status_of(error, label)
+
+
+def _tell_plain_python() -> None:
+    """Say that the environment keeps kernels from running as machine code."""
+    given = {name: os.environ.get(name, "") for name in ("NUMBA_DISABLE_JIT", PLAIN)}
+    if given["NUMBA_DISABLE_JIT"] in ("", "0") and given[PLAIN] != "python":
+        return
+    name = PLAIN if given[PLAIN] == "python" else "NUMBA_DISABLE_JIT"
+    print(
+        f"note: {name} = {given[name]}: kernels run as plain Python, some hundred times slower; "
+        "unset it unless you debug them",
+        file=sys.stderr,
+    )
 
 
 def _show_warning(

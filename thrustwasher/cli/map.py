@@ -79,7 +79,9 @@ def _build(arguments: argparse.Namespace) -> int:
     usual = f"{Path(arguments.file).stem if arguments.file else 'washer'}.twm"
     out = _output.check_file(arguments.out or usual, "--out", (".twm",))
     part = _options.read_part(arguments, SPEC)
-    params, box = part.params, dict(part.box)
+    from ..washer.map.map_plan import DEFAULT_BOX, TOLERANCE, coverable
+
+    params, box = part.params, part.box | coverable(part.box)
     box |= {
         s.name: _span(getattr(arguments, s.name), s.name, s.unit)
         for s in INPUTS
@@ -89,7 +91,6 @@ def _build(arguments: argparse.Namespace) -> int:
     from ..ladder.own_tables import serves
     from ..native.files import write
     from ..washer.map.map_build import make_map
-    from ..washer.map.map_plan import DEFAULT_BOX, TOLERANCE
     from ..washer.map.map_tables import TABLES, keep_own
 
     tolerance = parse_quantity(arguments.tolerance or TOLERANCE, "1", "tolerance")

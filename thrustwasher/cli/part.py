@@ -25,6 +25,7 @@ EXAMPLES = (
     "thrustwasher part new clutch --name Pack --set faces=6 --out pack.toml",
     "thrustwasher part list washer",
 )
+AT_REST = ("N", "N.m", "rad/s")  # units of inputs that are 0 where a part is at rest
 NEW = ("name", "preset", "settings", "out")  # of a new part alone
 OPTIONS = {
     "--name NAME": "new: name of the part and of its FMU, default MyMODEL",
@@ -76,9 +77,17 @@ def _new(arguments: argparse.Namespace) -> None:
 
 
 def _usual_box(model: Model) -> dict[str, tuple[float, float]]:
-    """Return the box of the default parameters' verification tables, empty without any."""
+    """Return the box of the default parameters' verification tables, empty without any.
+
+    Loads and speeds begin at rest; those of either sign are meant by their size.
+    """
     boxes = model.ladder.boxes.get("default", {}) if model.ladder else {}
-    return {name: (low, high) for name, (low, high, _) in boxes.items()}
+    signals = {s.name: s for s in model.spec.inputs}
+    found = {}
+    for name, (low, high, _) in boxes.items():
+        moves, either = signals[name].unit in AT_REST, (signals[name].low or 0.0) < 0.0
+        found[name] = ((-high if either else 0.0) if moves else low), high
+    return found
 
 
 def _check(arguments: argparse.Namespace) -> None:

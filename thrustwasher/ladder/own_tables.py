@@ -75,7 +75,7 @@ def serves(tables: Tables, params: object, box: Box, tol: float) -> bool:
     metadata = tables.find(params).metadata
     errors = metadata["tolerance"], metadata.get("held_out", {}).get("torque", 0.0)
     return max(errors) <= tol and all(
-        known[n][0] <= max(low, tables.least(n)) and high <= known[n][1]
+        known[n][0] <= tables.least(n, (low, high)) and high <= known[n][1]
         for n, (low, high) in box.items()
         if n in known  # a part that any other acts on has no map
     )

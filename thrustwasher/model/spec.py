@@ -134,7 +134,7 @@ class Tables(NamedTuple):
     resource: Callable[[Any], bytes]  # a file as it lies in an FMU
     build: Callable[..., None]  # (parameters, box, tolerance, workers, progress): keep one
     lines: Callable[..., int]  # (parameters, box, tolerance): what building one has to solve
-    least: Callable[[str], float]  # value of an input that can be covered
+    least: Callable[[str, tuple[float, float]], float]  # of an input with this box, to be covered
     tolerances: tuple[float, float]  # relative, allowed
     kept: Callable[[], str]  # in words: what is kept in the user's cache, and where
 

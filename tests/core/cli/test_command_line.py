@@ -1,5 +1,6 @@
 """The command line answers bad input with one line and good input with one object."""
 
+import os
 import subprocess
 import sys
 from dataclasses import fields
@@ -118,3 +119,17 @@ def test_a_closed_pipe_is_quiet():
         process.stdout.close()
         assert process.stderr.read() == b""
     assert process.returncode == 141
+
+
+@pytest.mark.parametrize(
+    ("variable", "value", "says"),
+    [("NUMBA_DISABLE_JIT", "1", True), ("NUMBA_DISABLE_JIT", "0", False),
+     ("THRUSTWASHER_KERNELS", "python", True)],
+)  # fmt: skip
+def test_kernels_in_plain_python_are_said_at_the_start(variable, value, says):
+    words = [sys.executable, "-m", "thrustwasher", "part", "list", "washer"]
+    ways = {"NUMBA_DISABLE_JIT", "THRUSTWASHER_KERNELS"}
+    plain = {n: x for n, x in os.environ.items() if n not in ways}
+    done = subprocess.run(words, env=plain | {variable: value}, capture_output=True, text=True)
+    assert done.returncode == 0 and len(done.stderr.splitlines()) == says
+    assert (f"{variable} = {value}: kernels run as plain Python" in done.stderr) == says

@@ -6,7 +6,9 @@ import pytest
 
 from thrustwasher import WasherParams, load_part, solve_washer
 from thrustwasher.cli import main
+from thrustwasher.ladder.own_tables import serves
 from thrustwasher.shift.scene.scene_file import load_scene
+from thrustwasher.washer.map.map_tables import TABLES
 
 
 @pytest.fixture
@@ -25,7 +27,7 @@ def test_a_new_part_has_every_parameter_on_a_line_and_is_sound(mine, capsys):
     capsys.readouterr()
     assert main(["part", "check", str(mine), "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
-    assert (told["name"], told["box"]["load"]) == ("Mine", [20.0, 1850.0])
+    assert (told["name"], told["box"]["load"]) == ("Mine", [0.0, 1850.0])
     assert told["scatter"]["tilt"] == {"law": "lognormal, factor 1.6", "source": "estimate"}
 
 
@@ -117,3 +119,24 @@ def test_a_part_is_built_under_no_other_than_a_plain_name(name, tmp_path, capsys
     assert main(["build", str(file), "--out", str(tmp_path / "dist")]) == 2
     assert f"name = {name!r}, allowed: letters, digits and _" in capsys.readouterr().err
     assert not (tmp_path / "dist").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "load", "speed"),
+    [
+        (("clutch",), (0.0, 1e4), (-450.0, 450.0)),
+        (("gearmesh",), (-200.0, 200.0), (-700.0, 700.0)),
+        (("washer",), (0.0, 1850.0), (-1400.0, 1400.0)),
+        (("washer", "--preset", "paper"), (0.0, 1850.0), (-1400.0, 1400.0)),
+    ],
+)
+def test_a_new_parts_box_holds_rest_and_both_senses(words, load, speed, tmp_path):
+    assert main(["part", "new", *words, "--out", str(tmp_path / "new.toml")]) == 0
+    box = load_part(tmp_path / "new.toml").box
+    assert (box["load"], box["speed"]) == (load, speed)
+
+
+def test_a_new_washer_is_served_by_the_shipped_map_from_rest_on():
+    box = {"load": (0.0, 1850.0), "speed": (-1400.0, 1400.0)}
+    assert serves(TABLES, WasherParams(), box, 5e-3)
+    assert not serves(TABLES, WasherParams(), box | {"load": (5.0, 1850.0)}, 5e-3)

@@ -126,19 +126,6 @@ def test_matlab_files_are_read(tmp_path):
     }
 
 
-@pytest.mark.slow
-def test_measuring_files_are_read_at_the_instants_of_their_longest_group(tmp_path):
-    mdf = package("asammdf")
-    fast, slow = np.linspace(0.0, 1.0, 11), np.array([0.0, 1.0])
-    with mdf.MDF() as file:
-        file.append([mdf.Signal(fast * 3000.0, fast, name="speed", unit="rpm")])
-        file.append([mdf.Signal(np.array([0.0, 10.0]), slow, name="load", unit="kN")])
-        file.save(tmp_path / "rig.mf4")
-    found = columns(tmp_path / "rig.mf4")
-    np.testing.assert_allclose(found["load"], fast * 1e4, atol=1e-9)
-    np.testing.assert_allclose(found["speed"], fast * 3000.0 * RPM, atol=1e-9)
-
-
 @pytest.mark.parametrize("name", ["rig.xlsx", "rig.mat"])
 def test_a_damaged_file_is_one_line(name, tmp_path):
     package("openpyxl")

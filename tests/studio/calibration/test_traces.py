@@ -149,7 +149,7 @@ def test_the_shipped_recording_is_what_its_script_makes():
     found = trace_fit.COLUMNS
     from thrustwasher.studio.calibration.traces.trace_file import read_trace
 
-    columns, passed = read_trace(rig.TRACE, found, trace_fit.MEASURED)
+    columns, passed, _ = read_trace(rig.TRACE, found, trace_fit.MEASURED)
     made = rig.rows()
     assert columns.keys() == made.keys() and not passed
     digits = {"pressure": 60.0, "speed": 0.006, "friction_torque": 0.006}  # as written, rounded
@@ -430,8 +430,8 @@ def test_a_pressure_in_another_unit_is_doubted():
 def test_jumps_of_time_part_a_recording():
     time = np.array([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 100.0, 101.0, 102.0, 103.0, 104.0, 50.0, 51.0,
                      52.0, 53.0, 54.0])  # fmt: skip
-    whole = Recording("a", time, {}, {"x": time})
-    assert [len(piece.time) for piece in pieces(whole)] == [6, 5, 5]
+    whole = Recording("a", time, {"load": time}, {"x": time})
+    assert [len(piece.time) for piece in pieces(whole, "load")] == [6, 5, 5]
 
 
 def wrong(**changes):

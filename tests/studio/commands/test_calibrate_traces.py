@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.needed import package
 from thrustwasher import ClutchParams, calibrate_traces, engage_clutch, load_part
 from thrustwasher.cli import main
 
@@ -95,6 +96,54 @@ def test_channels_of_a_logger_are_named_and_others_passed_over(tmp_path, capsys)
     words = ("--fit", "friction_scale", "--column", "speed=N_SLIP")
     out, err = run(capsys, "clutch", path, *words)
     assert "passed over, as no column that counts: gear" in err and "0.92" in out
+
+
+def test_a_measuring_file_is_fitted_by_its_valid_samples_of_the_chosen_group(tmp_path, capsys):
+    """One torque in ten is marked and wrong, slip is of integers at other times and there twice."""
+    mdf = package("asammdf")
+    time = np.linspace(0.0, 0.5, 201)
+    load, slip = 5000.0 * np.clip(time / 0.1, 0.0, 1.0), 300.0 * (1.0 - time / 0.5)
+    pack = ClutchParams(friction_scale=0.92)
+    way = {"time": time, "load": load, "speed": slip, "oil_temperature": 353.15}
+    torque, marked = engage_clutch(pack, **way).friction_torque, np.arange(201) % 10 == 5
+    rare, path = time[::20], tmp_path / "rig.mf4"
+    with mdf.MDF() as file:
+        recorded = {"load": load, "friction_torque": np.where(marked, 1e4, torque)}
+        marks = {"friction_torque": marked}
+        file.append(
+            [
+                mdf.Signal(x, time, name=n, invalidation_bits=marks.get(n))
+                for n, x in recorded.items()
+            ],
+            acq_name="rig",
+        )
+        counts = np.round(300.0 * (1.0 - rare / 0.5)).astype("u2")
+        file.append([mdf.Signal(counts, rare, name="speed")], acq_name="counter")
+        file.append([mdf.Signal(0.5 * slip, time, name="speed")], acq_name="model")
+        file.save(path)
+    words = ("clutch", str(path), "--fit", "friction_scale", "--set", "oil_temperature=353.15")
+    assert "channel speed is in the groups 'counter', 'model'" in refused(capsys, *words)
+    out, err = run(capsys, *words, "--column", "speed=counter:speed", "--json")
+    assert "20 of 201 samples of friction_torque left out: invalid" in err
+    assert json.loads(out)["parameters"]["friction_scale"] == pytest.approx(0.92, rel=1e-5)
+
+
+def test_time_by_another_name_is_refused_with_the_cure(tmp_path, capsys):
+    path = write(tmp_path / "a.csv", HEAD.replace("time", "timestamps"))
+    words = ("clutch", path, "--fit", "friction_scale")
+    assert '--column "time=timestamps"' in refused(capsys, *words)
+    out, _ = run(capsys, *words, "--column", "time=timestamps")
+    assert "friction_scale     0.92" in out
+
+
+@pytest.mark.parametrize("value", [0.0, 12.0])
+def test_an_output_that_is_one_number_in_all_rows_is_doubted(value, tmp_path, capsys):
+    path = Path(write(tmp_path / "a.csv"))
+    head, *rows = path.read_text("utf-8").splitlines()
+    path.write_text("\n".join([head, *(r.rpartition(",")[0] + f", {value}" for r in rows)]))
+    out, err = run(capsys, "clutch", str(path), "--fit", "friction_scale")
+    assert "The recorded friction_torque is one number in all rows" in err
+    assert "Do not use these values" in out
 
 
 def test_a_recording_and_settled_points_are_not_mixed(tmp_path, capsys):

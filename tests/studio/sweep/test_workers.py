@@ -130,6 +130,28 @@ def test_a_cluster_that_does_not_answer_is_named(monkeypatch):
             run_sweep("gearmesh", {"load": [1.0]}, cluster=address)
 
 
+def test_what_is_no_cluster_is_refused_by_its_value():
+    needed.package("distributed")
+    with pytest.raises(EnvironmentProblem, match="cluster = 5: allowed: address of a Dask sched"):
+        run_sweep("gearmesh", {"load": [1.0]}, cluster=5)
+
+
+@pytest.mark.slow
+def test_a_client_of_a_cluster_is_taken_and_stays_open():
+    distributed = needed.package("distributed")
+    over = {"load": "1 kN:9 kN:n20", "speed": "5:300:n50"}
+    local = run_sweep("clutch", over, workers=1)
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=True, dashboard_address=None
+    ) as cluster:
+        with distributed.Client(cluster) as client:
+            assert same(run_sweep("clutch", over, cluster=client), local)
+            assert client.status == "running"
+        assert same(run_sweep("clutch", over, cluster=cluster), local)
+        with pytest.raises(EnvironmentProblem, match="its client is closed"):
+            run_sweep("clutch", over, cluster=client)
+
+
 @pytest.mark.slow
 def test_a_cluster_that_loses_a_worker_loses_no_point(tmp_path, monkeypatch):
     distributed = needed.package("distributed")

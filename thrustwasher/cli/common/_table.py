@@ -37,6 +37,7 @@ def read_columns(
     from ...storage.tables.table_file import read_table
 
     table = read_table(path).renamed(renaming(names)) if known is None else known
+    table = table.of_columns(units)
     found, passed = _find(table, units, optional, strict)
     columns: dict[str, list[Any]] = {}
     for name, column in found.items():
@@ -65,17 +66,20 @@ def _find(
     table: "Table", units: Mapping[str, str], optional: tuple[str, ...], strict: bool
 ) -> tuple[dict[str, "Column"], list[str]]:
     """Return every column by its name, and those passed over."""
+    from ...storage.tables.table import time_hint
+
     path = table.path
     found: dict[str, Column] = {}
     passed = []
     for column in table.columns:
-        name = column.name.lower().replace(" ", "_")
+        name = column.plain
         if name not in units:
             hint = suggestion(
                 name, set(units) - {*found}, "did you mean {}? ", likeness=0.6 if strict else 0.75
             )
             if column.name and not column.name.startswith("_"):
                 if (strict or hint) and not table.binary:
+                    hint = hint or time_hint([column])
                     raise ParameterError(
                         f"{path}: column {column.name!r} is not known; {hint}begin its "
                         "name with _ to pass it over"

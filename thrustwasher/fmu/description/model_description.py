@@ -1,12 +1,14 @@
 """modelDescription.xml of FMI 2.0 and 3.0, and terminalsAndIcons.xml, from a model's lists."""
 
 import os
+import re
 import subprocess
 from collections.abc import Collection, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from ...errors import EnvironmentProblem
 from ...model.toml_tables import table_beside
 from ...templates import filled
 from ...units import UNITS, exponents
@@ -19,6 +21,7 @@ HERE = Path(__file__).parent
 # In FMI 3 enumerations are 64-bit integers, whole numbers 32-bit ones; order as in tables.h.
 TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "Enumeration": "Enumeration"}
 Attributes = dict[str, Any]  # of an element; those that are None are left out
+LAST_SECOND = 253402300799  # 9999-12-31, the last day that the format of dates has
 RELEASED = 1767225600  # without git and SOURCE_DATE_EPOCH: 2026-01-01
 # unit -> its display units
 DISPLAY = {
@@ -105,10 +108,18 @@ def display_unit(v: Variable) -> str | None:
 
 
 def generation_date() -> str:
-    """Return the date that goes into the FMU: never the clock, so that builds repeat."""
+    """Return the date that goes into the FMU: never the clock, so that builds repeat.
+
+    EnvironmentProblem: SOURCE_DATE_EPOCH is no whole number of seconds up to the year 9999.
+    """
     seconds = os.environ.get("SOURCE_DATE_EPOCH", "")
-    if not seconds.isdigit():
+    if not seconds:
         seconds = _last_commit() or str(RELEASED)
+    elif not (re.fullmatch(r"[0-9]{1,12}", seconds) and int(seconds) <= LAST_SECOND):
+        raise EnvironmentProblem(
+            f"SOURCE_DATE_EPOCH = {seconds!r}, allowed: whole seconds since 1970, 0 .. "
+            f"{LAST_SECOND}; unset it for the date of the last commit"
+        )
     return datetime.fromtimestamp(int(seconds), UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
 
 

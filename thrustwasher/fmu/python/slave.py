@@ -138,6 +138,8 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
     def terminate(self) -> None:
         """Values can still be read."""
         self.core.mode = Mode.TERMINATED
+        for text in self.core.counts():
+            self.tell(text, Fmi2Status.warning, "logStatusWarning")
 
     set_real, set_boolean = _setter("Real"), _setter("Boolean")
     set_integer = _setter("Integer")  # enumerations are integers here

@@ -72,6 +72,8 @@ class Core:
         self._zeros = np.zeros(kernel.NOUT)
         self._ranges = shown.ranges()
         self._beyond = [[False] * len(own) for own in self._ranges]
+        self._left = [[0] * len(own) for own in self._ranges]  # how often in this run
+        self._cared = dict[Status, int]()  # how often a solution began to need care
         self._warned = -1  # the status that was last told, -1: nothing yet
         self.time, self.mode = 0.0, Mode.INSTANTIATED
         self.dirty, self.prepared = True, False
@@ -368,29 +370,50 @@ class Core:
         return ", ".join(f"{v.name} = {x:g} {v.unit}".removesuffix(" 1") for v, x in values)
 
     def advice(self) -> list[str]:
-        """Return what the host has to be warned of now, each once until it has passed."""
-        outside, unverified, begin = [], False, f"{self._here}: "
-        for k, (name, words) in enumerate(RANGES.items()):
-            for i, (v, (low, high)) in enumerate(
-                zip(self.shown.inputs, self._ranges[k], strict=True)
-            ):
-                value, unit = self.inp.item(v.slot), f" {v.unit}".removesuffix(" 1")
-                beyond = not low <= into_range(low, high, value) <= high
-                unverified |= bool(k) and beyond
-                if beyond and not self._beyond[k][i]:
-                    span = f"is outside {low:g} .. {high:g}{unit}, {words}"
-                    outside.append((i, k, f"{begin}{name}{v.name} = {value:g}{unit} {span}"))
-                self._beyond[k][i] = beyond
-        status, found = self.status, [text for *_, text in sorted(outside)]
+        """Return what the host has to be warned of now, the gravest first: each once in a run."""
+        found, begin, status = [], f"{self._here}: ", self.status
         if self._warned < 0:
             number = int(self.par.item(len(fields(self.spec.params))))
             level = list(self.spec.fidelities)[number - 1]
-            found = [*(begin + text for text in gone_level(self.spec, level)), *found]
+            found += [begin + text for text in gone_level(self.spec, level)]
+        unverified = any(self._is_beyond(1, i) for i in range(len(self.shown.inputs)))
         is_known = status == self._warned or (status is Status.OUTSIDE_VERIFIED and unverified)
-        if not is_known and Status.OK < status < FIRST_FAILURE:
-            found.append(f"{begin}{status.name}: {status.advice}; {self._point(self.shown.point)}")
         self._warned = status
+        if not is_known and Status.OK < status < FIRST_FAILURE:
+            self._cared[status] = self._cared.get(status, 0) + 1
+            if self._cared[status] == 1:
+                point = self._point(self.shown.point)
+                found.append(f"{begin}{status.name}: {status.advice}; {point}")
+        for k, (name, words) in reversed([*enumerate(RANGES.items())]):
+            for i, v in enumerate(self.shown.inputs):
+                was_beyond, self._beyond[k][i] = self._beyond[k][i], self._is_beyond(k, i)
+                if was_beyond or not self._beyond[k][i]:
+                    continue
+                self._left[k][i] += 1
+                if self._left[k][i] == 1:
+                    value, unit = self.inp.item(v.slot), f" {v.unit}".removesuffix(" 1")
+                    low, high = self._ranges[k][i]
+                    span = f"is outside {low:g} .. {high:g}{unit}, {words}"
+                    found.append(f"{begin}{name}{v.name} = {value:g}{unit} {span}")
         return found
+
+    def counts(self) -> list[str]:
+        """Return, for the end of a run, how often it was as was warned of once."""
+        found = [(status.name, n) for status, n in sorted(self._cared.items())]
+        for k, what in ((1, "left the verified range"), (0, "left the part's box")):
+            pairs = zip(self.shown.inputs, self._left[k], strict=True)
+            found += [(f"{v.name} {what}", n) for v, n in pairs]
+        name = self.spec.name
+        return [
+            f"{name}: {what} {n} times in this run; the first is told above"
+            for what, n in found
+            if n > 1
+        ]
+
+    def _is_beyond(self, k: int, i: int) -> bool:
+        """Tell if an input is outside a range of its own: 0 the part's box, 1 what was verified."""
+        low, high = self._ranges[k][i]
+        return not low <= into_range(low, high, self.inp.item(self.shown.inputs[i].slot)) <= high
 
     @property
     def status(self) -> Status:

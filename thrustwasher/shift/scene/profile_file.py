@@ -142,7 +142,7 @@ def _window(where: str, table: Mapping[str, Any]) -> tuple[float, float]:
 
 def _read(place: _Place, window: tuple[float, float]) -> None:
     """Put numbers in place of a file."""
-    over, value, table = _columns(place)
+    over, value, table, left_out = _columns(place)
     rows = len(over)
     if not place.profile:
         about = _road_load(place, over, value)
@@ -153,25 +153,32 @@ def _read(place: _Place, window: tuple[float, float]) -> None:
         place.table[place.key] = np.column_stack([found.time, heights]).tolist()
         span = float(np.ptp(value))
         about = {"rms": found.rms, "share": found.rms / span if span else 0.0}
-    place.table[place.source] = {"file": Path(table.path).name, "rows": rows, **about}
+    file = Path(table.path).name + (f" ({', '.join(left_out)})" if left_out else "")
+    place.table[place.source] = {"file": file, "rows": rows, **about}
 
 
-def _columns(place: _Place) -> tuple[Array, Array, Table]:
-    """Return two columns of a file [SI], and its table."""
+def _columns(place: _Place) -> tuple[Array, Array, Table, list[str]]:
+    """Return two columns of a file [SI], its table, and what of its samples was left out."""
     names = place.table.pop("columns", {}) if place.key == "points" else {}
     if not isinstance(names, dict) or not all(isinstance(x, str) for x in names.values()):
         raise ParameterError(f'columns = {names!r}, allowed: a table {{ name = "channel" }}')
     if not Path(place.given).exists():
         raise ParameterError(f"points = {place.given!r}: there is no such file")
     table = read_table(place.given).renamed(names)
-    named = {c.name.lower().replace(" ", "_"): c for c in table.columns}
     over, *wanted = place.columns
-    what = next((name for name in wanted if name in named), wanted[0])
+    known = {c.plain for c in table.columns}
+    what = next((name for name in wanted if name in known), wanted[0])
+    read = table.of_columns((over, what))
+    left_out, table = read.remarks[len(table.remarks) :], read
+    named = {c.plain: c for c in table.columns}
     found = []
     for name, unit in ((over, "m/s" if over == "speed" else "s"), (what, place.unit)):
         if name not in named:
+            other = {"speed": ", not over speed as a full-load curve", "time": ", not over time"}
+            wrong = "".join(text for key, text in other.items() if key != over and key in named)
             raise ParameterError(
-                f"{table.path}: column {name} is missing; found: {', '.join(named)} (columns = "
+                f"{table.path}: column {name} is missing, {what} over {over} is required{wrong}; "
+                f"found: {', '.join(named)} (columns = "
                 f'{{ {name} = "CHANNEL" }} names another)'
             )
         parse_quantity(f"1 {named[name].unit}", unit, f"{table.path}: unit of column {name}")
@@ -180,7 +187,7 @@ def _columns(place: _Place) -> tuple[Array, Array, Table]:
             line = table.lines[values.index(None)]
             raise ParameterError(f"{table.path}, line {line}: {name} is missing")
         found.append(np.array(values, float))
-    return found[0], found[1], table
+    return found[0], found[1], table, left_out
 
 
 def _in_window(

@@ -1,14 +1,14 @@
 """Tables in files of spreadsheets, MATLAB and measuring programs, read by other packages."""
 
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ...errors import ParameterError
+from .measuring_file import INSTALL, read_channels
 from .table import LONGEST, Column, Table, is_unit, plain_unit, split_head
-
-INSTALL = 'pip install "thrustwasher[data]"'
 
 
 def read_binary(path: Path) -> Table:
@@ -24,7 +24,7 @@ def read_binary(path: Path) -> Table:
     ending = path.suffix.lower()
     if ending in (".xlsx", ".xlsm"):
         return _spreadsheet(path)
-    return _matlab(path) if ending == ".mat" else _measurement(path)
+    return _matlab(path) if ending == ".mat" else read_channels(path)
 
 
 def _spreadsheet(path: Path) -> Table:
@@ -34,11 +34,12 @@ def _spreadsheet(path: Path) -> Table:
     except ImportError:
         raise ParameterError(f"{path}: openpyxl is required to read it: {INSTALL}") from None
     try:
-        sheet = load_workbook(path, read_only=True, data_only=True).worksheets[0]
-        rows = [
-            (number, [_text(value) for value in row])
-            for number, row in enumerate(sheet.iter_rows(values_only=True), 1)
-        ]
+        with closing(load_workbook(path, read_only=True, data_only=True)) as book:
+            sheet = book.worksheets[0]
+            rows = [
+                (number, [_text(value) for value in row])
+                for number, row in enumerate(sheet.iter_rows(values_only=True), 1)
+            ]
     except Exception as error:  # of zip, xml or openpyxl: whatever a damaged file brings
         raise ParameterError(f"{path}: cannot be read as a spreadsheet ({error})") from None
     rows = [(n, row) for n, row in rows if any(row) and not row[0].startswith("#")]
@@ -81,25 +82,6 @@ def _matlab(path: Path) -> Table:
         if not name.startswith("_") and numeric and value.ndim == 1:
             vectors[name] = value
     return _of_arrays(path, {name: ("", value) for name, value in vectors.items()})
-
-
-def _measurement(path: Path) -> Table:
-    """Return the channels of an MDF file at the instants of its longest group."""
-    try:
-        from asammdf import MDF
-    except ImportError:
-        raise ParameterError(f"{path}: asammdf is required to read it: {INSTALL}") from None
-    try:
-        with MDF(path) as file:
-            signals = [s for s in file.iter_channels() if np.asarray(s.samples).dtype.kind in "fiu"]
-    except Exception as error:  # of asammdf, whatever a damaged file brings
-        raise ParameterError(f"{path}: cannot be read as an MDF file ({error})") from None
-    if not signals:
-        raise ParameterError(f"{path}: has no channel of numbers")
-    times = max((s.timestamps for s in signals), key=len)
-    arrays = {"time": ("s", np.asarray(times, float))}
-    arrays |= {s.name: (s.unit or "", s.interp(times).samples) for s in signals}
-    return _of_arrays(path, arrays)
 
 
 def _of_arrays(path: Path, arrays: dict[str, tuple[str, Any]]) -> Table:

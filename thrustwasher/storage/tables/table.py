@@ -1,8 +1,8 @@
 """A table as it stands in a file: names, units and cells of its columns."""
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,7 @@ from ...errors import ParameterError, suggestion
 from ...units import UNITS, parse_quantity, unit_size
 
 LONGEST = 2_000_000  # rows; a larger file is none of measured points
+TIMES = ("timestamp", "timestamps", "t", "zeit", "seconds")  # plain names that loggers give to it
 MANY = 2_000  # rows from which a column is converted as a whole, rounded once in long double
 
 
@@ -22,6 +23,13 @@ class Column:
     unit: str
     cells: list[str]
     """Numbers with a decimal point; "" where nothing was measured."""
+    group: str = ""
+    """Of a file whose groups of channels have times of their own: name or number of the group."""
+
+    @property
+    def plain(self) -> str:
+        """The name as it is looked for."""
+        return self.name.lower().replace(" ", "_")
 
 
 @dataclass(frozen=True)
@@ -44,11 +52,16 @@ class Table:
     def renamed(self, names: Mapping[str, str]) -> "Table":
         """Return the table with columns renamed: name, or name and [unit], by channel.
 
+        A channel in a group of a measuring file is named by itself or as "group:channel".
+
         Raises
         ------
-        ParameterError : there is no such channel, or a name is given twice
+        ParameterError : there is no such channel, several have this name, or a name is given twice
         """
-        known = {column.name: column for column in self.columns}
+        known: dict[str, list[int]] = {}
+        for i, column in enumerate(self.columns):
+            for key in [column.name, *([f"{column.group}:{column.name}"] if column.group else [])]:
+                known.setdefault(key, []).append(i)
         given = [name.partition("[")[0].strip() for name in names]
         twice = [name for name in given if given.count(name) > 1]
         if twice:
@@ -57,19 +70,57 @@ class Table:
         for name, channel in names.items():
             if channel not in known:
                 hint = suggestion(channel, known, "did you mean {}? ")
-                shown = ", ".join(list(known)[:20]) + (", .." if len(known) > 20 else "")
+                shown = list(dict.fromkeys(column.name for column in self.columns))
+                more = ", .." if len(shown) > 20 else ""
                 raise ParameterError(
                     f"{self.path}: --column {name}={channel}: there is no column {channel!r}; "
-                    f"{hint}found: {shown}"
+                    f"{hint}found: {', '.join(shown[:20])}{more}"
                 )
-            plain, unit = split_head(name)
-            new[channel] = (plain, unit)
+            same = [self.columns[i] for i in known[channel]]
+            if len(same) > 1:
+                raise ParameterError(several_text(self.path, split_head(name)[0], same))
+            new[known[channel][0]] = split_head(name)
         columns = [
-            Column(new[c.name][0], new[c.name][1] or c.unit, c.cells) if c.name in new else c
-            for c in self.columns
-            if c.name in new or c.name not in given
+            replace(c, name=new[i][0], unit=new[i][1] or c.unit) if i in new else c
+            for i, c in enumerate(self.columns)
+            if i in new or c.name not in given
         ]
-        return Table(self.path, columns, self.lines, self.remarks, self.binary)
+        return replace(self, columns=columns)
+
+    def of_columns(self, names: Collection[str], may_lack: Collection[str] = ()) -> "Table":
+        """Return the table with cells of the columns that count; those of a text file stand.
+
+        Parameters
+        ----------
+        names : plain names of the columns that count
+        may_lack : those among them that may have empty cells
+
+        Raises
+        ------
+        ParameterError : channels of a measuring file have no common rows
+        """
+        return self
+
+
+def several_text(path: str, name: str, same: Collection[Column]) -> str:
+    """Say that several columns could be the one of this name."""
+    groups = [column.group for column in same]
+    if all(groups) and len(set(groups)) == len(groups):
+        first = next(iter(same))
+        return (
+            f"{path}: channel {first.name} is in the groups {', '.join(map(repr, groups))}; name "
+            f'one of them as "{first.group}:{first.name}" (--column "{name}={first.group}:..")'
+        )
+    where = f" in the group {groups[0]!r}" if groups[0] else ""
+    return f"{path}: has two columns {next(iter(same)).plain}{where}"
+
+
+def time_hint(columns: Collection[Column]) -> str:
+    """Return how a column that is time by another name is named; "" where there is none."""
+    for column in columns:
+        if column.plain in TIMES:
+            return f'if {column.name} is the time of a recording: --column "time={column.name}"; '
+    return ""
 
 
 def split_head(head: str) -> tuple[str, str]:

@@ -203,7 +203,7 @@ def _size_text(found: Calibration) -> str:
     rms = (f"{found.rms_of(n):.3g} {units[n]}".removesuffix(" 1") for n in points.names)
     return (
         f"{counted(len(found.estimates), 'constant')} fitted to "
-        f"{counted(len(points.value), found._problem.counted_as)} ({parts})"
+        f"{counted(len(points.value), found._problem.counted_as)} ({parts}){points.pieces_text}"
         f"{level}, rms residual {', '.join(rms)}, "
         f"{counted(found.degrees_of_freedom, 'degree')} of freedom."
     )

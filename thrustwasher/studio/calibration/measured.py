@@ -38,6 +38,11 @@ class Measured:
         """The measured outputs."""
         return tuple(dict.fromkeys(self.output))
 
+    @property
+    def pieces_text(self) -> str:
+        """Of what the values are, where they hang together in pieces."""
+        return ""
+
     def of(self, output: str) -> NDArray[np.bool_]:
         """Return which values are those of an output, (n,)."""
         return np.array([name == output for name in self.output])

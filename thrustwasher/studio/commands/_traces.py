@@ -35,6 +35,7 @@ def read_tables(paths: Sequence[str], names: Sequence[str]) -> tuple[list["Table
 
     ParameterError if some have a column ``time`` and others not, or if several have none.
     """
+    from ...storage.tables.table import time_hint
     from ...storage.tables.table_file import read_table
     from ..calibration.traces.trace_file import is_trace
 
@@ -45,12 +46,13 @@ def read_tables(paths: Sequence[str], names: Sequence[str]) -> tuple[list["Table
         trace, settled = paths[over_time.index(True)], paths[over_time.index(False)]
         raise ParameterError(
             f"{trace} has a column time and {settled} has none: a recording over time and settled "
-            "points cannot be fitted together, allowed: one kind"
+            "points cannot be fitted together, allowed: one kind; "
+            f"{time_hint(tables[over_time.index(False)].columns)}".rstrip("; ")
         )
     if len(tables) > 1 and not any(over_time):
         raise ParameterError(
             f"{paths[0]}, {paths[1]}: have no column time; allowed: one file of settled points, or "
-            "recordings with a column time"
+            f"recordings with a column time; {time_hint(tables[0].columns)}".rstrip("; ")
         )
     return tables, all(over_time)
 
@@ -63,9 +65,9 @@ def read_recordings(tables: Sequence["Table"], kind: "Traces") -> dict[str, Any]
     for table in tables:
         if table.path in found:
             raise ParameterError(f"{table.path}: is given twice, allowed: once")
-        found[table.path], passed = columns_of(table, kind.columns, kind.measured)
-        if table.remarks:
-            note(f"{table.path}: read with {', '.join(table.remarks)}")
+        found[table.path], passed, remarks = columns_of(table, kind.columns, kind.measured)
+        if remarks:
+            note(f"{table.path}: read with {', '.join(remarks)}")
         if passed:
             more = f" and {len(passed) - SHOWN} more" if len(passed) > SHOWN else ""
             note(

@@ -14,8 +14,10 @@ ANSWER_TIME = "10s"  # a cluster that takes longer is taken for absent
 
 
 @contextmanager
-def dask_cluster(address: str) -> Iterator[tuple[Executor, int]]:
+def dask_cluster(address: Any) -> Iterator[tuple[Executor, int]]:
     """Give the workers of a running Dask cluster and their number; the cluster stays.
+
+    ``address``: of the scheduler; or a client of it, which stays open, or the cluster itself.
 
     EnvironmentProblem: no package ``distributed``, no answer, no workers, or another version there.
     """
@@ -26,6 +28,19 @@ def dask_cluster(address: str) -> Iterator[tuple[Executor, int]]:
             f"work on a cluster needs the package distributed: {INSTALL}"
         ) from None
     package: Any = distributed  # it has no types
+    if isinstance(address, package.Client):
+        if address.asynchronous or address.status != "running":
+            state = "asynchronous" if address.asynchronous else address.status
+            raise EnvironmentProblem(
+                f"cluster: its client is {state}, allowed: one that runs and is not asynchronous"
+            )
+        yield address.get_executor(pure=False), _check_workers(address, address.scheduler.addr)
+        return
+    if not isinstance(address, str | package.deploy.Cluster):
+        raise EnvironmentProblem(
+            f"cluster = {address!r}: allowed: address of a Dask scheduler, such as "
+            "'tcp://10.0.0.1:8786', a client of it, or a cluster of the package distributed"
+        )
     try:
         client = package.Client(address, timeout=ANSWER_TIME)
     except (OSError, ValueError, TypeError) as error:

@@ -26,7 +26,7 @@ AHEAD = 2  # jobs that a worker has before it asks for more
 RESTARTS = 3
 
 
-def check_workers(workers: int | None, cluster: str | None) -> None:
+def check_workers(workers: int | None, cluster: object) -> None:
     """Raise ParameterError if the workers make no sense."""
     if workers is not None and not (isinstance(workers, int) and 1 <= workers <= MOST_WORKERS):
         raise ParameterError(f"workers = {workers!r}, allowed: 1 .. {MOST_WORKERS}")
@@ -71,7 +71,7 @@ class Runner:
     """
 
     workers: int | None = None
-    cluster: str | None = None
+    cluster: Any = None
     _stack: ExitStack = field(default_factory=ExitStack, repr=False)
     _executor: Executor | None = field(default=None, repr=False)
     _others: int = 0
@@ -139,7 +139,7 @@ class Runner:
             self._executor, self._others = self._stack.enter_context(local_processes(n)), n
         return self._executor
 
-    def _of_cluster(self, address: str) -> Executor:
+    def _of_cluster(self, address: Any) -> Executor:
         if self._executor is None:
             self._executor, self._others = self._stack.enter_context(dask_cluster(address))
         return self._executor

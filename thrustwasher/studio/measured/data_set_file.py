@@ -177,6 +177,7 @@ def _points(
     if not path.is_file():
         raise ParameterError(f"{path}: cannot be read, a CSV file is required")
     table = read_table(path)
+    table = table.of_columns([column.plain for column in table.columns])
     units = {**inputs, **outputs, **{n + ERROR: u for n, u in outputs.items()}}
     columns: dict[str, NDArray[np.float64]] = {}
     origin: tuple[str, ...] = ()

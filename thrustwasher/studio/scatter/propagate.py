@@ -42,7 +42,7 @@ def propagate(
     reached: str = "below",
     at: Mapping[str, object] | None = None,
     workers: int | None = None,
-    cluster: str | None = None,
+    cluster: Any = None,
     out: str | Path | None = None,
     progress: Progress | None = None,
     finish: Callable[[ScatterResult], None] | None = None,
@@ -65,7 +65,7 @@ def propagate(
         "above"
     at : inputs of a part, as numbers [SI] or "1.2 kN"; others are at its box or their defaults
     workers : processes on this machine; None: as many as there are cores where that pays, 1: none
-    cluster : address of a Dask scheduler, e.g. "tcp://10.0.0.1:8786", instead
+    cluster : address of a Dask scheduler, e.g. "tcp://10.0.0.1:8786", or a client of it, instead
     out : folder for ``sample.csv``, ``figures.csv``, ``series.csv``; a journal lies there until the
         study is done, and the same call goes on from it
     progress : called as progress(runs done, runs in all)

@@ -2,7 +2,7 @@
 
 import hashlib
 import pickle
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,7 +54,7 @@ class Study:
         journal: Journal | None,
         *,
         workers: int | None = None,
-        cluster: str | None = None,
+        cluster: Any = None,
         progress: Progress | None = None,
     ) -> tuple[Array, Flags]:
         """Return what all runs give (n_rows, m) and their codes (n_rows,).

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +30,7 @@ def run_sweep(
     fidelity: str | None = None,
     out: str | Path | None = None,
     workers: int | None = None,
-    cluster: str | None = None,
+    cluster: Any = None,
     progress: Progress | None = None,
     keep: bool = True,
 ) -> SweepTable:
@@ -49,7 +50,7 @@ def run_sweep(
     out : file to write, .csv or .parquet; a journal lies next to it until the sweep is done, and
         the same call goes on from there
     workers : processes on this machine; None: as many as there are cores where that pays, 1: none
-    cluster : address of a Dask scheduler, e.g. "tcp://10.0.0.1:8786", instead
+    cluster : address of a Dask scheduler, e.g. "tcp://10.0.0.1:8786", or a client of it, instead
     progress : called as progress(points done, points in all)
     keep : False: with ``out``, the columns are there alone, and memory does not grow with them
 

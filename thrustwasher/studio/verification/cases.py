@@ -78,7 +78,7 @@ def own_case(spec: ModelSpec, params: Any, box: Box, n: int) -> Case:
             check_number(f"box: {s.name}", end, s.unit, least, s.high or 0.0)
         scale = usual[s.name][2]
         if scale == "log":
-            low = max(low, LEAST_SHARE * high, tables.least(s.name) if tables else 0.0)
+            low = max(low, LEAST_SHARE * high, tables.least(s.name, (low, high)) if tables else 0.0)
             scale = "log" if low > 0.0 else "linear"
         axes[s.name] = Axis(low, high, s.unit, scale)
     return Case(spec, f"{OWN}{params_digest(params)[:8]}", params, axes, n)

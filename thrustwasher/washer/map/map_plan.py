@@ -25,6 +25,7 @@ DEFAULT_BOX = {
     "tilt": (1e-3, 3e-3),
     "oil_temperature": (290.0, 400.0),
 }
+HEAVY = 50.0  # times the usual least load: a load from which on light ones matter little
 TOLERANCE = 5e-3  # relative, of the torque
 TOLERANCES = (5e-4, 0.1)  # allowed
 FIELD_FROM = 6e-3  # a map of this tolerance stands for the mesh of "field", a finer one for "fine"
@@ -204,7 +205,18 @@ def least_of(name: str) -> float:
 
 def coverable(box: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
     """Return a box cut at what a map can cover, without what a map has no axis for."""
-    return {n: (max(low, least_of(n)), high) for n, (low, high) in box.items() if n in INPUTS}
+    return {n: (first_of(n, ends), ends[1]) for n, ends in box.items() if n in INPUTS}
+
+
+def first_of(name: str, ends: tuple[float, float]) -> float:
+    """Return where a map of a part with this box begins.
+
+    From rest to heavy loads that is the usual load: lighter ones are solved by the field.
+    """
+    low, usual = ends[0], DEFAULT_BOX["load"][0]
+    if name == "load" and low <= 0.0 and ends[1] > HEAVY * usual:
+        return usual
+    return max(low, least_of(name))
 
 
 def lines_about(params: WasherParams, box: dict[str, tuple[float, float]], tolerance: float) -> int:

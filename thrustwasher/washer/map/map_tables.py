@@ -11,7 +11,7 @@ from ..parameters import WasherParams
 from . import map_file
 from .look_up import WasherMap, map_for
 from .map_build import make_map
-from .map_plan import TOLERANCES, coverable, least_of, lines_about
+from .map_plan import TOLERANCES, coverable, first_of, lines_about
 
 
 def build_own(
@@ -53,7 +53,7 @@ TABLES = Tables(
     resource=map_file.plain,
     build=build_own,
     lines=lambda params, box, tolerance: lines_about(params, coverable(box), tolerance),
-    least=least_of,
+    least=first_of,
     tolerances=TOLERANCES,
     kept=kept_maps,
 )

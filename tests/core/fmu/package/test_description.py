@@ -9,6 +9,7 @@ from fmpy import read_model_description
 from lxml import etree
 from toy.spec import SPEC as TOY
 
+from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.fmu.description.interface import interface
 from thrustwasher.fmu.description.model_description import (
     REAL_TYPES,
@@ -117,6 +118,16 @@ def test_the_date_comes_from_the_environment_and_ends_with_z(monkeypatch):
     monkeypatch.delenv("SOURCE_DATE_EPOCH")
     assert generation_date() == generation_date()
     assert generation_date().endswith("Z")
+
+
+@pytest.mark.parametrize("given", ["99999999999999", "253402300800", "9" * 30, "-1", "1e9", "soon"])
+def test_a_date_that_cannot_be_written_is_refused(given, monkeypatch):
+    """The last second that the format has is that of 9999-12-31."""
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", given)
+    with pytest.raises(EnvironmentProblem, match=r"SOURCE_DATE_EPOCH = .* 0 \.\. 253402300799"):
+        generation_date()
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "253402300799")
+    assert generation_date() == "9999-12-31T23:59:59Z"
 
 
 @each_spec

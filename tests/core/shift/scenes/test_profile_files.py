@@ -5,6 +5,7 @@ import tomllib
 import numpy as np
 import pytest
 
+from tests.needed import package
 from thrustwasher import ParameterError, load_scene
 from thrustwasher.shift.scene.polyline import few_points
 from thrustwasher.shift.scene.variation import scene_text, varied_scene
@@ -136,6 +137,16 @@ def test_a_sequence_takes_files_for_its_shift_down(tmp_path):
         ('[engine]\npoints = "trace.csv"\ncolumns = 3\n', SHORT, "columns = 3"),
         ('[engine]\npoints = [[0, 1.0]]\ncolumns = { a = "b" }\n', SHORT, "no 'columns' here"),
         ('[vehicle]\npoints = "trace.csv"\n', "speed,force\n5,1\n5,2\n", "one speed"),
+        (
+            '[engine]\npoints = "trace.csv"\n',
+            "speed [rpm],torque\n1000,150\n4000,250\n",
+            "column time is missing, torque over time is required, not over speed as a full-load",
+        ),
+        (
+            '[vehicle]\npoints = "trace.csv"\n',
+            "time,force\n0,100\n1,200\n",
+            "column speed is missing, force over speed is required, not over time",
+        ),
     ],
 )
 def test_a_file_that_cannot_be_used_is_refused_with_table_line_and_column(
@@ -145,6 +156,20 @@ def test_a_file_that_cannot_be_used_is_refused_with_table_line_and_column(
         load_scene(scene(tmp_path, text, data))
     assert words in str(problem.value) and "mine" in str(problem.value)
     assert len(str(problem.value).splitlines()) == 1
+
+
+def test_what_a_measuring_file_marks_invalid_is_left_out_and_said(tmp_path):
+    mdf = package("asammdf")
+    time, path = np.linspace(0.0, 1.0, 41), scene(tmp_path, CLUTCH.replace("csv", "mf4"))
+    marked = np.arange(41) % 10 == 3
+    pressure = np.where(marked, 9e9, 7e5 * time)
+    with mdf.MDF() as file:
+        file.append(mdf.Signal(pressure, time, name="P_K1", unit="Pa", invalidation_bits=marked))
+        file.save(tmp_path / "trace.mf4")
+    found = load_scene(path)
+    assert points(found)[:, 1].max() == pytest.approx(7e5, rel=1e-6)
+    (note,) = [text for text in found.notes if text.startswith("[pressure.clutch]")]
+    assert "37 rows of trace.mf4 (4 of 41 samples of pressure left out: invalid)" in note
 
 
 def test_noise_is_averaged_not_followed():

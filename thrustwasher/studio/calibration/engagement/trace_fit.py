@@ -1,14 +1,13 @@
 """Parameters of a pack fitted to recordings of its engagements."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from functools import partial
-from os import PathLike
 from typing import Any
 
 import numpy as np
 
-from ....clutch.parameters import DRUM, LOAD, OIL, SPEC, SPEED, ClutchParams
+from ....clutch.parameters import SPEC, ClutchParams
 from ....errors import ParameterError
 from ....model.levels import level_named
 from ....model.part_file import PartFile, find_part
@@ -21,31 +20,19 @@ from ..fit import chosen_names, fitted
 from ..identifiability import counted
 from ..signs import folded, odd_pressure, too_fast
 from ..traces.binned import Run, binned
-from ..traces.recording import SLOW, Recording, Traces, pieces, recording
+from ..traces.recording import SLOW, Traces, measured_part, pieces
 from ..traces.trace_problem import TraceProblem, size_text
 from ..traces.trace_result import TraceCalibration
 from ..traces.traced import Traced
 from .pack_history import SLIDES, slip_by_torque, walk_pack
+from .recorded import COLUMNS, MEASURED, completed, read_recordings
 from .slip_scatter import slip_scatter
 from .traced_pack import OF_RIG, TRACED, TracedPack, traced_pack
 
-COLUMNS = {
-    "time": "s",
-    "load": "N",
-    "pressure": "Pa",
-    "speed": "rad/s",
-    "oil_temperature": "K",
-    "drum_speed": "rad/s",
-    "friction_torque": "N.m",
-    "temperature": "K",
-}
-MEASURED = ("friction_torque", "temperature")
-SIGNALS = {"load": LOAD, "speed": SPEED, "oil_temperature": OIL, "drum_speed": DRUM}
 MOST_MEANS, ALL_MEANS, FEW_MEANS = 512, 2048, 64  # of a recording; of all; of one among many
 USUAL_FIT = ("friction_scale", "permeability")
 MATTERS = {"fill_time": 0.02, "kiss_pressure": 5e4, "drag_torque": 10.0}  # s, Pa, N m
 WIDE, DECADES = ("permeability",), 1e4  # their range holds 0; they are looked for by factors
-UNDER_ZERO = 0.02  # of the largest load: a reading this far below 0 is an offset
 LOCKED = 10.0  # times speed_smoothing: a slower slip does not tell friction,
 NOISY = 2.0  # times the allowance for scatter: of many rows some lie far off
 SLOWEST = 0.005  # nor one below this share of the largest
@@ -85,7 +72,7 @@ def calibrate_traces(
         ``pressure`` [Pa]; ``speed``: slip [rad/s]; ``oil_temperature`` [K] and ``drum_speed``
         [rad/s] where they are recorded; measured ``friction_torque`` [N m] and ``temperature`` [K]
         of the interface (None: not measured). Where time goes back or leaps by more than 20 usual
-        steps another recording begins
+        steps another recording begins; a gap of 0.1 s or less within an engagement is bridged
     fit : names of parameters of the pack, and of the test rig: ``fill_time`` [s],
         ``kiss_pressure`` [Pa], ``drag_torque`` [N m], ``inertia`` [kg m2]; friction_scale and
         permeability by default
@@ -147,15 +134,20 @@ def calibrate_traces(
         f"real parameters of {SPEC.name}, and of the test rig {', '.join(OF_RIG)}",
     )
     _check_rig(rig, names)
-    wholes = [_completed(whole, start, rig, held) for whole in _read(recordings, rig)]
+    read, remarks = read_recordings(recordings, rig)
+    wholes = [completed(whole, start, rig, held) for whole in read]
     parts = [
-        (piece, float(whole.inputs["load"].max())) for whole in wholes for piece in pieces(whole)
+        (piece, float(whole.inputs["load"].max()))
+        for whole in wholes
+        for piece in pieces(whole, "load")
     ]
+    by_torque = bool(rig.inertia) and all(
+        "slip" not in whole.outputs and "friction_torque" in whole.outputs for whole in wholes
+    )
+    if by_torque:
+        parts = [(measured_part(piece, "friction_torque"), most) for piece, most in parts]
     most = min(MOST_MEANS, max(FEW_MEANS, ALL_MEANS // len(parts)))
     runs = tuple(binned(piece, most, "load", largest) for piece, largest in parts)
-    by_torque = bool(rig.inertia) and all(
-        "slip" not in run.values and "friction_torque" in run.values for run in runs
-    )
     if by_torque:
         if inner := set(names) & {"inertia", "drag_torque"}:
             raise ParameterError(
@@ -173,7 +165,8 @@ def calibrate_traces(
             f"{counted(len(names), 'parameter')}, allowed: as many values as parameters, or more"
         )
     problem, first = TraceProblem.of(points, names, _bounds(rig, names, bounds or {}))
-    notes = (f"{size_text(runs, points.n_engagements)}.", *said, *_notes(rig, runs, torque_at))
+    size = f"{size_text(runs, points.n_engagements)}."
+    notes = (size, *remarks, *said, *_notes(rig, runs, torque_at))
     if by_torque:
         notes = (*notes, "Slip: by the recorded torque, the drag and the inertia.")
     problem = replace(problem, deviation=deviation, notes=notes)
@@ -238,108 +231,6 @@ def _bounds(
         if value > 0.0:
             found[name] = value / DECADES, min(value * DECADES, metas[name]["max"])
     return found
-
-
-def _read(recordings: Any, rig: TracedPack) -> list[Recording]:
-    """Return the recordings, files read, with ``load`` for ``pressure``."""
-    found = []
-    for name, given in _named(recordings):
-        columns = given
-        if not isinstance(given, Mapping):
-            from ..traces.trace_file import read_trace
-
-            columns, _ = read_trace(given, COLUMNS, MEASURED)
-        found.append(_with_load(recording(name, columns, COLUMNS, MEASURED), rig))
-    if not found:
-        raise ParameterError("recordings: none, allowed: one or more")
-    return found
-
-
-def _named(recordings: Any) -> Iterator[tuple[str, Any]]:
-    """Yield the name of each recording, and its columns or the path of its file."""
-    if isinstance(recordings, Mapping):
-        if recordings and all(isinstance(x, Mapping) for x in recordings.values()):
-            yield from recordings.items()
-            return
-        recordings = [recordings]
-    elif isinstance(recordings, str | PathLike):
-        recordings = [recordings]
-    if not isinstance(recordings, Iterable):
-        raise ParameterError(
-            f"recordings: {type(recordings).__name__}, allowed: columns by name, or several of them"
-        )
-    for k, given in enumerate(recordings):
-        name = str(given) if isinstance(given, str | PathLike) else f"recording {k + 1}"
-        if not isinstance(given, str | PathLike | Mapping):
-            raise ParameterError(
-                f"{name}: {type(given).__name__}, allowed: columns by their names, or a file"
-            )
-        yield name, given
-
-
-def _with_load(whole: Recording, rig: TracedPack) -> Recording:
-    """Return a recording with the force that its pressure makes.
-
-    Around 0 it scatters to both sides: cut at 0 it would have a mean above, and too little scatter.
-    """
-    inputs = dict(whole.inputs)
-    if ("load" in inputs) == ("pressure" in inputs):
-        raise ParameterError(f"{whole.name}: allowed: a column load [N] or pressure [Pa], one")
-    if "pressure" in inputs:
-        if not rig.piston_area:
-            raise ParameterError(
-                f"{whole.name}: has pressure, which needs piston_area [m2] (--piston-area)"
-            )
-        inputs["load"] = inputs.pop("pressure") * rig.piston_area
-    load = inputs["load"]
-    largest = float(load.max())
-    if largest <= 0.0:
-        raise ParameterError(f"{whole.name}: load is never above 0 N, nothing is engaged")
-    low = load < -UNDER_ZERO * largest
-    if low.any():
-        row = int(np.argmax(low))
-        raise ParameterError(
-            f"{whole.name}: load of row {row + 1} is {format_quantity(float(load[row]), 'N')}, "
-            f"allowed: not below 0 (but for an offset of {100 * UNDER_ZERO:g} % of the largest)"
-        )
-    return replace(whole, inputs=inputs)
-
-
-def _completed(
-    whole: Recording, part: PartFile, rig: TracedPack, held: Mapping[str, float]
-) -> Recording:
-    """Return a recording with every input in its range, those held or by default as columns."""
-    inputs, outputs = dict(whole.inputs), dict(whole.outputs)
-    for name, value in held.items():
-        if name in inputs:
-            raise ParameterError(
-                f"{name}: is a column of {whole.name} and held, allowed: one of both"
-            )
-        inputs[name] = np.full(len(whole.time), value)
-    if "speed" not in inputs:
-        raise ParameterError(
-            f"{whole.name}: has no column speed (slip); with inertia the slip before the "
-            "engagement is enough (--set speed=VALUE)"
-        )
-    if rig.inertia and "speed" in whole.inputs:
-        outputs["slip"] = inputs["speed"]
-    if not outputs:
-        raise ParameterError(
-            f"{whole.name}: nothing is measured, allowed: {', '.join(MEASURED)}, with inertia speed"
-        )
-    for name, signal in SIGNALS.items():
-        if name not in inputs:
-            inputs[name] = np.full(len(whole.time), part.starts[name])
-        low, high = signal.range
-        low -= UNDER_ZERO * float(inputs[name].max()) if name == "load" else 0.0
-        bad = (inputs[name] < low) | (inputs[name] > high)
-        if bad.any():
-            row = int(np.argmax(bad))
-            raise ParameterError(
-                f"{whole.name}: {name} of row {row + 1} is {inputs[name][row]:.6g} {signal.unit}, "
-                f"allowed: {low:g} .. {high:g} {signal.unit}"
-            )
-    return replace(whole, inputs=inputs, outputs=outputs)
 
 
 def _points(
@@ -498,6 +389,13 @@ def _plan(
         if lasts > SLOW:
             doubts.append(
                 f"{run.name} lasts {lasts:.4g} s: if time is in ms, name the column time [ms]"
+            )
+        if run.engaged[0] and not rig.starts_pressed:
+            force = format_quantity(float(run.inputs["load"][0]), "N", digits=3)
+            doubts.append(
+                f"{run.name}: a recording starts under load ({force} at {run.time[0]:.6g} s): film "
+                "and heat of before are not known, it starts settled and as warm as the oil or the "
+                "first temperature; leave it out, or record from before the load rises"
             )
     return Plan(
         spec=TRACED,

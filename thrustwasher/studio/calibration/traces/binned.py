@@ -6,12 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....numerics.jit import Array
-from .recording import Recording, row_scatter
+from .recording import ON, Recording, row_scatter
 
 FINER = 8  # cells per mean, from which the profile is judged
 EVEN = 0.5  # share of the means that are spread evenly over time; the rest follow the changes
 SCATTERS = 1e-6  # of the span: a bend from row to row that is no rounding
-ON, OFF = 0.1, 0.05  # of the largest load: an engagement begins above, ends below
+OFF = 0.05  # of the largest load: an engagement begins above ``ON``, ends below this
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,13 +29,15 @@ class Run:
     n_rows: int
     kept: dict[str, float]  # share of an input's variance that the means keep
     engaged: NDArray[np.int64]  # (m,) engagement that a mean belongs to, from 1; 0: open pack
+    gaps: tuple[float, ...] = ()  # [s] lengths of those that are bridged
 
 
 def binned(piece: Recording, most: int, pressing: str, largest: float) -> Run:
     """Return a piece of a recording as ``most`` means of neighbouring rows, or fewer.
 
-    Rows of the same time are taken together in any case. Work and memory are those of a few
-    copies of the rows; what comes out does not depend on their number.
+    No mean reaches into a gap, which may make a few more. Rows of the same time are taken together
+    in any case. Work and memory are those of a few copies of the rows; what comes out does not
+    depend on their number.
 
     Parameters
     ----------
@@ -47,10 +49,13 @@ def binned(piece: Recording, most: int, pressing: str, largest: float) -> Run:
     distinct = np.flatnonzero(np.append(True, np.diff(piece.time) > 0.0))
     starts = _cells(distinct, FINER * most)
     columns = {**piece.inputs, **piece.outputs}
-    scatter = {name: row_scatter(x) for name, x in columns.items()}
+    own = piece.is_recorded
+    scatter = {name: row_scatter(x[own]) for name, x in columns.items()}
     smooth = {name: smoothed(piece.time, x) for name, x in piece.inputs.items()}
     if len(starts) > most:
         starts = _followed(piece, starts, scatter, most)
+    ends = [row for gap in piece.gaps for row in (gap.start, gap.stop)]
+    starts = np.union1d(starts, np.array(ends, np.int64))
     n = len(piece.time)
     size = np.diff(np.append(starts, n)).astype(float)
     time = np.add.reduceat(piece.time, starts) / size
@@ -73,9 +78,10 @@ def binned(piece: Recording, most: int, pressing: str, largest: float) -> Run:
         counts=counts,
         sizes=size,
         scatter=scatter,
-        n_rows=n,
+        n_rows=int(np.count_nonzero(own)),
         kept=kept,
         engaged=engagements(inputs[pressing], largest),
+        gaps=tuple(float(piece.time[g.stop] - piece.time[g.start - 1]) for g in piece.gaps),
     )
 
 

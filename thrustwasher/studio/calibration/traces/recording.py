@@ -6,12 +6,16 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ....errors import ParameterError, suggestion
 from ....model.spec import ModelSpec
 from ....numerics.jit import Array
 
-GAP = 20.0  # usual steps of time: a longer one parts two recordings
+GAP = 20.0  # usual steps of time: a longer one parts two recordings, or is bridged
+SHORT = 0.1  # s: a gap that is bridged, if the part is pressed at both ends or at none
+BETWEEN = 10  # rows that are put into a gap
+ON = 0.1  # of the largest load: the part is pressed above
 LEAST_ROWS = 5  # of a recording, and of a piece of it
 SLOW = 600.0  # s: a recording that lasts longer is doubted
 
@@ -36,6 +40,15 @@ class Recording:
     time: Array  # (n,) [s], never falling
     inputs: Mapping[str, Array]  # (n,) each
     outputs: Mapping[str, Array]  # (n,) each; NaN where not measured
+    gaps: tuple[slice, ...] = ()  # rows that were put into gaps
+
+    @property
+    def is_recorded(self) -> NDArray[np.bool_]:
+        """Tell of each row if it was recorded, (n,)."""
+        found = np.ones(len(self.time), bool)
+        for gap in self.gaps:
+            found[gap] = False
+        return found
 
 
 def recording(
@@ -77,10 +90,18 @@ def recording(
     return Recording(name, time, inputs, outputs)
 
 
-def pieces(whole: Recording) -> list[Recording]:
+def pieces(whole: Recording, pressing: str) -> list[Recording]:
     """Return the pieces between which time goes back or leaps, by more than 20 usual steps.
 
+    A leap of 0.1 s or less is bridged where the part is pressed at both ends, or at none: by rows
+    whose inputs lie straight in between and whose outputs are not measured.
+
     ParameterError names a row that is out of order, or next to which a piece is too short.
+
+    Parameters
+    ----------
+    whole : rows of one recording
+    pressing : the input that presses the part
     """
     steps = np.diff(whole.time)
     ahead = steps[steps > 0.0]
@@ -94,7 +115,10 @@ def pieces(whole: Recording) -> list[Recording]:
             f"{whole.name}: time goes back by {-steps[row - 2]:.4g} s at row {row}, too little for "
             "a new recording; put the rows in the order of their time"
         )
-    jumps = (steps < 0.0) | (steps > GAP * usual)
+    leaps = steps > GAP * usual
+    pressed = whole.inputs[pressing] > ON * float(whole.inputs[pressing].max())
+    bridged = leaps & (steps <= SHORT) & (pressed[1:] == pressed[:-1])
+    jumps = (steps < 0.0) | (leaps & ~bridged)
     ends = [0, *(np.flatnonzero(jumps) + 1).tolist(), len(whole.time)]
     found = []
     for k, (first, end) in enumerate(pairwise(ends)):
@@ -107,15 +131,60 @@ def pieces(whole: Recording) -> list[Recording]:
                 "the rows in the order of their time, or leave these out"
             )
         part = slice(first, end)
-        found.append(
-            Recording(
-                whole.name,
-                whole.time[part],
-                {key: x[part] for key, x in whole.inputs.items()},
-                {key: x[part] for key, x in whole.outputs.items()},
-            )
+        piece = Recording(
+            whole.name,
+            whole.time[part],
+            {key: x[part] for key, x in whole.inputs.items()},
+            {key: x[part] for key, x in whole.outputs.items() if np.isfinite(x[part]).any()},
         )
+        found.append(_bridged(piece, np.flatnonzero(bridged[first : end - 1]) + 1))
     return found
+
+
+def _bridged(piece: Recording, behind: NDArray[np.int64]) -> Recording:
+    """Return a piece with rows put into the gaps before the rows ``behind``."""
+    if not len(behind):
+        return piece
+    share = np.arange(1, BETWEEN + 1) / (BETWEEN + 1.0)
+
+    def between(x: Array) -> Array:
+        low, high = x[behind - 1, None], x[behind, None]
+        return np.insert(x, np.repeat(behind, BETWEEN), (low + share * (high - low)).ravel())
+
+    def unknown(x: Array) -> Array:
+        return np.insert(x, np.repeat(behind, BETWEEN), np.nan)
+
+    starts = behind + BETWEEN * np.arange(len(behind))
+    return Recording(
+        piece.name,
+        between(piece.time),
+        {key: between(x) for key, x in piece.inputs.items()},
+        {key: unknown(x) for key, x in piece.outputs.items()},
+        tuple(slice(int(k), int(k) + BETWEEN) for k in starts),
+    )
+
+
+def measured_part(piece: Recording, output: str) -> Recording:
+    """Return a piece from the first to the last row of a measured output.
+
+    ParameterError: there are too few such rows.
+    """
+    known = np.flatnonzero(np.isfinite(piece.outputs.get(output, np.full(1, np.nan))))
+    if len(known) < LEAST_ROWS:
+        raise ParameterError(
+            f"{piece.name}: {output} has {len(known)} values from {piece.time[0]:.6g} to "
+            f"{piece.time[-1]:.6g} s, and slip is found by it; allowed: {LEAST_ROWS} or more, or a "
+            "column speed"
+        )
+    first, end = int(known[0]), int(known[-1]) + 1
+    gaps = (g for g in piece.gaps if first <= g.start and g.stop <= end)
+    return Recording(
+        piece.name,
+        piece.time[first:end],
+        {key: x[first:end] for key, x in piece.inputs.items()},
+        {key: x[first:end] for key, x in piece.outputs.items()},
+        tuple(slice(g.start - first, g.stop - first) for g in gaps),
+    )
 
 
 def row_scatter(values: Array) -> float:

@@ -7,7 +7,7 @@ import numpy as np
 
 from ....errors import ParameterError, suggestion
 from ....numerics.jit import Array
-from ....storage.tables.table import Column, Table, numbers
+from ....storage.tables.table import Table, numbers
 from ....storage.tables.table_file import read_table
 from ....units import parse_quantity
 
@@ -16,23 +16,24 @@ SHOWN = 12  # names of columns that do not count
 
 def is_trace(table: Table) -> bool:
     """Tell if the rows of a table are a recording over time."""
-    return any(_plain(column) == "time" for column in table.columns)
+    return any(column.plain == "time" for column in table.columns)
 
 
 def read_trace(
     path: str | PathLike[str], units: Mapping[str, str], measured: Sequence[str]
-) -> tuple[dict[str, Array], list[str]]:
+) -> tuple[dict[str, Array], list[str], list[str]]:
     """Return ``columns_of`` the table in a file."""
     return columns_of(read_table(fspath(path)), units, measured)
 
 
 def columns_of(
     table: Table, units: Mapping[str, str], measured: Sequence[str]
-) -> tuple[dict[str, Array], list[str]]:
+) -> tuple[dict[str, Array], list[str], list[str]]:
     """Return the columns of a recording, (n,) each [SI], NaN where a cell is empty.
 
     Also names of columns that were passed over: a recording has more channels than count here.
-    One whose name is nearly one of these is refused, unless it begins with _.
+    One whose name is nearly one of these is refused, unless it begins with _. Third: what was not
+    plain, such as samples that are left out.
 
     Parameters
     ----------
@@ -45,10 +46,11 @@ def columns_of(
     ParameterError : a cell is no number, an input has an empty one; the message names file, line
         and column
     """
+    table = table.of_columns(units, measured)
     found: dict[str, Array] = {}
     passed = []
     for column in table.columns:
-        name = _plain(column)
+        name = column.plain
         if name not in units:
             hint = suggestion(name, set(units) - {*found}, "did you mean {}? ", likeness=0.75)
             if column.name and not column.name.startswith("_"):
@@ -67,9 +69,4 @@ def columns_of(
         if name not in measured and holes.any():
             line = table.lines[int(np.argmax(holes))]
             raise ParameterError(f"{table.path}, line {line}: {name} is missing")
-    return found, passed
-
-
-def _plain(column: Column) -> str:
-    """Return a column's name as it is looked for."""
-    return column.name.lower().replace(" ", "_")
+    return found, passed, table.remarks

@@ -8,11 +8,13 @@ import numpy as np
 
 from ....errors import SolveError
 from ....numerics.jit import Array
+from ....units import format_quantity
 from ..identifiability import MOST_TOGETHER, Verdict, counted, widening
 from ..measured import Measured, output_units
 from ..model_fit import ModelProblem
 from .binned import Run
 from .patterns import Pattern, lag_one, pattern_of
+from .recording import BETWEEN
 from .trace_result import TraceCalibration
 from .traced import Traced
 
@@ -127,10 +129,10 @@ class TraceProblem(ModelProblem):
         largest = float(np.abs(self.measured[points.of(name)]).max())
         if abs(mean) <= max(3.0 * error, OFFSET * largest):
             return ()
+        share = f" ({100.0 * abs(mean) / largest:.2g} % of the largest torque)" if largest else ""
         return (
-            f"With the open pack the recorded torque lies {mean:+.3g} N.m off the model's drag "
-            f"({100.0 * abs(mean) / largest:.2g} % of the largest torque): if that is a zero "
-            "offset of the sensor, subtract it from the column.",
+            f"With the open pack the recorded torque lies {mean:+.3g} N.m off the model's drag"
+            f"{share}: if that is a zero offset of the sensor, subtract it from the column.",
         )
 
     def result(
@@ -160,6 +162,11 @@ def _laid_out(points: Traced) -> Array:
 
 def _shape_text(found: Pattern, unit: str) -> str:
     """Say that residuals hang together in time."""
+    if not found.span:
+        return (
+            f"The recorded {found.output} is one number in all rows, the model's is not: is its "
+            "channel connected, in this file and in this column?"
+        )
     size = f"{found.size:.3g} {unit}".removesuffix(" 1")
     rows = ""
     if found.chi_square is not None and found.chi_square > 2.0:
@@ -180,7 +187,13 @@ def size_text(runs: tuple[Run, ...], engagements: int) -> str:
     words = f"{counted(engagements, 'engagement')} in {counted(len(runs), 'recording')}"
     if len(names) != len(runs):
         words += f", parted where time jumps, of {', '.join(names)}"
-    if rows == means:
+    gaps = [gap for run in runs for gap in run.gaps]
+    if gaps:
+        words += (
+            f", {counted(len(gaps), 'gap')} up to {format_quantity(max(gaps), 's')} bridged, load "
+            "and slip straight in between"
+        )
+    if all(run.n_rows + BETWEEN * len(run.gaps) == len(run.time) for run in runs):
         return f"{words}; {rows} rows, each as it is"
     lost = sorted({name for run in runs for name in run.kept})
     kept = ", ".join(

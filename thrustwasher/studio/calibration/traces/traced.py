@@ -32,6 +32,11 @@ class Traced(Measured):
     """What the scatter of measured values does by inputs that follow from them; None: none do."""
 
     @property
+    def pieces_text(self) -> str:
+        """Of how many recordings the values are, if of several."""
+        return f" of {len(self.runs)} recordings" if len(self.runs) > 1 else ""
+
+    @property
     def starts(self) -> list[int]:
         """Rows at which the runs begin, and the end."""
         return [0, *np.cumsum([len(run.time) for run in self.runs]).tolist()]

@@ -187,6 +187,79 @@ void tell_effort(const Instance *m) {
     tell(&m->log, GOOD, LOG_SOLVER, &text);
 }
 
+static int holds(const Instance *m, const Condition *c) {
+    if (c->by < 0) return 0;
+    const double value = value_of(m, &VARIABLES[c->by]);
+    switch (c->relation) {
+    case RELATION_IS: return value == c->value;
+    case RELATION_IS_NOT: return value != c->value;
+    case RELATION_ABOVE: return value > c->value;
+    default: return value >= c->value;
+    }
+}
+
+static int is_used(const Instance *m, int parameter) {
+    int is_one = -1; /* of the conditions one of which is enough; -1: there are none */
+    for (int i = 0; i < N_CONDITIONS; i++) {
+        const Condition *c = &CONDITIONS[i];
+        if (c->parameter != parameter) continue;
+        int is_met = holds(m, c) && (!c->follows || is_used(m, c->by));
+        if (c->required && !is_met) return 0;
+        if (!c->required && is_one != 1) is_one = is_met;
+    }
+    return is_one != 0;
+}
+
+static void add_setting(Text *t, const Instance *m, const Variable *v) {
+    const double value = value_of(m, v);
+    if (v->type == TYPE_ENUMERATION) {
+        add(t, "%s = %s", v->name, ENUMERATIONS[v->enumeration].items[(int)value - 1].name);
+    } else if (v->type == TYPE_BOOLEAN) {
+        add(t, "%s = %s", v->name, value != 0.0 ? "true" : "false");
+    } else {
+        add_quantity(t, v, value);
+    }
+}
+
+/* The values that keep a parameter from being used; `last`: the parameter named before, or -1. */
+static void add_causes(Text *t, const Instance *m, int parameter, int *last) {
+    int is_required = 0; /* those that are required come first; they are enough */
+    for (int i = 0; i < N_CONDITIONS; i++) {
+        const Condition *c = &CONDITIONS[i];
+        if (c->parameter != parameter || c->by < 0 || (is_required && !c->required)) continue;
+        const int is_held = holds(m, c);
+        if (is_held ? !c->follows || is_used(m, c->by) : c->by == parameter) continue;
+        is_required |= c->required;
+        if (is_held) {
+            add_causes(t, m, c->by, last);
+        } else if (c->by != *last) {
+            add(t, "%s", *last < 0 ? ": " : ", ");
+            add_setting(t, m, &VARIABLES[c->by]);
+            *last = c->by;
+        }
+    }
+}
+
+/* Say once which parameters were set away from their starts and are not used. */
+static void tell_unused(const Instance *m) {
+    enum { MOST = 6 };
+    int n = 0;
+    Text text = begun(m, m->now.time);
+    add(&text, " s");
+    for (int i = 0; i < N_VARIABLES; i++) {
+        const Variable *v = &VARIABLES[i];
+        if (v->store != STORE_PAR || value_of(m, v) == m->part.starts[i] || is_used(m, i)) continue;
+        if (++n > MOST) continue;
+        int last = -1;
+        add(&text, "%s", n > 1 ? "; " : ": ");
+        add_setting(&text, m, v);
+        add(&text, " is not used");
+        add_causes(&text, m, i, &last);
+    }
+    if (n > MOST) add(&text, "; and %d more", n - MOST);
+    if (n > 0) tell(&m->log, WARNING, LOG_WARNING, &text);
+}
+
 /* Whether an input is outside a range of its own: k = 0 the part's box, 1 what was verified. */
 static int is_beyond(const Instance *m, const Variable *v, int k) {
     const double *range = m->part.ranges[k][v->slot];
@@ -225,6 +298,7 @@ void tell_advice(Instance *m) {
         add(&text, " s: %s", GONE_LEVELS[i].name);
         tell(&m->log, WARNING, LOG_WARNING, &text);
     }
+    if (m->warned < 0) tell_unused(m);
     int unverified = 0;
     for (int i = 1; VARIABLES[i].store == STORE_INP; i++) unverified |= is_beyond(m, &VARIABLES[i], 1);
     int32_t status = IO_STATUS < 0 ? 0 : m->now.solution.iout[AT_LEAST_ONE(IO_STATUS + 1) - 1];

@@ -44,6 +44,15 @@ typedef struct {
     const Item *items;
 } Enumeration;
 
+/* What lets a parameter be used, values of others: all that are required, and one of the rest. */
+typedef struct {
+    double value;
+    int16_t parameter, by; /* places in VARIABLES; by -1: nothing uses it */
+    uint8_t relation, required;
+    uint8_t follows; /* the other one has to be used itself */
+} Condition;
+enum { RELATION_IS, RELATION_IS_NOT, RELATION_ABOVE, RELATION_FROM };
+
 /* How a solution was obtained; from FIRST_FAILURE on there is none. */
 typedef struct {
     int32_t number;

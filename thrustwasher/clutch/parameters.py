@@ -36,7 +36,7 @@ OF_TABLE = (("friction_law", "table"),)
 OF_WANG = (("friction_law", "wang"),)
 OVER_SPEED = (  # the level closed has the constant law
     *(("fidelity", level) for level in ("stribeck", "field", "fine")),
-    ("friction_law", "constant"),
+    ("self", "constant"),
 )
 WITH_FILM = tuple(("fidelity", level) for level in ("field", "fine"))
 
@@ -204,7 +204,9 @@ class ClutchParams:
         "number of radial grooves in a face (0: none)",
         belongs_to=("inner_radius", "outer_radius"),
     )
-    groove_width: float = quantity(2e-3, "m", 1e-5, 0.1, "width of a groove at its foot")
+    groove_width: float = quantity(
+        2e-3, "m", 1e-5, 0.1, "width of a groove at its foot", read_by=(("groove_count", ">", 0),)
+    )
     groove_depth: float = quantity(4e-4, "m", 1e-5, 0.01, "depth of the grooves")
     initial_film: float = quantity(1.5e-4, "m", 1e-6, 1e-2, "film thickness of the open pack")
     separating_force: float = quantity(
@@ -217,7 +219,10 @@ class ClutchParams:
         read_by=WITH_FILM,
     )
     starts_pressed: bool = flag(
-        False, "film is settled at the start (False: pack starts open)", of_a_run=True
+        False,
+        "film is settled at the start (False: pack starts open)",
+        read_by=(("film_dynamics", True),),
+        of_a_run=True,
     )
     film_dynamics: bool = flag(
         True,
@@ -247,13 +252,20 @@ class ClutchParams:
     viscosity_constant: float = quantity(
         3.545, "1", 0.0, 6.0, "G_o of the Roelands law (0: viscosity is viscosity_scale, constant)"
     )
-    viscosity_exponent: float = quantity(1.053, "1", 0.2, 3.0, "S_o of the Roelands law")
+    viscosity_exponent: float = quantity(
+        1.053, "1", 0.2, 3.0, "S_o of the Roelands law", read_by=(("viscosity_constant", ">", 0.0),)
+    )
     viscosity_scale: float = quantity(6.31e-5, "Pa.s", 1e-6, 10.0, "scale of the Roelands law")
     steel_thickness: float = quantity(2e-3, "m", 1e-4, 0.1, "thickness of a steel plate")
     steel_density: float = quantity(7850.0, "kg/m3", 500.0, 2e4, "density of the steel plates")
     steel_heat_capacity: float = quantity(475.0, "J/(kg.K)", 50.0, 5e3, "heat capacity of steel")
     steel_conductivity: float = quantity(
-        50.0, "W/(m.K)", 1.0, 500.0, "heat conductivity of the steel plates"
+        50.0,
+        "W/(m.K)",
+        1.0,
+        500.0,
+        "heat conductivity of the steel plates",
+        read_by=(("contact_rise", True),),
     )
     contact_rise: bool = flag(
         False, "interface hotter than the plate's mean by conduction (semi-infinite at first)"

@@ -1,6 +1,6 @@
 """Wet clutch: coefficient of boundary friction, and a pack that slips at a constant speed."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -295,10 +295,12 @@ def _status(solved: Status, ratio: float, hottest: float) -> Status:
     return Status.OUTSIDE_VERIFIED if ratio < k.LEAST_RATIO else solved
 
 
-def doubts_of_pack(params: ClutchParams, fidelity: str) -> tuple[str, ...]:
+def doubts_of_pack(
+    params: ClutchParams, fidelity: str, usual: Mapping[str, Any] | None = None
+) -> tuple[str, ...]:
     """Return what contradicts itself in parameters, and what has no effect next to the others."""
     radius, faces = params.effective_radius, (params.inner_radius, params.outer_radius)
-    found = list(idle_warnings(SPEC.key, params, fidelity))
+    found = list(idle_warnings(SPEC.key, params, fidelity, usual))
     if radius and not faces[0] <= radius <= faces[1] and fidelity != "closed":
         found.append(
             f"effective_radius = {radius:g} m is off the faces of {faces[0]:g} .. {faces[1]:g} m: "

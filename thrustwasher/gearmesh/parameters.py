@@ -134,6 +134,8 @@ BY_FILM = tuple(("friction_law", law) for law in ("li-seireg", "iso", "mixed", "
 BY_SPEED = tuple(("friction_law", law) for law in ("mixed", "schlenk"))
 BY_SCALE = tuple(("friction_law", law) for law in ("iso", "mixed", "schlenk"))
 BY_STIFFNESS = (("load_sharing", "elastic"),)
+TRANSIENT = (("thermal_mode", "transient"),)
+BY_ROOT = (("root_limit", ">", 0.0),)
 SIZE = ("gear_ratio", "pinion_teeth", "centre_distance", "normal_module", "face_width")
 FROM_DISTANCE = (("profile_shift_gear_from_distance", True),)
 
@@ -153,7 +155,14 @@ class GearMeshParams:
         2.0, "1", 0.05, 20.0, "teeth of the gear over those of the pinion, of a ring above 1"
     )
     pinion_teeth: int = count(20, 5, 500, "number of teeth of the pinion")
-    centre_distance: float = quantity(0.254, "m", 5e-3, 10.0, "distance of the two gear axes")
+    centre_distance: float = quantity(
+        0.254,
+        "m",
+        5e-3,
+        10.0,
+        "distance of the two gear axes",
+        read_by=(("normal_module", 0.0),),
+    )
     normal_module: float = quantity(
         0.0,
         "m",
@@ -248,7 +257,7 @@ class GearMeshParams:
         "transient", THERMAL_MODES, "ThermalMode", "how the bodies follow the inputs in time"
     )
     thermal_start: str = choice(
-        "steady", THERMAL_STARTS, "ThermalStart", "bodies at the start, if transient"
+        "steady", THERMAL_STARTS, "ThermalStart", "bodies at the start", read_by=TRANSIENT
     )
     bulk_conductance: float = quantity(
         0.0,
@@ -431,6 +440,7 @@ class GearMeshParams:
         0.5,
         1.0,
         "share of root_limit for the pinion; 0.7 where its teeth bend both ways, as a planet's",
+        read_by=BY_ROOT,
     )
     face_load_factor: float = quantity(
         1.0, "1", 1.0, 5.0, "face load factor of flanks and root, in addition to load_factor"
@@ -461,7 +471,7 @@ class GearMeshParams:
         0.0,
         1.0,
         "length of the pinion's relief along the path of contact",
-        read_by=BY_STIFFNESS,
+        read_by=(("tip_relief_pinion", ">", 0.0),),
     )
     tip_relief_length_gear: float = quantity(
         0.0,
@@ -469,7 +479,7 @@ class GearMeshParams:
         0.0,
         1.0,
         "length of the gear's relief along the path of contact",
-        read_by=BY_STIFFNESS,
+        read_by=(("tip_relief_gear", ">", 0.0),),
     )
     base_oil: str = choice("mineral", BASE_OILS, "BaseOil", "base of the oil, for its friction")
     friction_scale: float = quantity(
@@ -527,7 +537,12 @@ class GearMeshParams:
         at_zero=_constant("D_LIMIT_GEAR"),
     )
     root_limit_gear: float = quantity(
-        0.0, "Pa", 0.0, 3e9, "nominal stress number of the gear's root (0: as root_limit)"
+        0.0,
+        "Pa",
+        0.0,
+        3e9,
+        "nominal stress number of the gear's root (0: as root_limit)",
+        read_by=BY_ROOT,
     )
     holding: str = holding_choice("the mesh")
     coupling_inertia: float = coupling_inertia()

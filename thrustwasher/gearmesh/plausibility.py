@@ -117,8 +117,8 @@ def _teeth(p: GearMeshParams) -> list[str]:
     given, made = p.centre_distance, centre_distance(p)
     if given != default_of("centre_distance") and abs(given - made) > AGREE * made:
         found.append(
-            f"centre_distance = {given:g} m has no effect: normal_module = {p.normal_module:g} m "
-            f"and the teeth give {made:.6g} m; the distance of the axes as mounted is "
+            f"normal_module = {p.normal_module:g} m and the teeth give a centre distance of "
+            f"{made:.6g} m, not {given:g} m; the distance of the axes as mounted is "
             "working_centre_distance"
         )
     return found

@@ -59,7 +59,9 @@ class _LossesParams:
     viscosity_constant: float = quantity(
         3.545, "1", 0.0, 6.0, "G_o of the Roelands law (0: viscosity is viscosity_scale, constant)"
     )
-    viscosity_exponent: float = quantity(1.053, "1", 0.2, 3.0, "S_o of the Roelands law")
+    viscosity_exponent: float = quantity(
+        1.053, "1", 0.2, 3.0, "S_o of the Roelands law", read_by=(("viscosity_constant", ">", 0.0),)
+    )
     viscosity_scale: float = quantity(6.31e-5, "Pa.s", 1e-6, 10.0, "scale of the Roelands law")
     speed_smoothing: float = quantity(
         0.1, "rad/s", 1e-6, 100.0, "speed over which the torques pass through zero"
@@ -73,18 +75,32 @@ def _of_shaft(name: str) -> dict[str, Any]:
     """Return the parameters of one shaft, in the kernel's order."""
     bearings, diameter, load, gear, width, immersion, seal = SHAFTS[name]
     shaft = "drum" if name == "drum" else f"{name} shaft"
+    carried = {"read_by": ((f"{name}_bearing_count", ">", 0),)}
+    dipping = {"read_by": ((f"{name}_immersion", ">", 0.0),)}
     fields = {
         "bearing_count": count(bearings, 0, 20, f"main bearings of the {shaft}"),
         "bearing_diameter": quantity(
-            diameter, "m", 1e-3, 2.0, f"mean diameter of each main bearing of the {shaft}"
+            diameter,
+            "m",
+            1e-3,
+            2.0,
+            f"mean diameter of each main bearing of the {shaft}",
+            **carried,
         ),
         "bearing_load": quantity(
-            load, "N", 0.0, 1e6, f"radial load of each main bearing of the {shaft}"
+            load, "N", 0.0, 1e6, f"radial load of each main bearing of the {shaft}", **carried
         ),
         "gear_diameter": quantity(
-            gear, "m", 5e-3, 5.0, f"pitch diameter of the gear of the {shaft} that may dip"
+            gear,
+            "m",
+            5e-3,
+            5.0,
+            f"pitch diameter of the gear of the {shaft} that may dip",
+            **dipping,
         ),
-        "gear_width": quantity(width, "m", 1e-3, 1.0, f"width of the gear of the {shaft}"),
+        "gear_width": quantity(
+            width, "m", 1e-3, 1.0, f"width of the gear of the {shaft}", **dipping
+        ),
         "immersion": quantity(
             immersion, "1", 0.0, 0.5, f"depth in the oil over diameter, gear of the {shaft}"
         ),

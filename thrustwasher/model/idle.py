@@ -4,7 +4,7 @@ A parameter's metadata say it. ``read_by``: see ``model.unread``. ``overrides`` 
 place its own value stands, ``belongs_to`` those for whose values alone it was measured or chosen.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from functools import cache, lru_cache
 from typing import Any
@@ -16,22 +16,31 @@ from .registry import find_spec
 from .unread import unread, why_unread
 
 
-@lru_cache(maxsize=256)
-def idle_warnings(model: str, params: Any, fidelity: str = "") -> tuple[str, ...]:
+def idle_warnings(
+    model: str, params: Any, fidelity: str = "", usual: Mapping[str, Any] | None = None
+) -> tuple[str, ...]:
     """Return a line for all your own parameters that one choice leaves unread.
 
     A line on a level that is gone comes first. A value that is the default or that of a preset is
-    your own none; neither is 0 where that stands for no value. ``fidelity``: the level, "" if
-    it is not known.
+    your own none, nor is a ``usual`` one, which whatever holds the part gave it; neither is 0 where
+    that stands for no value. ``fidelity``: the level, "" if it is not known.
     """
+    return _idle(model, params, fidelity, tuple((usual or {}).items()))
+
+
+@lru_cache(maxsize=256)
+def _idle(
+    model: str, params: Any, fidelity: str, given: tuple[tuple[str, Any], ...]
+) -> tuple[str, ...]:
     found: dict[str, list[str]] = {}
-    spec = find_spec(model)
+    spec, usual = find_spec(model), dict(given)
     gone, fidelity = gone_level(spec, fidelity), spec.successors.get(fidelity, fidelity)
     for f in fields(params):
         own = getattr(params, f.name)
-        pairs = unread(params, f.name, fidelity) if own != 0.0 else []
-        if pairs and all(own != getattr(start, f.name) for start in _starts(model).values()):
-            why = why_unread(params, pairs, fidelity)
+        is_own = own not in (0.0, usual.get(f.name))
+        failing = unread(params, f.name, fidelity) if is_own else []
+        if failing and all(own != getattr(start, f.name) for start in _starts(model).values()):
+            why = why_unread(params, failing, fidelity)
             found.setdefault(why, []).append(_shown(params, f.name))
     return (*gone, *(f"{', '.join(names)} {why}" for why, names in found.items()))
 

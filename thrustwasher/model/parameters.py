@@ -14,6 +14,7 @@ from ..errors import ParameterError
 from ..moved import now_named
 from ..units import into_range, meant
 from .spec import ModelSpec, Rule, derived
+from .unread import condition_words
 
 T = TypeVar("T")
 Renew = Callable[[dict[str, Any]], dict[str, Any]]
@@ -23,24 +24,25 @@ EARLIER: dict[type[Any], tuple[dict[str, Any], Renew, Callable[[Any], dict[str, 
 def quantity(default: float, unit: str, low: float, high: float, text: str, **extra: object) -> Any:
     """Return a real-valued field; ``low`` and ``high`` belong to the allowed range.
 
-    ``tunable=True``: an FMU's host may change it between two steps. ``overrides``, ``belongs_to``,
-    ``read_by``: see ``model.idle``. ``at_zero``: what counts where the value is 0, the name of a
-    parameter or input, or a function of all parameters; else the one parameter it ``overrides``.
+    ``tunable=True``: an FMU's host may change it between two steps. ``overrides``, ``belongs_to``:
+    see ``model.idle``; ``read_by``, ``read_with``, ``only_for``: ``model.unread``. ``at_zero``:
+    what counts where the value is 0, the name of a parameter or input, or a function of all
+    parameters; else the one parameter it ``overrides``.
     """
-    meta = {"kind": "real", "unit": unit, "min": low, "max": high, "help": text, **extra}
-    return field(default=default, metadata=meta)
+    meta = {"kind": "real", "unit": unit, "min": low, "max": high}
+    return field(default=default, metadata=_described(meta, text, extra))
 
 
 def count(default: int, low: int, high: int, text: str, **extra: object) -> Any:
     """Return an integer field; both bounds are allowed."""
-    meta = {"kind": "integer", "unit": "1", "min": low, "max": high, "help": text, **extra}
-    return field(default=default, metadata=meta)
+    meta = {"kind": "integer", "unit": "1", "min": low, "max": high}
+    return field(default=default, metadata=_described(meta, text, extra))
 
 
 def flag(default: bool, text: str, **extra: object) -> Any:
     """Return a Boolean field."""
-    meta = {"kind": "boolean", "unit": "1", "min": 0, "max": 1, "help": text, **extra}
-    return field(default=default, metadata=meta)
+    meta = {"kind": "boolean", "unit": "1", "min": 0, "max": 1}
+    return field(default=default, metadata=_described(meta, text, extra))
 
 
 def choice(
@@ -52,12 +54,27 @@ def choice(
         "unit": "1",
         "min": 1,
         "max": len(options),
-        "help": text,
         "options": dict(options),
         "type": type_name,
-        **extra,
     }
-    return field(default=default, metadata=meta)
+    return field(default=default, metadata=_described(meta, text, extra))
+
+
+def _described(
+    meta: dict[str, object], text: str, extra: Mapping[str, object]
+) -> dict[str, object]:
+    """Return all metadata of a field; its help names the condition under which it is read."""
+    return {**meta, **extra, "help": text + condition_words(extra)}
+
+
+def read_with(conditions: tuple[Any, ...], given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return fields that are read only where these conditions hold, see ``model.unread``."""
+    found = {}
+    for name, f in given.items():
+        text = f.metadata["help"].removesuffix(condition_words(f.metadata))
+        more = {**f.metadata, "read_with": (*f.metadata.get("read_with", ()), *conditions)}
+        found[name] = field(default=f.default, metadata=_described({}, text, more))
+    return found
 
 
 def allowed(meta: Any) -> str:

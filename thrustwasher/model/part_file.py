@@ -204,9 +204,9 @@ class PartFile:
         scatter = read_scatter("[scatter]", given, places | also)
         idle = {}
         for name in scatter.names:
-            pairs = unread(params, name, self.fidelity)
-            if pairs and not any(by in scatter.names for by, _ in pairs):
-                idle[name] = why_unread(params, pairs, self.fidelity)
+            failing = unread(params, name, self.fidelity)
+            if failing and not any(c.by in scatter.names for c in failing):
+                idle[name] = why_unread(params, failing, self.fidelity)
         doubts = (f"scatter of {name} {why}" for name, why in idle.items())
         return replace(scatter, warnings=(*scatter.warnings, *doubts))
 

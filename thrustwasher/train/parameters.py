@@ -9,8 +9,9 @@ from typing import Any
 
 from ..errors import ParameterError, within
 from ..gearmesh.parameters import GearMeshParams
-from ..model.parameters import check_ranges, choice, count, extended, quantity
+from ..model.parameters import check_ranges, choice, count, extended, quantity, read_with
 from ..model.spec import ModelSpec, Rule
+from ..model.unread import condition_words
 from .kernels import layout as L
 from .train_signals import INPUTS, OUTPUTS, TERMINALS, absent_outputs
 
@@ -31,6 +32,13 @@ BEARINGS = {
     "taper": "taper roller bearing",
 }
 PAIR = tuple(f.name for f in fields(GearMeshParams))
+SHARED = tuple(PAIR[k] for k in L.SHARED)
+# Of a mesh in a train: what decides no more than its status, and what decides nothing that a train
+# tells.
+FOR_STATUS = {"oil_conductivity", "oil_heat_capacity", "asperity_group", "hardness_factor"} | {
+    *("area_law", "area_ratio", "switch", "asperity_base")
+}
+UNUSED = {"thermal_expansion", "permissible_film_ratio"}
 BASIC = ("kind", "unit", "min", "max", "help", "options", "type", "relative")
 CENTRE_LINE = "direction of the centre line from driver to driven, from y to z"
 DEG, MM = math.radians(1.0), 1e-3
@@ -86,7 +94,12 @@ class _TrainParams:
         "SKF's K_rs, all bearings: 3e-8 oil bath or jet (0: never starved)",
     )
     required_life: float = quantity(
-        0.0, "s", 0.0, 1e12, "basic rating life below which a bearing is warned of (0: none)"
+        0.0,
+        "s",
+        0.0,
+        1e12,
+        "basic rating life below which a bearing is warned of (0: none)",
+        only_for="warnings of results in Python",
     )
 
     def __post_init__(self) -> None:
@@ -111,11 +124,22 @@ def pair_of(params: Any, mesh: int) -> GearMeshParams:
     return GearMeshParams(**values, holding="off")
 
 
-def _taken(name: str, more: dict[str, Any], words: str = "") -> Any:
-    """Return a field of the gear mesh, with another default; ``words`` before its help."""
+def _taken(name: str, more: dict[str, Any], words: str = "", before: str = "") -> Any:
+    """Return a field of the gear mesh, with another default; ``words`` before its help.
+
+    ``before``: what stands before the names of the mesh's other parameters.
+    """
     own: Field[Any] = next(f for f in fields(GearMeshParams) if f.name == name)
     meta = {key: value for key, value in own.metadata.items() if key in BASIC}
-    meta["help"] = words + meta["help"]
+    text = words + meta["help"].removesuffix(condition_words(own.metadata))
+    extra: dict[str, Any] = {
+        key: tuple((first if first in SHARED else before + first, *rest) for first, *rest in by)
+        for key in ("read_by", "read_with")
+        if (by := own.metadata.get(key))
+    }
+    extra |= {"only_for": "the status of a mesh"} if name in FOR_STATUS else {}
+    extra |= {"read_by": ()} if name in UNUSED else {}
+    meta |= {**extra, "help": text + condition_words(extra)}
     return field(default=more.get(name, own.default), metadata=meta)
 
 
@@ -134,7 +158,7 @@ def _of_mesh(i: int) -> dict[str, Any]:
         found[f"{gear}_immersion"] = quantity(
             own.get(f"{gear}_immersion", 0.0), "1", 0.0, 0.5, text
         )
-    found |= {PAIR[k]: _taken(PAIR[k], own, words) for k in L.OWN}
+    found |= {PAIR[k]: _taken(PAIR[k], own, words, f"mesh_{i}_") for k in L.OWN}
     return {f"mesh_{i}_{name}": f for name, f in found.items()}
 
 
@@ -147,9 +171,20 @@ def _of_shaft(i: int) -> dict[str, Any]:
     axial = "first" if own["type"] == "ball" else "pushed"
     found = {
         "axial": choice(axial, AXIAL, "Axial", f"{words}which bearing takes the axial force"),
-        "seals": count(own.get("seals", 0), 0, 4, f"{words}number of lip seals"),
+        "seals": count(
+            own.get("seals", 0),
+            0,
+            4,
+            f"{words}number of lip seals",
+            read_by=((f"shaft_{i}_seal_diameter", ">", 0.0),),
+        ),
         "seal_diameter": quantity(
-            own.get("seal_diameter", 0.0), "m", 0.0, 1.0, f"{words}diameter under a lip seal"
+            own.get("seal_diameter", 0.0),
+            "m",
+            0.0,
+            1.0,
+            f"{words}diameter under a lip seal",
+            read_by=((f"shaft_{i}_seals", ">", 0),),
         ),
     }
     for k in (1, 2):
@@ -177,9 +212,10 @@ def _of_bearing(own: dict[str, Any], k: int, words: str) -> Any:
 
 _MORE = {PAIR[k]: _taken(PAIR[k], OIL) for k in L.SHARED}
 for _i in range(1, L.MESHES + 1):
-    _MORE |= _of_mesh(_i)
+    _MORE |= read_with((("meshes", ">=", _i),), _of_mesh(_i)) if _i > 1 else _of_mesh(_i)
 for _i in range(1, L.SHAFTS + 1):
-    _MORE |= _of_shaft(_i)
+    _there = (("meshes", ">=", _i - 1),)  # the shaft behind that mesh
+    _MORE |= read_with(_there, _of_shaft(_i)) if _i > 2 else _of_shaft(_i)
 TrainParams: Any = extended(_TrainParams, "TrainParams", _MORE)
 RULES = tuple(
     Rule(

@@ -7,10 +7,12 @@ from typing import Any
 import numpy as np
 
 from ..errors import SolveError, Status
+from ..gearmesh.parameters import SPEC as PAIR
 from ..gearmesh.solve import solve_gearmesh
 from ..losses.kernels import loss_laws as laws
 from ..losses.loss_ranges import DEPTH, FAST, FROUDE, REYNOLDS
 from ..model.advice import warnings_of
+from ..model.idle import idle_warnings
 from ..model.levels import level_named
 from ..model.parameters import check_number
 from ..model.prepare import filled
@@ -125,7 +127,10 @@ def solve_train(
         status=status,
         fidelity=level_named(SPEC, fidelity),
         _request=Asked(SPEC.key, params, {**point, "fidelity": fidelity}),
-        warnings=tuple(warnings_of(SPEC, status, point, shown, doubts)),
+        warnings=(
+            *idle_warnings(SPEC.key, params),
+            *warnings_of(SPEC, status, point, shown, doubts),
+        ),
     )
 
 
@@ -187,7 +192,12 @@ def _of_meshes(params: Any, point: Mapping[str, float], shown: Mapping[str, Any]
                 oil_temperature=point["oil_temperature"],
                 throw=False,
             )
-            yield from (words + text for text in own.warnings if "oil_temperature" not in text)
+            told = idle_warnings(PAIR.key, pair, own.fidelity)  # of the train's parameters
+            yield from (
+                words + text
+                for text in own.warnings
+                if "oil_temperature" not in text and text not in told
+            )
             yield from _of_churning(params, i, abs(pinion), radius, point["oil_temperature"])
         speed = -speed / pair.gear_ratio if drives else pinion
 

@@ -57,6 +57,11 @@ PROFILES = {  # of points in time; what is out of use next to the engine's: its 
     "engine_torque": ("N.m", -1e5, 1e5, "engine torque"),
 }
 POINTS = 10  # of a profile at most
+# What lets other parameters be read.
+NO_POINTS = (("engine_torque_points", 0),)
+WITH_HEAD = (("piston_outer_radius", ">", 0.0),)
+HELICAL = (("helix_angle", ">", 0.0),)
+NO_NEEDLES, NEEDLES = (("needle_count", 0),), (("needle_count", ">", 0),)
 
 
 def profile_fields(name: str, points: Sequence[tuple[float, float]]) -> dict[str, float]:
@@ -129,6 +134,7 @@ RULES = (
 
 def _piston(pack: str) -> dict[str, Any]:
     its = f"the {pack}'s"
+    pressed = (("actuation", "pressure"),)
     given = {
         "piston_area": (8e-3, "m2", 0.0, 10.0, f"area of {its} piston"),
         "return_spring": (3e4, "Pa", 0.0, 1e8, f"pressure that holds {its} return spring"),
@@ -142,16 +148,33 @@ def _piston(pack: str) -> dict[str, Any]:
             f"time constant of {its} pressure behind its command",
         ),
     }
-    return {f"{pack}_{name}": quantity(*about) for name, about in given.items()}
-
-
-def _profile(name: str, unit: str, low: float, high: float, text: str) -> dict[str, Any]:
-    time, value = f"{text}: time of point", f"{text}: value of point"
-    n = range(1, POINTS + 1)
+    by = {"fill_flow": ((f"{pack}_fill_volume", ">", 0.0),)}
     return {
-        f"{name}_points": count(0, 0, POINTS, f"number of points of the {text} over time"),
-        **{f"{name}_time_{i}": quantity(0.0, "s", -1e6, 1e6, f"{time} {i}") for i in n},
-        **{f"{name}_{i}": quantity(0.0, unit, low, high, f"{value} {i}") for i in n},
+        f"{pack}_{name}": quantity(*about, read_by=by.get(name, pressed))
+        for name, about in given.items()
+    }
+
+
+def _profile(
+    name: str, unit: str, low: float, high: float, text: str, **more: Any
+) -> dict[str, Any]:
+    """Return the parameters of a profile; one point alone holds at all times."""
+    time, value = f"{text}: time of point", f"{text}: value of point"
+    n, points = range(1, POINTS + 1), f"{name}_points"
+    return {
+        points: count(0, 0, POINTS, f"number of points of the {text} over time", **more),
+        **{
+            f"{name}_time_{i}": quantity(
+                0.0, "s", -1e6, 1e6, f"{time} {i}", read_by=((points, ">=", max(i, 2)),)
+            )
+            for i in n
+        },
+        **{
+            f"{name}_{i}": quantity(
+                0.0, unit, low, high, f"{value} {i}", read_by=((points, ">=", i),)
+            )
+            for i in n
+        },
     }
 
 
@@ -192,49 +215,102 @@ class _TransmissionParams:
     initial_drum_speed: float = quantity(
         0.0, "rad/s", -5e3, 5e3, "drum speed at the start", also="initial_ring_speed"
     )
-    engine_torque: float = quantity(150.0, "N.m", -1e5, 1e5, "engine torque once it is on")
-    engine_start_time: float = quantity(0.0, "s", -1e9, 1e9, "time the engine torque is turned on")
+    engine_torque: float = quantity(
+        150.0, "N.m", -1e5, 1e5, "engine torque once it is on", read_by=NO_POINTS
+    )
+    engine_start_time: float = quantity(
+        0.0, "s", -1e9, 1e9, "time the engine torque is turned on", read_by=NO_POINTS
+    )
     load_torque: float = quantity(250.0, "N.m", 0.0, 1e6, "load torque at load_speed, grows as w^2")
     load_speed: float = quantity(100.0, "rad/s", 1e-3, 1e4, "output speed load_torque belongs to")
     clutch_force: float = _force("clutch load at shift_command = 1")
     brake_force: float = _force("brake load at shift_command = 0")
     washers: int = count(8, 0, 100, "number of thrust washers on all planets together")
-    washer_radius: float = quantity(0.0085, "m", 1e-3, 1.0, "radius the washer's load acts at")
-    thrust_share: float = quantity(0.1, "1", 0.0, 1.0, "share of tilting couple washers take")
-    planet_tilt: float = quantity(1.6e-3, "rad", 0.0, 0.01, "tilt of a planet on its pin")
+    washer_radius: float = quantity(
+        0.0085, "m", 1e-3, 1.0, "radius the washer's load acts at", read_by=HELICAL
+    )
+    thrust_share: float = quantity(
+        0.1,
+        "1",
+        0.0,
+        1.0,
+        "share of tilting couple washers take",
+        read_with=(*NO_NEEDLES, *HELICAL),
+    )
+    planet_tilt: float = quantity(
+        1.6e-3, "rad", 0.0, 0.01, "tilt of a planet on its pin", read_by=NO_NEEDLES
+    )
     oil_temperature: float = quantity(297.15, "K", 233.15, 473.15, "temperature of the sump oil")
     coupling: str = choice("capacity", COUPLING, "Coupling", "what the packs' torque inputs carry")
-    capacity_extrapolation: bool = flag(True, "capacities go on changing as in the step before")
-    torque_age: int = count(0, 0, 2, "steps the received torques are old (1: parallel master)")
+    capacity_extrapolation: bool = flag(
+        True,
+        "capacities go on changing as in the step before",
+        read_by=(("coupling", "capacity"),),
+    )
+    torque_age: int = count(
+        0,
+        0,
+        2,
+        "steps the received torques are old (1: parallel master)",
+        read_by=(("capacity_extrapolation", True),),
+    )
     tolerance: float = quantity(1e-11, "1", 1e-13, 1e-4, "relative error of the inner integration")
     shaft_stiffness: float = quantity(0.0, "N.m/rad", 0.0, 1e9, "output shaft (0: rigid)")
     shaft_damping: float = quantity(0.0, "N.m.s/rad", 0.0, 1e6, "damping of the output shaft")
-    vehicle_inertia: float = quantity(8.0, "kg.m2", 1e-6, 1e6, "inertia behind an elastic shaft")
+    vehicle_inertia: float = quantity(
+        8.0,
+        "kg.m2",
+        1e-6,
+        1e6,
+        "inertia behind an elastic shaft",
+        read_by=(("shaft_stiffness", ">", 0.0),),
+    )
     initial_twist: float = quantity(0.0, "rad", -10.0, 10.0, "twist of the shaft at the start")
     actuation: str = choice("command", ACTUATION, "Actuation", "what presses the packs")
     piston_inner_radius: float = quantity(
-        0.0, "m", 0.0, 1.0, "of the clutch's piston, which turns with the drum"
+        0.0, "m", 0.0, 1.0, "of the clutch's piston, which turns with the drum", read_by=WITH_HEAD
     )
     piston_outer_radius: float = quantity(
-        0.0, "m", 0.0, 1.0, "of the clutch's piston (0: no centrifugal head)"
+        0.0,
+        "m",
+        0.0,
+        1.0,
+        "of the clutch's piston (0: no centrifugal head)",
+        read_by=(("actuation", "pressure"),),
     )
     piston_supply_radius: float = quantity(
-        0.0, "m", 0.0, 1.0, "where oil enters the turning piston"
+        0.0, "m", 0.0, 1.0, "where oil enters the turning piston", read_by=WITH_HEAD
     )
-    balance_share: float = quantity(0.0, "1", 0.0, 1.0, "share of the head a balance chamber takes")
-    oil_density: float = quantity(850.0, "kg/m3", 500.0, 1500.0, "density of the oil in the piston")
+    balance_share: float = quantity(
+        0.0, "1", 0.0, 1.0, "share of the head a balance chamber takes", read_by=WITH_HEAD
+    )
+    oil_density: float = quantity(
+        850.0, "kg/m3", 500.0, 1500.0, "density of the oil in the piston", read_by=WITH_HEAD
+    )
     rolling_torque: float = quantity(0.0, "N.m", 0.0, 1e6, "load against the motion at any speed")
     grade_torque: float = quantity(0.0, "N.m", -1e6, 1e6, "load at any speed and rest, of a slope")
     ring_mesh: bool = flag(
         False, "ring_mesh_torque is the ring meshes' loss (False: mesh_torque stands for both)"
     )
     needle_count: int = count(0, 0, 100, "needles under a planet (0: thrust_share, planet_tilt)")
-    needle_length: float = quantity(0.02, "m", 1e-3, 1.0, "length of a needle, both rows together")
-    needle_clearance: float = quantity(15e-6, "m", 0.0, 1e-3, "radial clearance of the needles")
-    needle_slices: int = count(10, 1, 50, "slices of a needle that are pressed apart")
-    planet_mass: float = quantity(0.1, "kg", 0.0, 1e4, "of a planet, which its needles hold")
-    washer_outer_radius: float = quantity(0.0115, "m", 1e-3, 1.0, "where a tilted planet touches")
-    end_play: float = quantity(3e-4, "m", 0.0, 0.1, "of a planet between its washers, in all")
+    needle_length: float = quantity(
+        0.02, "m", 1e-3, 1.0, "length of a needle, both rows together", read_by=NEEDLES
+    )
+    needle_clearance: float = quantity(
+        15e-6, "m", 0.0, 1e-3, "radial clearance of the needles", read_by=NEEDLES
+    )
+    needle_slices: int = count(
+        10, 1, 50, "slices of a needle that are pressed apart", read_by=NEEDLES
+    )
+    planet_mass: float = quantity(
+        0.1, "kg", 0.0, 1e4, "of a planet, which its needles hold", read_by=NEEDLES
+    )
+    washer_outer_radius: float = quantity(
+        0.0115, "m", 1e-3, 1.0, "where a tilted planet touches", read_by=NEEDLES
+    )
+    end_play: float = quantity(
+        3e-4, "m", 0.0, 0.1, "of a planet between its washers, in all", read_by=NEEDLES
+    )
 
     def __post_init__(self) -> None:
         check_ranges(self)
@@ -262,7 +338,8 @@ class _TransmissionParams:
 _MORE = {k: x for name in BEARINGS for k, x in bearing_fields(name).items()}
 _MORE |= _piston("clutch") | _piston("brake")
 for _name, _about in PROFILES.items():
-    _MORE |= _profile(_name, *_about)
+    _pressed = {} if _name == "engine_torque" else {"read_by": (("actuation", "pressure"),)}
+    _MORE |= _profile(_name, *_about, **_pressed)
 TransmissionParams = other_names(extended(_TransmissionParams, "TransmissionParams", _MORE))
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import fields
 from enum import IntEnum
+from itertools import groupby
 from math import isfinite
 from struct import pack, unpack
 from typing import Any
@@ -13,6 +14,7 @@ from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from ...model.levels import gone_level
 from ...model.prepare import fill_table, is_of_table, wants_table
 from ...model.registry import kernel_of
+from ...model.unread import unread
 from ...native.load import bound
 from ...units import into_range
 from ..description.interface import Interface, Variable
@@ -25,6 +27,9 @@ RANGES = {
     "input, or [box] in the part file",
     "OUTSIDE_VERIFIED: ": "for which the accuracy was verified; use with care",
 }
+
+
+MOST_UNUSED = 6  # parameters that are named one by one
 
 
 class Mode(IntEnum):
@@ -375,7 +380,8 @@ class Core:
         if self._warned < 0:
             number = int(self.par.item(len(fields(self.spec.params))))
             level = list(self.spec.fidelities)[number - 1]
-            found += [begin + text for text in gone_level(self.spec, level)]
+            told = (*gone_level(self.spec, level), *self._unused(level))
+            found += [begin + text for text in told]
         unverified = any(self._is_beyond(1, i) for i in range(len(self.shown.inputs)))
         is_known = status == self._warned or (status is Status.OUTSIDE_VERIFIED and unverified)
         self._warned = status
@@ -414,6 +420,29 @@ class Core:
         """Tell if an input is outside a range of its own: 0 the part's box, 1 what was verified."""
         low, high = self._ranges[k][i]
         return not low <= into_range(low, high, self.inp.item(self.shown.inputs[i].slot)) <= high
+
+    def _unused(self, level: str) -> list[str]:
+        """Return which parameters were set away from their starts and are not used, in a line."""
+        params, level = self._parameters(), self.spec.successors.get(level, level)
+        lines = []
+        for v in self.shown.parameters:
+            failing = unread(params, v.name, level) if self._value(v) != v.start else []
+            if failing:
+                named = [self._setting(by) for by, _ in groupby(c.by for c in failing) if by]
+                why = f": {', '.join(named)}" if named else ""
+                lines.append(f"{self._setting(v.name)} is not used{why}")
+        more = [f"and {len(lines) - MOST_UNUSED} more"] if len(lines) > MOST_UNUSED else []
+        return ["; ".join(lines[:MOST_UNUSED] + more)] if lines else []
+
+    def _setting(self, name: str) -> str:
+        """Return name and value of a parameter in words."""
+        v = next(v for v in self.shown.parameters if v.name == name)
+        value = self._value(v)
+        if v.type_name:
+            return f"{name} = {self.shown.enumerations[v.type_name][int(value) - 1].name}"
+        if v.type == "Boolean":
+            return f"{name} = {'true' if value else 'false'}"
+        return self._point([v])
 
     @property
     def status(self) -> Status:

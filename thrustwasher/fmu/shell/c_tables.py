@@ -15,6 +15,7 @@ import numpy as np
 from ...errors import FIRST_FAILURE, Status
 from ...model.levels import gone_level
 from ...model.registry import kernel_of
+from ...model.unread import RELATIONS, all_conditions
 from ...native.shipped import digest_now
 from ..description.interface import LOG_CATEGORIES, Interface, Variable
 from ..description.model_description import TYPES
@@ -135,6 +136,7 @@ def _lists(shown: Interface) -> dict[str, tuple[str, list[str]]]:
             "Enumeration",
             [(n, len(items), _Code(f"ITEMS_{n}")) for n, items in shown.enumerations.items()],
         ),
+        "CONDITIONS": ("Condition", _conditions(shown)),
         "STATUSES": ("StatusText", [(int(s), s.name, s.advice) for s in sorted(Status)]),
         "SWITCHES": ("Switch", [_switch(shown, slot, events) for slot, events in shown.switches]),
         "COUNTS": ("Count", shown.counts),
@@ -177,6 +179,25 @@ def _variable(v: Variable, inputs: Sequence[str], names: Sequence[str]) -> list[
         int(v.variability == "tunable"),
         _Code(f"TYPE_BIT({kind}) | CAUSE_BIT({cause})"),
     ]
+
+
+def _conditions(shown: Interface) -> list[list[Any]]:
+    """Return what lets parameters be used; a level that is gone counts as that which runs."""
+    places = {v.name: v for v in shown.parameters}
+    gone = shown.spec.successors
+    found = []
+    for name, own in all_conditions(shown.spec.params).items():
+        for c in own:
+            by = places.get(c.by)
+            kind = (by and by.type_name) or ""
+            items = {i.name: i.value for i in shown.enumerations.get(kind, ())}
+            same = [old for old, new in gone.items() if new == c.value and c.by == "fidelity"]
+            for value in (c.value, *same):
+                number = float(items[value] if items else value)
+                relation = list(RELATIONS).index(c.relation)
+                row = [places[name].reference, by.reference if by else -1, relation]
+                found.append([_Code(number.hex()), *row, int(c.is_required), int(c.follows)])
+    return found
 
 
 def _switch(shown: Interface, slot: int, events: tuple[str, str]) -> list[Any]:

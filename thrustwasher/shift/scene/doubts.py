@@ -37,9 +37,9 @@ def idle_parameters(scene: Scene) -> Iterator[str]:
     for name, part in scene.parts.items():
         is_pack, level = isinstance(part.params, ClutchParams), part.asked or part.fidelity
         for line in (
-            doubts_of_pack(part.params, level)
+            doubts_of_pack(part.params, level, part.usual)
             if is_pack
-            else idle_warnings(part.spec.key, part.params, level)
+            else idle_warnings(part.spec.key, part.params, level, part.usual)
         ):
             yield f"[{name}] {line}"
 

@@ -36,6 +36,8 @@ class Part:
     """Name, notes and box of its part file, as packages show them."""
     scatter: Mapping[str, Any] = field(default_factory=dict, compare=False)
     """What scatters by its part file or preset: a law by the parameter's name."""
+    usual: Mapping[str, Any] = field(default_factory=dict, compare=False)
+    """Parameters that the scene and its oil give it, which nobody gave for this part."""
     asked: str = field(default="", compare=False)
     """Name by which the level was requested; it may be that of one that is gone."""
 

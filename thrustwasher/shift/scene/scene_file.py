@@ -457,6 +457,7 @@ def _made_part(
         params=params,
         labels=start.about if start and "part" in table else {},
         scatter=_own_scatter(start, {*known} - {*given, *common}) if start else {},
+        usual={n: getattr(params, n) for n in {**usual, **common} if n not in given},
     )
     return part.asked_for(where, level), lost
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from ...errors import ParameterError
 from ...model.toml_tables import nothing_else, number, quantity
-from ...transmission.parameters import PROFILES, profile_fields, profile_points
+from ...transmission.parameters import POINTS, PROFILES, profile_fields, profile_points
 from .scene import STEP_RANGE, Scene, ShiftSequence, shift_of_pressures
 from .scene_tables import points_of
 
@@ -103,7 +103,9 @@ def checked_sequence(where: str, whole: Scene, sequence: ShiftSequence) -> Scene
                 f"{where}: window = {sequence.window:g} s, allowed: from {last:g} s on, where the "
                 f"pressures of a shift {way} have settled; steps grow long behind the window"
             )
-    none = {f"{name}_points": 0 for name in PROFILES}
+    none: dict[str, Any] = {}
+    for name in PROFILES:
+        none |= profile_fields(name, [(0.0, 0.0)] * POINTS) | {f"{name}_points": 0}
     if gearbox.params.engine_torque_points:
         none["engine_torque"] = 0
     parts = {

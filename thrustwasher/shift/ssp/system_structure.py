@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 from ...errors import ParameterError
 from ...model.spec import ModelSpec, Signal, tailored
 from ...model.toml_tables import table_beside
+from ...model.unread import unread
 from ..cosim.system import Stepping
 from ..run import connected
 from ..scene.connections import COMMAND, SOURCE, SOURCE_SPEC, Link, wired
@@ -32,7 +33,10 @@ Starts = Mapping[str, Mapping[str, float]]
 
 
 class Component(NamedTuple):
-    """One FMU of the system: its model, parameters, start values and connected inputs."""
+    """One FMU of the system: its model, parameters, start values and connected inputs.
+
+    Parameters that are not used are left out: the FMU has all of them as its defaults.
+    """
 
     name: str
     spec: ModelSpec
@@ -146,7 +150,7 @@ def _component(
         spec=tailored(
             part.spec, given, values, stop_time=span, step_size=scene.step, **part.labels
         ),
-        parameters=given,
+        parameters={n: x for n, x in given.items() if not unread(part.params, n, part.fidelity)},
         starts=values,
         inputs=tuple(s for s in part.spec.inputs if s.name in fed),
     )

@@ -99,7 +99,7 @@ class ShiftResult(Tabled):
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What must not be missed, a line each: doubts about the figures, then faults they show."""
+        """What must not be missed, a line each, the most severe first."""
         return tuple(warnings_of(self)) if self.said is None else self.said
 
     def comparison(self) -> list[dict[str, Any]]:

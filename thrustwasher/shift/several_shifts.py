@@ -29,6 +29,7 @@ from .scene.scene import Scene
 from .scene.sequence import sequence_of, shift_scene, times
 from .sequence_rows import EveryPoint, FiguresAlone, read_shift
 from .shift_result import ShiftResult
+from .warning_texts import Ranked
 
 KEEP = ("all", "figures")  # of a run's points
 # Input of the transmission -> profile that drives it.
@@ -213,7 +214,7 @@ def _guarded(
             break
         try:
             errors[i] = error = by_step(shift, _finer(shift, i, windows, drive))
-            found += [f"Shift {i + 1}: {text}" for text in error.warnings()]
+            found += [Ranked(f"Shift {i + 1}: {text}") for text in error.warnings()]
         except (ParameterError, SolveError) as problem:
             found.append(
                 f"The step of shift {i + 1} was not checked: a second run failed ({problem})"

@@ -99,7 +99,7 @@ class ShiftResult(Tabled):
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What must not be missed, a line each: doubts about the figures, then faults they show."""
+        """What must not be missed, a line each, the most severe first."""
         return tuple(warnings_of(self)) if self.said is None else self.said
 
     def comparison(self) -> list[dict[str, Any]]:
@@ -176,9 +176,9 @@ class ShiftResult(Tabled):
             if figure.value is None:
                 continue
             at = [] if figure.time is None else [f"at {figure.time:.4g} s"]
-            if (band := record.band(figure.name)) is not None:
-                ends = (figure.words(band.quantiles[level], 4) for level in (0.05, 0.95))
-                at.append(f"5 .. 95 %: {' .. '.join(ends)}")
+            if (spread := record.spread(figure.name)) is not None:
+                low, middle, high = (figure.words(x, 4) for x in spread)
+                at.append(f"median {middle}, 5 .. 95 %: {low} .. {high}")
             words = "; ".join((figure.text, *at))
             lines.append(Line(figure.name, figure.words(figure.value, 4), words))
         return Card(self.scene.title, lines, list(sentences(record)), self.warnings)

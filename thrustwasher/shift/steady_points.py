@@ -70,7 +70,7 @@ class EfficiencyMap(Tabled):
         )
         places = list(zip(self.columns["torque"], self.columns["speed"], strict=True))
         found = of_whole_map(places, self.doubts)
-        return (*self.scene.warnings, *remarks(self.scene), *(() if lost else (none,)), *found)
+        return (*found, *self.scene.warnings, *remarks(self.scene), *(() if lost else (none,)))
 
     def to_dict(self) -> dict[str, Any]:
         """Return scene, gear, columns, balance and warnings as JSON can hold them, SI units."""

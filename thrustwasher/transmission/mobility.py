@@ -4,11 +4,15 @@ from typing import NamedTuple
 
 
 class Mobility(NamedTuple):
-    """Accelerations per torque [1/(kg m2)] of slip and twist; ``cross``: of one by the other."""
+    """Accelerations per torque [1/(kg m2)] of slip and twist; ``cross``: of one by the other.
+
+    ``drive``: of the slip by a torque at the driven gear; ``cross`` is that by one at the carrier.
+    """
 
     slip: float
     cross: float
     twist: float
+    drive: float = 0.0
 
     @property
     def determinant(self) -> float:
@@ -32,5 +36,8 @@ def planetary(
     # slip = a sun + b carrier
     a, b = ((1.0 + r) / r, -(1.0 + r) / r) if pack == "clutch" else (-1.0 / r, (1.0 + r) / r)
     return Mobility(
-        a * a * i_ss + 2.0 * a * b * i_sc + b * b * i_cc, a * i_sc + b * i_cc, i_cc + 1.0 / vehicle
+        a * a * i_ss + 2.0 * a * b * i_sc + b * b * i_cc,
+        a * i_sc + b * i_cc,
+        i_cc + 1.0 / vehicle,
+        a * i_ss + b * i_sc,
     )

@@ -36,7 +36,7 @@ const answers = runs.map(({ profiles = {}, washers, draw = null }) => {
     while (!step.done);
     const { figures, warnings } = step.value;
     const told = warnings.map((parts) => parts.map((own) => textOf(about.warnings.texts, own, say)).join(""));
-    return { figures, warnings: [...about.warnings.always, ...told], keys: warnings.map(([[key]]) => key) };
+    return { figures, warnings: told, keys: warnings.map(([[key]]) => key) };
   } catch (problem) {
     return { problem: problem.message };
   }

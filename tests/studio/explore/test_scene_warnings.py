@@ -12,6 +12,11 @@ from thrustwasher.shift import load_scene
 
 TIED = [[0.1, 0], [0.11, 4e4], [0.2, 4e4], [0.422, 5.61e5], [0.79, 3.41e5]]
 TIED = {"clutch_pressure": [*TIED, [0.865, 3.46e5], [0.935, 7.2e5]]}
+WEAK = [
+    {"brake_pressure": [[0, 2e5], [0.16, 2e5], [0.2, 1.8e5], [0.36, 8e4], [0.38, 0]]},
+    {"clutch_pressure": [[0.1, 0], [0.11, 4e4], [0.2, 4e4], [0.4, 2.3e5]]},
+    {"clutch_pressure": [[0.1, 0], [0.11, 4e4], [0.2, 4e4], [0.4, 1.3e5], [0.97, 1.7e5]]},
+]
 OUTSIDE = ("judder", "chatter", "The brake is let go", "The clutch is let go")
 
 
@@ -37,12 +42,12 @@ def at_once(result):
 
 @functools.cache
 def of_profiles():
-    every = [TIED, *drawn_profiles(10, 5)]
+    every = [TIED, *WEAK, *drawn_profiles(10, 5)]
     return every, page_runs("planetary", [{"profiles": p, "washers": ""} for p in every])
 
 
 @node
-@pytest.mark.parametrize("k", range(11))
+@pytest.mark.parametrize("k", range(14))
 @pytest.mark.slow
 def test_profiles_give_the_warnings_of_pythons_loop(k, tmp_path):
     every, found = of_profiles()
@@ -59,6 +64,14 @@ def test_profiles_give_the_warnings_of_pythons_loop(k, tmp_path):
 def test_a_tie_up_is_seen_in_the_page():
     _, (found, *_) = of_profiles()
     assert any(w.startswith("Tie-up: from ") for w in found["warnings"])
+
+
+@node
+def test_a_weak_pack_is_the_first_word_in_the_page():
+    _, found = of_profiles()
+    for one, pack in zip(found[1:3], ("brake", "clutch"), strict=True):
+        assert one["warnings"][0].startswith(f"The {pack} is too weak for ")
+    assert "; The clutch is too weak for second gear: " in found[3]["problem"]
 
 
 @node

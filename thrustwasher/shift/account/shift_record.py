@@ -1,5 +1,6 @@
 """A finished shift as plain data: what sentences, reports and pages are made of."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from typing import Any, NamedTuple
@@ -136,6 +137,14 @@ class Record:
         """Return a figure's name in a study; "" where none has it."""
         known = self.scatter.figures if self.scatter else {}
         return next((n for n in (name, f"minimum_{name}") if n in known), "")
+
+    def spread(self, name: str) -> tuple[float, float, float] | None:
+        """Return 5, 50 and 95 % quantile of a figure, by a study or known of its scene, or None."""
+        found = self.band(name) or self.known.get(name)
+        low, middle, high = (
+            found.quantiles.get(q, math.nan) if found else math.nan for q in (0.05, 0.5, 0.95)
+        )
+        return (low, middle, high) if low < high and math.isfinite(middle) else None
 
     @property
     def releasing(self) -> str:

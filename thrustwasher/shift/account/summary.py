@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from ..warning_texts import warning
+from ..warning_texts import Ranked, rank_of, severest_first, warning
 from .shift_record import Record, record_of
 from .swing_texts import chatter_texts, judder_text
 from .what_happened import pitting_safety, scuffing_safety, sentences, stress_words
@@ -17,24 +17,26 @@ QUANTITY = re.compile(r"-?\d\S*( [^\s\d.]\S*)?")  # a number, and a word behind 
 
 
 def warnings(r: Record) -> list[str]:
-    """Return what a reader must not miss: doubts about the figures, then faults they show."""
-    judder = [judder_text(r)] if r.judder and r.judder.kind != "decaying" else []
-    return [
+    """Return what a reader must not miss, the most severe first."""
+    judder = [Ranked(judder_text(r))] if r.judder and r.judder.kind != "decaying" else []
+    lines: list[str] = [
         *r.found,
         *_not_locked(r),
         *_tie_up(r),
         *judder,
-        *chatter_texts(r),
+        *map(Ranked, chatter_texts(r)),
         *_washers_in_distress(r),
         *_teeth_overloaded(r),
         *(warning("hotter", time=e.time, text=e.text) for e in r.events if "hotter" in e.text),
     ]
+    return severest_first(lines)
 
 
 def warnings_of(result: Any) -> list[str]:
     """Return what a reader of a shift's or a sequence's result must not miss."""
     if result.scene.sequence:
-        return [*result.found, *warnings_of_all([shift.warnings for shift in result.shifts])]
+        of_shifts = warnings_of_all([shift.warnings for shift in result.shifts])
+        return severest_first([*result.found, *of_shifts])
     return warnings(record_of(result))
 
 
@@ -47,12 +49,12 @@ def warnings_of_all(warnings: Sequence[Sequence[str]]) -> list[str]:
     for i, texts in enumerate(warnings, 1):
         for text in texts:
             found.setdefault(QUANTITY.sub("#", text), (text, []))[1].append(str(i))
-    lines = []
+    lines: list[str] = []
     for text, shifts in found.values():
         first, *others = dict.fromkeys(shifts)
         end = "" if text.endswith(".") else "."
         likewise = f"{end} Likewise shifts {', '.join(others)}." if others else ""
-        lines.append(f"Shift {first}: {text}{likewise}")
+        lines.append(Ranked(f"Shift {first}: {text}{likewise}", rank_of(text)))
     return lines
 
 

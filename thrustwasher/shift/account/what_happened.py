@@ -36,26 +36,34 @@ def headline(r: Record) -> str:
         locked = f"The {pack} locked at {lock:.4g} s, the shift took {lock - start:.3g} s"
     text = f"{locked}; slipping made {say(f['slip_energy'] or 0.0, 'J')} of heat in it"
     if jerk := f.get("peak_jerk"):
-        text += f", and the maximum jerk of the vehicle was {say(jerk, 'm/s3')}"
-        if known := r.known.get("peak_jerk"):
-            low, middle, high = (say(x, "m/s3") for x in known.quantiles.values())
-            text += f" (by the scatter of this scene {low} to {high}, median {middle})"
+        text += f", and the maximum jerk of the vehicle {spread_words(r, 'peak_jerk', jerk)}"
     return f"{text}."
 
 
+def spread_words(r: Record, name: str, nominal: float) -> str:
+    """Return what a figure is: its median and band with the nominal value beside, or that alone."""
+    figure, spread = r.figure(name), r.spread(name)
+    assert figure is not None
+    if spread is None:
+        return f"was {figure.words(nominal, 3)}"
+    low, middle, high = (figure.words(x, 3) for x in spread)
+    return (
+        f"by the scatter of this scene is {middle} (median; {low} to {high} from 5 to 95 %), "
+        f"{figure.words(nominal, 3)} with nominal values"
+    )
+
+
 def known_texts(r: Record) -> list[str]:
-    """Return where the jerk lies in the band that is known of its scene."""
+    """Return the jerk with the band that is known of its scene."""
     jerk, known = r.figures.get("peak_jerk"), r.known.get("peak_jerk")
     if jerk is None or known is None:
         return []
-    low, middle, high = (say(x, "m/s3") for x in known.quantiles.values())
     ends, why = list(known.quantiles.values()), ""
     if not ends[0] <= jerk <= ends[-1]:
-        why = ": the profile is tuned to nominal values, which no real unit has"
+        why = ", which no real unit has"
     return [
-        f"The maximum jerk of {say(jerk, 'm/s3')} is that of the nominal values; by the scatter "
-        f"of this scene it lies between {low} and {high} (5 and 95 % of {known.runs} runs), median "
-        f"{middle}{why}."
+        f"The maximum jerk of the vehicle {spread_words(r, 'peak_jerk', jerk)}{why} "
+        f"({known.runs} runs)."
     ]
 
 

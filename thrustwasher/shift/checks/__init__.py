@@ -7,6 +7,7 @@
 ``washer_in_time``    washers followed in time along the run: whether steady states hold
 ``run_doubts``        what a scene and its signals show without a further run
 ``holding``           whether the packs hold when they should: warnings from the signals of a run
+``capacity``          whether a pack can carry what gear and inertia phase ask for
 ``steady_doubts``     what must not be missed at a steady point of a gearbox
 ``windows``           windows of a run of several shifts: where each began
 ====================  ===========================================================================

@@ -10,6 +10,7 @@ from ..cosim.system import Stepping, capable
 from ..scene.connections import DIRECT
 from ..scene.scene import Scene
 from ..shift_result import ShiftResult
+from ..warning_texts import Ranked
 from .step_error import Make, Run, step_error
 from .washer_in_time import InTime, washer_in_time
 
@@ -21,14 +22,14 @@ def guarded(result: ShiftResult, make: Make, run: Run) -> ShiftResult:
 
     Both checks leave Python free most of the time: they go side by side.
     """
-    found, error = [], None
+    error, found = None, list[str]()
     with ThreadPoolExecutor(1) as aside:
         follow = aside.submit(
             followed_washers, result.scene, result.time, result.signals, result.step
         )
         try:
             error = step_error(result, make, run)
-            found += error.warnings()
+            found += map(Ranked, error.warnings())
         except (ParameterError, SolveError) as problem:
             found.append(f"The communication step was not checked: a second run failed ({problem})")
         followed = follow.result()

@@ -1,6 +1,6 @@
 """Whether the packs hold when they should: warnings from the signals of a run."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,12 +17,12 @@ from ..key_figures.figure_list import KeyFigure
 from ..scene.connections import PACKS
 from ..scene.scene import Scene
 from ..warning_texts import warning
+from .capacity import SETTLED, weak_packs
 
 Signals = Mapping[str, Array]
 TURNS_SHARE = 0.02  # of the time to lock-up: shorter sticking in turn changes no figure
 NUMERICAL = 10.0  # steps between two lock-ups, at most
-KISS = 0.1  # of the maximum load: a pack that lets go later has more
-SETTLED = 0.995  # of it: a pack that engages is pressed already
+KISS = 0.1  # of the maximum load: a pack that lets go later has more; one that engages SETTLED
 FLARE = 10.0  # rad/s, some 100 rpm: felt and heard
 
 
@@ -30,18 +30,25 @@ def doubts_of_packs(
     scene: Scene, time: Array, signals: Signals, events: list[Event], figures: Sequence[KeyFigure]
 ) -> Iterator[str]:
     """Yield what shows that packs do not hold as a shift takes for granted, a line each."""
-    yield from _at_the_start(scene, time, signals)
+    held = lock_up(scene, events) is not None
+    weak = weak_packs(scene, time, signals, held=held, handed=not _free(scene, time, signals).any())
+    yield from weak.values()  # the cause of what follows
+    yield from _at_the_start(scene, time, signals, weak)
     yield from _in_turn(scene, time, events)
     yield from _of_temperature(scene, time, signals)
     if not scene.alone:
-        yield from _neutral(scene, time, signals, figures)
+        yield from _neutral(scene, time, signals, figures, weak)
         yield from _at_the_end(scene, time, signals, events)
     yield from _of_washers(signals)
 
 
-def _at_the_start(scene: Scene, time: Array, signals: Signals) -> Iterator[str]:
+def _at_the_start(
+    scene: Scene, time: Array, signals: Signals, weak: Collection[str]
+) -> Iterator[str]:
     before = time <= max(scene.shift_start, time[0])
     for pack in PACKS:
+        if pack in weak and pack != scene.engaging:
+            continue
         load, slip = (signals[f"transmission.{pack}_{name}"] for name in ("load", "speed"))
         least = SETTLED if pack == scene.engaging else KISS
         slips = (load > least * load.max()) & (np.abs(slip) > STANDSTILL) & before
@@ -85,14 +92,23 @@ def _of_temperature(scene: Scene, time: Array, signals: Signals) -> Iterator[str
             yield f"The {pack} is {line}"
 
 
+def _free(scene: Scene, time: Array, signals: Signals) -> NDArray[np.bool_]:
+    """Return where neither pack is pressed during the shift."""
+    return _open(signals) & (time >= scene.shift_start) & (time <= scene.required_until)
+
+
 def _neutral(
-    scene: Scene, time: Array, signals: Signals, figures: Sequence[KeyFigure]
+    scene: Scene,
+    time: Array,
+    signals: Signals,
+    figures: Sequence[KeyFigure],
+    weak: Collection[str],
 ) -> Iterator[str]:
     flare = next((f for f in figures if f.name == "flare"), None)
     most = flare.value or 0.0 if flare else 0.0
     pack, other = scene.engaging, scene.releasing
-    free = _open(signals) & (time >= scene.shift_start) & (time <= scene.required_until)
-    if not free.any() and most <= FLARE:
+    free = _free(scene, time, signals)
+    if not free.any() and (most <= FLARE or weak):
         return
     if free.any():
         begin = int(np.argmax(free))
@@ -146,5 +162,7 @@ def failed_because(scene: Scene, time: Array, recorder: Recorder) -> str:
             speed = float(reached["transmission.engine_speed"][-1])
             at = time[done[-1]]
             why = warning("failed", since=since, state=state, time=at, speed=speed)
-            reasons.insert(0, why)
+            points = time[: done[-1] + 1]
+            weak = weak_packs(scene, points, reached, held=False, handed=False)
+            reasons = [*weak.values(), why, *reasons]
     return "; ".join(reasons)

@@ -20,6 +20,7 @@ Signals = Mapping[str, Array]
 OTHER_STEP = 0.01  # of the step requested: by so much another is worth a word
 MOST_OUTSIDE = 0.05  # share of a run's points that a map may leave to the field
 ROOM = 1e-6  # of a box's width
+STATUS_RANKS = {Status.STALLED: 0, Status.CHATTER: 0, Status.HOT: 1}  # as of tables of texts
 
 
 def doubts(scene: Scene, step: float, time: Array, signals: Signals) -> Iterator[str]:
@@ -64,7 +65,8 @@ def _of_solvers(scene: Scene, time: Array, signals: Signals) -> Iterator[str]:
                     ]
                 advice = warning("advice", advice=status.advice, name=status.name)
                 for text in found or [advice]:
-                    yield warning("status", part=part, time=time[i], text=text)
+                    rank = STATUS_RANKS.get(status)
+                    yield warning("status", rank, part=part, time=time[i], text=text)
 
 
 def _of_boxes(scene: Scene, signals: Signals) -> Iterator[str]:

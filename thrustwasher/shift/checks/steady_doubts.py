@@ -17,9 +17,7 @@ BODIES = ("temperature_max", "bulk_temperature")  # outputs: of bodies that the 
 
 def capacity(scene: Scene, pack: str) -> float:
     """Return the torque [N m] that a pack can hold under the maximum load of its scene."""
-    part, gearbox = scene.parts[pack], scene.parts["transmission"].params
-    if part.spec.key not in MODELS:  # a pack from elsewhere
-        return float("inf")
+    gearbox = scene.parts["transmission"].params
     load = float(getattr(gearbox, f"{pack}_force"))
     if gearbox.actuation == "pressure":
         own = [getattr(gearbox, f"{pack}_{n}") for n in ("return_spring", "piston_area")]
@@ -28,6 +26,14 @@ def capacity(scene: Scene, pack: str) -> float:
             (getattr(gearbox, f"{pack}_pressure_{i + 1}") for i in range(count)), default=0.0
         )
         load = max(most - own[0], 0.0) * own[1]
+    return capacity_at(scene, pack, load)
+
+
+def capacity_at(scene: Scene, pack: str, load: float) -> float:
+    """Return the torque [N m] that a pack can hold at rest under a load [N]; else infinity."""
+    part = scene.parts[pack]
+    if part.spec.key not in MODELS:  # a pack from elsewhere
+        return float("inf")
     solved = find_model(part.spec.key).solve(
         part.params,
         load=load,
@@ -47,9 +53,11 @@ def doubts_of_point(
     ``most``: torque that the pack which holds can hold; ``reaction``: that it has.
     """
     if abs(reaction) > most:
+        times = f": {abs(reaction) / most:.2f} times as much in all" if most else ""
         yield (
             f"{holding}: {say(abs(reaction), 'N.m')} to hold, its capacity at the maximum load of "
-            f"this scene is {say(most, 'N.m')}: it would slip"
+            f"this scene is {say(most, 'N.m')}: it would slip; press it harder or give it more "
+            f"faces{times}"
         )
     for name, part in system.parts.items():
         if name not in (holding, "transmission"):

@@ -1,5 +1,6 @@
 """What the page of a scene reads its warnings from: texts, limits, constants; JSON types."""
 
+import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -12,15 +13,15 @@ from ...model.registry import MODELS
 from ...model.spec import ModelSpec
 from ...shift.account.summary import SHEARED
 from ...shift.account.worst_moments import LEAST_LOAD, TURNING
-from ...shift.checks import holding
-from ...shift.checks.run_doubts import MOST_OUTSIDE, OTHER_STEP, ROOM
-from ...shift.key_figures.events_and_phases import STANDSTILL
+from ...shift.checks import capacity, holding
+from ...shift.checks.run_doubts import MOST_OUTSIDE, OTHER_STEP, ROOM, STATUS_RANKS
+from ...shift.key_figures.events_and_phases import GEARS, STANDSTILL
 from ...shift.key_figures.figure_list import FILM_SPEED
 from ...shift.key_figures.key_figures import TIE_UP_SHARE
 from ...shift.scene.connections import MESHES, PACKS
 from ...shift.scene.doubts import idle_parameters
 from ...shift.scene.scene import Part, Scene
-from ...shift.warning_texts import TEXTS, warning
+from ...shift.warning_texts import KINDS, RANKS, TEXTS, warning
 from ...transmission.kernels.directional_derivative import LEAST_WASHER_LOAD
 from ...transmission.kernels.shift_figures import FEW
 from ...transmission.parameters import PROFILES, profile_points
@@ -36,9 +37,10 @@ OWN_TEXTS = {
     "verified": VERIFIED,
     "dry_range": BEYOND,
     "map_box": OF_BOX,
+    "given": "{text}",
 }
 NUMBERS = {
-    "settled": holding.SETTLED,
+    "settled": capacity.SETTLED,
     "kiss": holding.KISS,
     "standstill": STANDSTILL,
     "turns_share": holding.TURNS_SHARE,
@@ -64,16 +66,22 @@ def warning_data(scene: Scene, step: float) -> dict[str, Any]:
     washer = scene.parts.get("washer")
     return {
         "texts": TEXTS | OWN_TEXTS,
+        "ranks": RANKS | dict.fromkeys(OWN_TEXTS, len(KINDS) - 1),
         "always": [*always],
         "of_scene": [text for text in always if text in scene.warnings],
         "step": [step, scene.step] if abs(step / scene.step - 1.0) > OTHER_STEP else None,
-        "statuses": {int(s): [s.advice, s.name] for s in Status},
+        "statuses": {
+            int(s): [s.advice, s.name, STATUS_RANKS.get(s, RANKS["status"])] for s in Status
+        },
         "outside": int(Status.OUTSIDE_VERIFIED),
         "distress": int(Status.DISTRESS),
         "parts": {n: _ranges(p.spec) for n, p in scene.parts.items() if _has_status(p.spec)},
         "boxes": [*_boxes(scene)],
         "linings": {pack: _lining(scene.parts[pack]) for pack in PACKS},
         "warmth": {pack: _warmth(scene.parts[pack]) for pack in PACKS},
+        "holding": {pack: _holding(scene, pack) for pack in PACKS},
+        "reserve": capacity.RESERVE,
+        "gears": GEARS,
         "springs": {pack: getattr(gearbox, f"{pack}_return_spring") for pack in PACKS},
         "limits": [
             [name, s.name, s.limit]
@@ -127,6 +135,13 @@ def _warmth(part: Part) -> list[float] | None:
     if not isinstance(p, ClutchParams) or p.friction_temperature_slope == 0.0:
         return None
     return [*clutch_layout.TEMPERATE, ROUNDED, clutch_layout.HOT_LIMIT]
+
+
+def _holding(scene: Scene, pack: str) -> list[float | None]:
+    """Return what gives the torque that holds, and the torque per load that the pack has."""
+    grip = capacity.grip(scene, pack)
+    found = capacity.holding(scene.parts["transmission"].params, pack)
+    return [*found, None if math.isnan(grip) else grip]
 
 
 def _map(washer: Part | None) -> dict[str, Any] | None:

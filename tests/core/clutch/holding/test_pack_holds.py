@@ -176,6 +176,29 @@ def test_a_pack_that_was_stuck_at_the_start_stays_there():
         assert np.abs(made.slip).max() < 12.0 * step
 
 
+def test_pressed_while_side_1_drives_it_is_a_one_way_clutch():
+    """Two inertias; the driving torque swings: it carries no torque backwards, and is overrun."""
+
+    class Case:
+        gain, loads = 100.0, (1.0,)  # N m
+
+    unit, h = Unit(Case(), (0.2 * 0.5 / 0.7, 0)), 1e-3
+    w1, w2, torque, rows = 95.0, 100.0, 0.0, []
+    for i in range(3000):
+        slip, t = w1 - w2, i * h
+        torque = unit.step(slip, h, 1.0 if slip > 0.0 or (unit.locked and torque > 0.0) else 0.0)
+        drive = 30.0 * np.sin(2.0 * np.pi * t)
+        w1, w2 = w1 + h * (drive - torque) / 0.2, w2 + h * (torque - 5.0) / 0.5
+        rows.append((t, w1 - w2, torque, unit.locked))
+    t, slip, torque, locked = np.array(rows).T
+    assert slip.max() < 0.2 and torque.min() > -0.2  # what one step brings
+    assert slip.min() < -10.0 and np.abs(torque[slip < -0.2]).max() == 0.0
+    changes = t[1:][np.diff(locked) != 0.0]
+    assert len(changes) == 6  # it locks and lets go once in each second
+    exact = 0.5 + np.arcsin(5.0 * 0.2 / 0.5 / 30.0) / (2.0 * np.pi)  # together: 0 at drive = -2
+    assert changes[1::2] == pytest.approx(exact + np.arange(3), abs=2 * h)
+
+
 def test_a_slip_that_does_not_answer_is_left_alone_after_a_hundred_dips():
     """A test bench prescribes it."""
     case = two_inertias(1)

@@ -170,6 +170,33 @@ def test_asperities_that_suction_presses_rub_with_no_more_than_load_and_atmosphe
     assert 0.01 * pressed < before < 0.2 * pressed
 
 
+def held_for(torque, temperature, fidelity="field", load=5000.0, **changes):
+    """Return how long [ms] a settled pack whose load goes at once can hold a torque."""
+    pack = Pack(made=lambda: ClutchParams(starts_pressed=True, **changes), fidelity=fidelity)
+    pack.step(load, 0.0, 1e-3, temperature)
+    for ms in range(1, 1000):
+        pack.step(0.0, 0.0, 1e-3, temperature)
+        if pack.out[k.O_CAPACITY] < torque:
+            return ms
+    return None
+
+
+UNGROOVED = {"faces": 8, "inner_radius": 0.0375, "outer_radius": 0.075, "groove_count": 0}
+UNGROOVED |= {"land_share": 1.0, "friction_law": "constant", "constant_friction": 0.1}
+
+
+def test_an_opened_pack_holds_on_by_suction_and_an_on_off_element_lets_go():
+    """The figures of docs/theory/clutch.md, docs/driveline.md, docs/start/host.md."""
+    for changes, torque, load, cold, warm in (
+        (UNGROOVED, 40.0, 2650.0, 137, 13),
+        ({}, 20.0, 5000.0, 15, 2),
+    ):
+        times = [held_for(torque, t, load=load, **changes) for t in (297.15, 358.15)]
+        assert times == pytest.approx([cold, warm], abs=1)
+        for level in ("stribeck", "closed"):
+            assert held_for(torque, 297.15, level, load, **changes) == 1  # the first step
+
+
 def test_without_spring_and_asperities_nothing_parts_the_faces():
     pack = Pack(made=plain, separating_force=0.0, starts_pressed=True)
     for load in (6000.0, 0.0):

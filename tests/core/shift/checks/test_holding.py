@@ -1,11 +1,14 @@
 """Packs that do not hold as a shift takes for granted: lock-up is the last one, and it is said."""
 
+import re
+
 import numpy as np
 import pytest
 from scene_runs import changed, instances, slow_without_jit
 
 from thrustwasher.errors import SolveError
 from thrustwasher.shift import cosimulate, load_scene
+from thrustwasher.shift.checks.capacity import holding
 from thrustwasher.shift.checks.holding import _in_turn, _of_washers
 from thrustwasher.shift.key_figures.events_and_phases import Event, lock_up
 
@@ -108,6 +111,67 @@ def test_a_pressed_pack_that_slips_before_the_shift_is_told(tmp_path):
     [line] = [w for w in late.warnings if w.startswith("Before the shift begins")]
     assert "brake" in line
     assert late.figures["torque_phase"] is not None  # the same shift has the same phases
+
+
+@pytest.mark.parametrize("pack", ["clutch", "brake"])
+@pytest.mark.parametrize("name", ["planetary", "planetary-sun"])
+def test_the_torque_that_holds_a_gear_is_that_of_the_free_members(name, pack):
+    """Each member by itself: teeth drive the drum's gear by r tau, the carrier by (1 + r) tau."""
+    p = load_scene(name).parts["transmission"].params
+    engine, output, r = 250.0, 60.0, p.ratio
+    driven, drum, carrier = (getattr(p, f"{n}_inertia") for n in ("input", "drum", "carrier"))
+    x = np.array(
+        [1.0, -1.0, 0.0] if pack == "clutch" else [0.0, 1.0, 0.0]
+    )  # it turns what it holds
+    # unknown: rates of driven gear, drum, carrier; tooth torque; the pack's torque
+    rows = np.zeros((5, 5))
+    rows[:3, :3] = np.diag([driven, drum, carrier])
+    rows[:3, 3], rows[:3, 4] = [1.0, r, -(1.0 + r)], x
+    rows[3, :3] = [1.0, r, -(1.0 + r)]  # speeds of the set
+    rows[4, :3] = x  # the slip stays
+    torque = np.linalg.solve(rows, [engine, 0.0, -output, 0.0, 0.0])[4]
+    law = holding(p, pack)
+    assert law.engine * engine + law.output * output == pytest.approx(torque, rel=1e-10)
+    rows[4], more = [0.0, 0.0, 0.0, 0.0, 1.0], torque + 1.0  # the pack carries 1 N m more
+    slip = x @ np.linalg.solve(rows, [engine, 0.0, -output, 0.0, more])[:3]
+    assert slip == pytest.approx(-law.mobility, rel=1e-9)
+
+
+WEAK = {
+    "brake": '[[0.0, "{} kPa"], [0.16, "{} kPa"], [0.36, "80 kPa"], [0.38, 0.0]]',
+    "clutch": '[[0.1, 0.0], [0.11, "40 kPa"], [0.2, "40 kPa"], [0.4, "{} kPa"], [1.0, "{} kPa"]]',
+}
+
+
+@slow_without_jit
+@pytest.mark.parametrize(
+    ("pack", "kpa", "gear"), [("brake", 200, "first"), ("clutch", 230, "second")]
+)
+def test_a_pack_too_weak_for_its_gear_is_told_first_and_the_advice_cures_it(
+    tmp_path, pack, kpa, gear
+):
+    def pressed(pressure):
+        points = WEAK[pack].format(pressure, pressure)
+        return run(tmp_path, f"[pressure.{pack}]\npoints = {points}\n")
+
+    result = pressed(kpa)
+    line = result.warnings[0]
+    assert line.startswith(f"The {pack} is too weak for {gear} gear: under ")
+    told = "\n".join(result.warnings)
+    assert "initial speeds" not in told and "let it go later" not in told
+    assert "HOT" in told  # of a part, behind the cause
+    capacity, need = (
+        float(re.search(rf"{word} ([\d.]+) N·m", line)[1]) for word in ("holds", "gear takes")
+    )
+    r = 38.0 / 74.0
+    held = {"brake": r, "clutch": r / (1.0 + r)}[pack] * 253.0  # without acceleration
+    assert need == pytest.approx(held, rel=0.04)
+    mean = (85e-3**3 - 64e-3**3) / (85e-3**2 - 64e-3**2) / 1.5
+    assert capacity == pytest.approx(4 * 0.112 * mean * 8e-3 * (kpa - 30.0) * 1e3, rel=0.04)
+    times = float(re.search(r"([\d.]+) times", line)[1])
+    cured = pressed(30.0 + times * (kpa - 30.0))  # behind the spring of 30 kPa
+    assert not any("too weak" in w for w in cured.warnings)
+    assert cured.figures["lock_time"] is not None
 
 
 def test_washers_without_a_tilting_couple_are_told():

@@ -33,9 +33,10 @@ def test_inputs_that_leave_the_box_of_a_part_file_are_told():
     assert "[box]" not in said(stop_time=0.05, parts={**scene.parts, "brake": wide})
 
 
-def test_what_a_scene_found_while_it_was_read_comes_first():
+def test_a_shift_that_does_not_happen_comes_before_what_its_scene_has_no_use_for():
     scene = replace(load_scene("msl").with_options(stop_time=0.05), warnings=("look here",))
-    assert cosimulate(scene, instances(scene)).warnings[0] == "look here"
+    first, *others = cosimulate(scene, instances(scene)).warnings
+    assert "nothing shifts" in first and "look here" in others
     assert shift("msl", stop_time=0.05).as_dict()["warnings"][0] != "look here"
 
 

@@ -2,12 +2,11 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 from markupsafe import Markup
 
-from ....shift.account.shift_record import Record
+from ....shift.account.shift_record import KeyFigure, Record
 from ....shift.account.swing_texts import judder_text
 from ....shift.account.what_happened import headline, sentences
 from ....shift.account.worst_moments import Moment, highest, solve_moment, worst_film
@@ -145,15 +144,21 @@ OF_A_LONE_PACK = ("lock_after_half_ramp", "stopped_inertia", "friction_mean", "f
 
 
 def _cards(record: Record) -> list[Card]:
-    """Return six figures for the top; braking time and friction where a pack acts alone."""
+    """Return six figures for the top; braking time and friction where a pack acts alone.
+
+    Where a figure's band is known its median is shown, the nominal value beside it.
+    """
     hidden = ("lock_after_ramp_start",) if record.alone else OF_A_LONE_PACK
     names = [n.format(pack=f"peak_{record.engaging}") for n in CARDS if n not in hidden]
     usual = beside(record)
 
+    def words_of(f: KeyFigure, value: float, digits: int = 4) -> str:
+        return usual[f.name][0].value_words(value) if f.name in usual else f.words(value, digits)
+
     def band(name: str) -> list[str]:
         found = record.band(name)
         if not found or not varies(found):
-            return known(name)
+            return []
         words = usual[name][0].study_words(found) if name in usual else band_words(found)
         doubt = "washer_temperature" in name and steady_is_doubted(record)
         return [
@@ -162,27 +167,22 @@ def _cards(record: Record) -> list[Card]:
             *(["steady, which the check in time doubts"] if doubt else []),
         ]
 
-    def known(name: str) -> list[str]:
-        found, figure = record.known.get(name), record.figure(name)
-        if not found or figure is None:
-            return []
-        given = usual[name][0].value_words if name in usual else partial(figure.words, digits=3)
-        low, middle, high = (given(x) for x in found.quantiles.values())
-        words = (f"{BAND}:", f"{low} ..", f"{high},", f"median {middle}")  # lines break between
-        return [" ".join(text.replace(" ", "\N{NO-BREAK SPACE}") for text in words)]
+    def card(f: KeyFigure, nominal: float) -> Card:
+        spread = record.spread(f.name)
+        shown, notes = (spread[1] if spread else nominal), band(f.name)
+        if f.name in usual:
+            notes = [usual[f.name][0].note(shown), *notes]
+        if spread:
+            ends = [words_of(f, x, 3) for x in (spread[0], spread[2], nominal)]
+            known = [] if record.band(f.name) else [f"{BAND}: {ends[0]} .. {ends[1]}"]
+            more = (*known, f"nominal values: {ends[2]}")
+            notes += [text.replace(" ", "\N{NO-BREAK SPACE}") for text in more]
+        name = f"{f.text}, median" if spread else f.text
+        own = "" if spread or f.name in usual else f.name  # whose nominal value a script writes
+        return Card(name, words_of(f, shown), Markup("<br>").join(notes), own)
 
-    cards = [
-        Card(
-            f.text,
-            usual[name][0].value_words(f.value) if name in usual else f.words(f.value, 4),
-            Markup("<br>").join(
-                [*([usual[name][0].note(f.value)] if name in usual else []), *band(name)]
-            ),
-            "" if name in usual else name,
-        )
-        for name in names
-        if (f := record.figure(name)) is not None and f.value is not None
-    ]
+    found = [f for name in names if (f := record.figure(name)) is not None]
+    cards = [card(f, f.value) for f in found if f.value is not None]
     chances = chance_cards(record.scatter, [LOST]) if record.scatter else []
     return [*cards[: MOST_CARDS - len(chances)], *chances]
 

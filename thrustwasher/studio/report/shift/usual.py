@@ -133,20 +133,23 @@ def _outside(record: Record, name: str) -> str:
 def usual_table(record: Record) -> Table:
     """Return every figure against what is usual; one outside is marked, not blamed.
 
-    With a study of scatter also its band, and how probably it is below and above.
+    Where its band is known the median is marked. With a study of scatter also the band, and how
+    probably it is below and above.
     """
     found, studied = beside(record), record.scatter is not None
+    middles = {name: s[1] for name in found if (s := record.spread(name))}
     rows = [
         (
             u.text,
             u.value_words(v),
+            *((u.value_words(middles[name]) if name in middles else "",) if middles else ()),
             *((u.study_words(record.band(name)), _outside(record, name)) if studied else ()),
             u.range_words(),
-            MARKS[u.place(v)],
+            MARKS[u.place(middles.get(name, v))],
             u.basis,
         )
         for name, (u, v) in found.items()
     ]
-    more = (BAND, "P(outside usual)") if studied else ()
+    more = (*(("median",) if middles else ()), *((BAND, "P(outside usual)") if studied else ()))
     heads = ("", "this run", *more, "usual", "", "what the range rests on")
     return Table(heads, rows, numbers=range(1, 2 + len(more)))

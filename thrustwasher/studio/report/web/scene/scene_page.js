@@ -258,9 +258,8 @@ const sayQuantity = (value, unit, n = 4, relative = false) =>
 
 /** Show the warnings of the run whose figures are displayed, null: it failed; those of no other run stay. */
 function showWarnings(found, washers = "") {
-  const { always, checked_outside: outside, texts } = ABOUT.warnings,
-    own = (found ?? []).map((parts) => parts.map((one) => textOf(texts, one, sayQuantity)).join("")),
-    all = found ? [...always, ...own] : [];
+  const { checked_outside: outside, texts } = ABOUT.warnings,
+    all = (found ?? []).map((parts) => parts.map((one) => textOf(texts, one, sayQuantity)).join(""));
   const head = found
     ? `Warnings of this run: ${all.length || "none"}`
     : "The run failed; the line at the top says why";

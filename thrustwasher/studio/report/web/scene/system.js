@@ -243,9 +243,9 @@ export class Model {
   /** Return what failed and what may have made it fail, as Python's message has it. */
   whyFailed(problem, profiles, run, n) {
     const { warnings: w, units } = this.about,
-      text = (own) => textOf(w.texts, own, writer(units));
+      text = (parts) => parts.map((own) => textOf(w.texts, own, writer(units))).join("");
     const reasons = [...failedBecause(run, n).map(text), ...w.of_scene];
-    reasons.push(...cutOff(this.about, profiles).map(([own]) => text(own)));
+    reasons.push(...cutOff(this.about, profiles).map(text));
     return [problem.message.replace(/\.$/, ""), ...reasons].join("; ");
   }
 
@@ -330,7 +330,9 @@ export class Model {
           else parts[name].advance(time[i], h);
         }
       } catch (problem) {
-        throw new Error(this.whyFailed(/** @type {Error} */ (problem), profiles, { time, signals }, i + 1));
+        const until = wantedUntil(about, profiles, shift),
+          reached = { about, shift, time, signals, until };
+        throw new Error(this.whyFailed(/** @type {Error} */ (problem), profiles, reached, i + 1));
       }
       keep(i + 1);
       if (i % SLICES === 0) yield;

@@ -1,4 +1,7 @@
-/* Warnings of a finished run, by the rules of Python's `shift`: each is a list of texts by key, [[key, values], ...]. */
+/*
+ * Warnings of a finished run, by the rules of Python's `shift`: each is a list of texts by key, [[key, values], ...]. A
+ * third entry is its rank among all, where that is not the key's.
+ */
 
 import { effective } from "./profile.js";
 
@@ -8,10 +11,15 @@ const WASHER_INPUTS = ["load", "speed", "tilt", "oil_temperature"];
 /** Return the signals that the rules read, "part.variable". */
 export function watched(about) {
   const { warnings: w, parts } = about,
-    found = new Set(["washer_load", "washer_heat", "washer_speed"].map((name) => `transmission.${name}`));
+    found = new Set(
+      ["washer_load", "washer_heat", "washer_speed", "drive_torque", "shaft_torque"].map(
+        (name) => `transmission.${name}`,
+      ),
+    );
   for (const pack of PACKS) {
     found.add(`transmission.${pack}_filled`);
-    for (const name of ["friction_torque", "viscous_torque", "load"]) found.add(`${pack}.${name}`);
+    for (const name of ["friction_torque", "viscous_torque", "load", "torque_capacity"])
+      found.add(`${pack}.${name}`);
   }
   for (const [part, ranges] of Object.entries(w.parts)) {
     found.add(`${part}.solver_status`);
@@ -101,9 +109,9 @@ function* ofSolvers({ about, time, signals, solved }) {
         }
         if (linings[part]) found.push(...liningOf(linings[part], signals[`${part}.load`][i]));
       }
-      const [advice, name] = statuses[code];
+      const [advice, name, rank] = statuses[code];
       for (const text of found.length ? found : [["advice", { advice, name }]])
-        yield [["status", { part, time: time[i], text }]];
+        yield [["status", { part, time: time[i], text }, rank]];
     }
   }
 }
@@ -171,10 +179,64 @@ function* ofDryFriction({ about, time, signals, solved }) {
   if (text) yield [["dry_friction", { count, points: time.length, time: at_, text }]];
 }
 
-function* atTheStart({ about, shift, time, signals }) {
+/** Return that a pack slips under its full load since it cannot carry enough; null: it can. */
+function weakPack({ about, shift, time, signals, until, handed }, pack) {
+  const { settled, standstill, holding, gears, reserve } = about.warnings,
+    own = (name) => signals[`transmission.${name}`],
+    n = time.length,
+    engages = pack === shift.engaging;
+  if (engages && time[n - 1] < shift.start + shift.duration) return null;
+  const [load, slip] = [own(`${pack}_load`).subarray(0, n), own(`${pack}_speed`)],
+    other = own(`${pack === "clutch" ? "brake" : "clutch"}_load`),
+    [from, to] = engages ? [shift.start, until] : [-Infinity, Math.max(shift.start, time[0])],
+    greatest = highest(load),
+    [engine, output, mobility, grip] = holding[pack],
+    capacity = grip * greatest,
+    slips = [];
+  for (let i = 0; i < n; i += 1) {
+    const full = from <= time[i] && time[i] <= to && load[i] > 0 && load[i] >= settled * greatest;
+    if (full && other[i] <= 0 && Math.abs(slip[i]) > standstill) slips.push(i);
+  }
+  if (!slips.length || grip === null) return null;
+  const keeps = median(slips.map((i) => engine * own("drive_torque")[i] + output * own("shaft_torque")[i])),
+    [need, gear] = [Math.abs(keeps), gears[pack]],
+    left = time[slips[slips.length - 1]] - time[slips[0]],
+    words = { pack, gear, load: greatest, capacity, need };
+  if (engages && handed && left > 0) {
+    const begins = at(shift.start, time, slip),
+      most = Math.sign(begins) * keeps + Math.abs(begins) / (mobility * left);
+    if (most > Math.max(need, capacity)) {
+      const what = need > capacity ? gear : "the inertia phase";
+      return [
+        ["weak", { what, ...words }],
+        ["weak_phase", { most, slip: Math.abs(begins), left }],
+        ["weak_cure", { times: (reserve * most) / capacity }],
+      ];
+    }
+  }
+  if (need <= capacity) return null;
+  return [
+    ["weak", { what: gear, ...words }],
+    ["weak_cure", { times: (reserve * need) / capacity }],
+  ];
+}
+
+/** Return the packs that are too weak: {pack: texts}; `held`: the engaging pack holds. */
+function weakPacks(run) {
+  const { about, shift, held } = run,
+    packs = about.warnings.alone ? [] : PACKS.filter((pack) => !(held !== null && pack === shift.engaging));
+  return Object.fromEntries(packs.map((pack) => [pack, weakPack(run, pack)]).filter(([, texts]) => texts));
+}
+
+function* ofWeakPacks({ weak }) {
+  yield* Object.values(weak);
+}
+
+function* atTheStart({ about, shift, time, signals, weak }) {
   const { settled, kiss, standstill } = about.warnings,
     until = Math.max(shift.start, time[0]);
   for (const pack of PACKS) {
+    if (pack in weak && pack !== shift.engaging) continue;
     const load = signals[`transmission.${pack}_load`],
       slip = signals[`transmission.${pack}_speed`],
       least = (pack === shift.engaging ? settled : kiss) * highest(load);
@@ -230,8 +292,14 @@ function openAt(signals, n) {
   });
 }
 
-function* neutral({ about, shift, time, signals, until, flare: [most, when] }) {
-  const free = openAt(signals, time.length).map((is, i) => is && time[i] >= shift.start && time[i] <= until),
+/** Return where neither pack is pressed during the shift. */
+const freeAt = ({ shift, time, signals, until }) =>
+  openAt(signals, time.length).map((is, i) => is && time[i] >= shift.start && time[i] <= until);
+
+function* neutral(run) {
+  const { about, shift, time, weak } = run,
+    [most, when] = run.flare,
+    free = freeAt(run),
     begin = free.indexOf(true),
     pack = shift.engaging,
     other = pack === "clutch" ? "brake" : "clutch";
@@ -241,7 +309,8 @@ function* neutral({ about, shift, time, signals, until, flare: [most, when] }) {
       end = length < 0 ? time.length - 1 : begin + length;
     const cause = ["neutral", { begin: time[begin], end: time[end], pack, other }];
     yield flares ? [cause, ["neutral_flare", { flare: most }]] : [cause];
-  } else if (flares) yield [["flare", { flare: most, time: when ?? shift.start, pack, other }]];
+  } else if (flares && !Object.keys(weak).length)
+    yield [["flare", { flare: most, time: when ?? shift.start, pack, other }]];
 }
 
 function* atTheEnd({ shift, time, signals, changes, held, until }) {
@@ -405,6 +474,7 @@ const RULES = [
   ofLinings,
   ofMaps,
   ofDryFriction,
+  ofWeakPacks,
   atTheStart,
   inTurn,
   ofTemperature,
@@ -421,24 +491,38 @@ const RULES = [
 const BESIDES = new Set([neutral, atTheEnd]); // of a shift, not of a pack that acts alone
 
 /**
- * Return the warnings of a run in the order of Python's.
+ * Return the warnings of a run in the order of Python's, those that every run of the scene has among them.
  * @param {any} run about, profiles, shift, time, signals, changes, locks, held, until, flare; solved(part): whether a
  * part was solved by its own fidelity level
  * @returns {any[]}
  */
 export function warningsOf(run) {
   const rules = RULES.filter((rule) => !(BESIDES.has(rule) && run.about.warnings.alone));
-  return [...cutOff(run.about, run.profiles), ...rules.flatMap((rule) => [...rule(run)])];
+  const { always, ranks } = run.about.warnings,
+    handed = !freeAt(run).includes(true),
+    known = { ...run, weak: weakPacks({ ...run, handed }) };
+  const found = [
+    ...always.map((text) => [["given", { text }]]),
+    ...cutOff(run.about, run.profiles),
+    ...rules.flatMap((rule) => [...rule(known)]),
+  ];
+  const rank = ([[key, , own]]) => own ?? ranks[key];
+  return found.sort((a, b) => rank(a) - rank(b));
 }
 
 /** Return why a run may have failed at the last of `n` points: no pack held. */
-export function failedBecause({ time, signals }, n) {
-  const locked = (i) => PACKS.some((pack) => signals[`transmission.${pack}_locked`][i] > 0.5),
+export function failedBecause(run, n) {
+  const { time, signals } = run,
+    locked = (i) => PACKS.some((pack) => signals[`transmission.${pack}_locked`][i] > 0.5),
     last = n - 1;
   if (locked(last)) return [];
   let held = last;
   while (held >= 0 && !locked(held)) held -= 1;
   const state = [openAt(signals, n)[last] ? "failed_open" : "failed_slipping", {}],
     speed = signals["transmission.engine_speed"][last];
-  return [["failed", { since: time[Math.max(held, 0)], state, time: time[last], speed }]];
+  const reached = { ...run, time: time.subarray(0, n), held: null, handed: false };
+  return [
+    ...Object.values(weakPacks(reached)),
+    [["failed", { since: time[Math.max(held, 0)], state, time: time[last], speed }]],
+  ];
 }

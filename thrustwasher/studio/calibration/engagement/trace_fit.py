@@ -11,6 +11,7 @@ import numpy as np
 from ....clutch.parameters import DRUM, LOAD, OIL, SPEC, SPEED, ClutchParams
 from ....errors import ParameterError
 from ....model.levels import level_named
+from ....model.parameters import written_out
 from ....model.part_file import PartFile, find_part
 from ....model.point import from_box, taken_text
 from ....numerics.jit import Array
@@ -147,6 +148,7 @@ def calibrate_traces(
         f"real parameters of {SPEC.name}, and of the test rig {', '.join(OF_RIG)}",
     )
     _check_rig(rig, names)
+    rig = written_out(rig, names)
     wholes = [_completed(whole, start, rig, held) for whole in _read(recordings, rig)]
     parts = [
         (piece, float(whole.inputs["load"].max())) for whole in wholes for piece in pieces(whole)

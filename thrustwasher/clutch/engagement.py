@@ -145,7 +145,7 @@ def engage_clutch(
                     oil_temperature=oil,
                 )
             ),
-            *doubts_of_warmth(params, float(columns["temperature"].min()), hottest),
+            *doubts_of_warmth(params, float(columns["temperature"].min()), hottest, fidelity),
             *pack_warnings(status, float(columns["film_ratio"].min()), hottest, hottest),
         ),
     )

@@ -1,10 +1,10 @@
 """Parameters of the wet clutch; ``interface.toml`` has its inputs and outputs."""
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, fields, replace
 from operator import attrgetter
-from typing import Any
+from typing import Any, Self
 
 from ..errors import ParameterError
 from ..face_load import Face, even_radius
@@ -13,6 +13,7 @@ from ..model.part_file import preset_params
 from ..model.spec import Rule
 from ..model.toml_tables import spec_beside
 from ..tribology.holding.parameters import coupling_age, coupling_inertia, holding_choice
+from .kernels.layout import N_POINTS, N_TABLE, NO_POINT, START_FRICTION, START_SPEED
 
 FRICTION_LAWS = {
     "wang": "boundary friction of Wang, Wei & Wu (2012), Eq 12, with the shear ratio's speed law",
@@ -31,8 +32,15 @@ FRICTION_DATA = {
     "all shear of oil is added",
 }
 
-N_TABLE = 5
+FRICTION_TEMPERATURE = {
+    "auto": "by friction_temperature_slope on the start values' table and on law wang; not at all "
+    "on law constant, fidelity closed or a table of your own",
+    "slope": "by friction_temperature_slope, any law",
+    "points": "by 2 to 5 points, any law; of law constant they are the coefficient",
+}
+
 OF_TABLE = (("friction_law", "table"),)
+OF_POINTS = (("friction_temperature", "points"),)
 OF_WANG = (("friction_law", "wang"),)
 OVER_SPEED = (  # the level closed has the constant law
     *(("fidelity", level) for level in ("stribeck", "field", "fine")),
@@ -41,13 +49,59 @@ OVER_SPEED = (  # the level closed has the constant law
 WITH_FILM = tuple(("fidelity", level) for level in ("field", "fine"))
 
 
-def _coefficient(value: float, where: str) -> Any:
-    return quantity(value, "1", 0.0, 2.0, f"coefficient of the table law {where}", read_by=OF_TABLE)
-
-
-def _table_speed(value: float, place: int) -> Any:
+def _coefficient(place: int, where: str) -> Any:
     return quantity(
-        value, "m/s", 0.0, 1e4, f"slip speed of point {place} of the table law", read_by=OF_TABLE
+        START_FRICTION[place],
+        "1",
+        0.0,
+        2.0,
+        f"coefficient of the table law {where}",
+        read_by=OF_TABLE,
+        decides="friction_temperature",
+    )
+
+
+def _table_speed(place: int) -> Any:
+    return quantity(
+        START_SPEED[place],
+        "m/s",
+        0.0,
+        1e4,
+        f"slip speed of point {place} of the table law",
+        read_by=OF_TABLE,
+        decides="friction_temperature",
+    )
+
+
+def _point_temperature(place: int) -> Any:
+    return quantity(
+        NO_POINT,
+        "K",
+        NO_POINT,
+        873.15,
+        f"temperature of point {place} of friction over temperature; counts with "
+        "friction_temperature = points",
+        read_by=OF_POINTS,
+    )
+
+
+def _point_friction(place: int) -> Any:
+    return quantity(
+        0.0,
+        "1",
+        0.0,
+        2.0,
+        f"coefficient at point_temperature_{place}, 0: no such point; counts with "
+        "friction_temperature = points",
+        read_by=OF_POINTS,
+    )
+
+
+def _warmer(place: int) -> Rule:
+    last = f"{{point_temperature_{place - 1}}}" if place > 1 else f"{NO_POINT:g}"
+    return Rule(
+        f"point_temperature_{place} = {{point_temperature_{place}}} K, allowed: above {last} K "
+        "(friction_temperature = points, which rise)"
     )
 
 
@@ -66,6 +120,16 @@ RULES = (
         "groove_width = {groove_width} m, allowed: below pi (inner_radius + outer_radius)"
         "/groove_count, the distance of {groove_count} grooves at the mean radius"
     ),
+    Rule(
+        "friction_temperature = points with point_friction_1 = {point_friction_1}, "
+        "point_friction_2 = {point_friction_2}, allowed: 2 to 5 points, each above 0"
+    ),
+    Rule(
+        "point_friction_1 .. 5 = {point_friction_1}, {point_friction_2}, {point_friction_3}, "
+        "{point_friction_4}, {point_friction_5}, allowed: above 0 from the first on, 0 behind the "
+        "last point"
+    ),
+    *(_warmer(place) for place in range(1, N_POINTS + 1)),
 )
 
 
@@ -106,12 +170,20 @@ class ClutchParams:
     friction_scale: float = quantity(
         1.0, "1", 0.1, 2.0, "factor on the coefficient of the law of friction", tunable=True
     )
+    friction_temperature: str = choice(
+        "auto",
+        FRICTION_TEMPERATURE,
+        "FrictionTemperature",
+        "how friction changes with the interface temperature",
+    )
     friction_temperature_slope: float = quantity(
         -1e-3,
         "1/K",
-        -3e-3,
-        3e-3,
-        "relative change of friction per kelvin, of any law, within -20 .. 200 degC",
+        -1e-2,
+        1e-2,
+        "change of ln(friction) per kelvin, within -20 .. 200 degC; counts with "
+        "friction_temperature = slope, with auto on the start values' table and on law wang only",
+        read_by=(("friction_temperature", "auto"), ("friction_temperature", "slope")),
     )
     reference_temperature: float = quantity(
         373.15,
@@ -120,25 +192,35 @@ class ClutchParams:
         523.15,
         "interface temperature the law of friction holds at",
     )
+    point_temperature_1: float = _point_temperature(1)
+    point_friction_1: float = _point_friction(1)
+    point_temperature_2: float = _point_temperature(2)
+    point_friction_2: float = _point_friction(2)
+    point_temperature_3: float = _point_temperature(3)
+    point_friction_3: float = _point_friction(3)
+    point_temperature_4: float = _point_temperature(4)
+    point_friction_4: float = _point_friction(4)
+    point_temperature_5: float = _point_temperature(5)
+    point_friction_5: float = _point_friction(5)
     constant_friction: float = quantity(
         0.12,
         "1",
         0.0,
         2.0,
-        "coefficient of the constant law",
+        "coefficient of the constant law (friction_temperature = points: that of the points)",
         read_by=(("friction_law", "constant"), ("fidelity", "closed")),
     )
-    table_friction_0: float = _coefficient(0.112, "at standstill")
-    table_speed_1: float = _table_speed(0.1, 1)
-    table_friction_1: float = _coefficient(0.114, "at table_speed_1")
-    table_speed_2: float = _table_speed(0.5, 2)
-    table_friction_2: float = _coefficient(0.118, "at table_speed_2")
-    table_speed_3: float = _table_speed(2.0, 3)
-    table_friction_3: float = _coefficient(0.123, "at table_speed_3")
-    table_speed_4: float = _table_speed(8.0, 4)
-    table_friction_4: float = _coefficient(0.129, "at table_speed_4")
-    table_speed_5: float = _table_speed(30.0, 5)
-    table_friction_5: float = _coefficient(0.126, "at table_speed_5 and above")
+    table_friction_0: float = _coefficient(0, "at standstill")
+    table_speed_1: float = _table_speed(1)
+    table_friction_1: float = _coefficient(1, "at table_speed_1")
+    table_speed_2: float = _table_speed(2)
+    table_friction_2: float = _coefficient(2, "at table_speed_2")
+    table_speed_3: float = _table_speed(3)
+    table_friction_3: float = _coefficient(3, "at table_speed_3")
+    table_speed_4: float = _table_speed(4)
+    table_friction_4: float = _coefficient(4, "at table_speed_4")
+    table_speed_5: float = _table_speed(5)
+    table_friction_5: float = _coefficient(5, "at table_speed_5 and above")
     indentation: float = quantity(
         0.1, "1", 1e-12, 1.0, "asperity's indentation width over 2 R", read_by=OF_WANG
     )
@@ -323,6 +405,33 @@ class ClutchParams:
     def friction_radius(self) -> float:
         """Radius [m] friction acts at: the one that was set, or that of even pressure."""
         return float(self.effective_radius) or even_radius(self.inner_radius, self.outer_radius)
+
+    def temperature_law(self, fidelity: str = "") -> str:
+        """Return what changes friction with temperature: "slope", "points", "" for nothing.
+
+        ``fidelity``: the level; "" if it is not known and is not closed.
+        """
+        found = self.friction_temperature
+        if found == "auto":
+            table = self.friction_law == "table" and all(
+                math.isclose(getattr(self, f.name), f.default, rel_tol=1e-12)
+                for f in fields(self)
+                if f.name.startswith("table_")
+            )
+            shipped = (table or self.friction_law == "wang") and fidelity != "closed"
+            found = "slope" if shipped else ""
+        return "" if found == "slope" and not self.friction_temperature_slope else found
+
+    def decided(self, fitted: Iterable[str] = ()) -> Self:
+        """Return the same pack with what ``friction_temperature`` = auto lets act written out.
+
+        Values next to it then have the friction over temperature that it has. ``fitted``: names of
+        parameters that are to act too, the slope among them.
+        """
+        acts = "friction_temperature_slope" in fitted or self.temperature_law() == "slope"
+        if self.friction_temperature == "auto" and acts:
+            return replace(self, friction_temperature="slope")
+        return self
 
     @property
     def face(self) -> Face:

@@ -38,9 +38,23 @@ LINING = (  # texts of warnings; the page of a scene has them too
     "{kind} does not last (a rule of thumb; its maker's limit decides)"
 )
 WARMTH = (
-    "interface at {at}: friction over temperature is an estimate for {low:.0f} .. {high:.0f} degC; "
+    "interface at {at}: friction over temperature is known for {low:.0f} .. {high:.0f} degC; "
     "beyond, it stays as it is there"
 )
+CORRECTED = (
+    "friction_coefficient = {here:.3g} at {at}, {own:.3g} at reference_temperature = {warm}: the "
+    "numbers given are changed by friction_temperature_slope = {slope}; 0 leaves them as they are"
+)
+NO_SLOPE = (
+    "friction_temperature_slope = {slope} is not used: friction_temperature = auto lets it act on "
+    "the start values' table and on law wang; friction_temperature = slope, on any law"
+)
+NO_CONSTANT = (
+    "constant_friction = {value:g} is not used: friction_temperature = points, whose coefficients "
+    "stand in its place"
+)
+LESS_COOLING = "heat_transfer = {given}, {here} here: {why}"
+MUCH = 0.01  # of a number given: a change that is said
 LEAST_PRESSURE = 2e4  # Pa, an estimate: lightest pressure that friction over slip is measured at
 ROUNDED = 1e-6  # K
 __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
@@ -240,7 +254,7 @@ def solve_clutch(
     >>> r.friction_torque, r.regime
     (0.0, 'adhesive')
     >>> round(r.torque_capacity, 2)
-    325.35
+    326.25
     """
     load = check_number("load", load, "N", *LOAD.range)
     speed = check_number("speed", speed, "rad/s", *SPEED.range)
@@ -254,6 +268,7 @@ def solve_clutch(
         raise ParameterError(
             "heat_transfer = 0 W/(m2.K), allowed: above 0 where a steady temperature is requested"
         )
+    cooling = float(steady.steady_cooling(par, load, ratio))
     s = steady_pack(par, load, speed, drum, oil, ratio)
     status = _status(max(Status(film), Status(s.status)), ratio, s.hottest)
     if status.is_failure and throw:
@@ -278,9 +293,11 @@ def solve_clutch(
         _request=Asked(SPEC.key, params, {**point, "fidelity": fidelity}),
         warnings=(
             *doubts_of_pack(params, fidelity),
+            *_corrected(params, par, fidelity, speed, s),
+            *(_less_cooling(params, par, cooling) if speed else ()),
             *_light(params, load, fidelity),
             *doubts_of_lining(params, load),
-            *doubts_of_warmth(params, s.temperature, s.hottest),
+            *doubts_of_warmth(params, s.temperature, s.hottest, fidelity),
             *pack_warnings(status, ratio, s.temperature, s.hottest),
         ),
     )
@@ -306,7 +323,50 @@ def doubts_of_pack(
             f"effective_radius = {radius:g} m is off the faces of {faces[0]:g} .. {faces[1]:g} m: "
             "torque and slip speed are those of another pack; give one between, or 0"
         )
-    return tuple(found)
+    return (*found, *_not_used(params, fidelity))
+
+
+def _not_used(params: ClutchParams, fidelity: str) -> Iterator[str]:
+    """Yield a line for a number of one's own that ``friction_temperature`` leaves unread."""
+    start, slope = ClutchParams(), params.friction_temperature_slope
+    idle = params.friction_temperature == "auto" and not params.temperature_law(fidelity)
+    if idle and slope not in (0.0, start.friction_temperature_slope):
+        yield NO_SLOPE.format(slope=format_quantity(slope, "1/K"))
+    own = params.constant_friction
+    constant = params.friction_law == "constant" or fidelity == "closed"
+    points = params.friction_temperature == "points"
+    if points and constant and own != start.constant_friction:
+        yield NO_CONSTANT.format(value=own)
+
+
+def _corrected(
+    params: ClutchParams, par: Any, fidelity: str, speed: float, found: SteadyPack
+) -> Iterator[str]:
+    """Yield a line for a number of one's own that a default changes, with what it is here."""
+    wang = params.friction_law == "wang" and params.friction_temperature == "auto"
+    warm = params.reference_temperature
+    own = float(pack_friction.coefficient_slopes(par, speed, warm)[0])
+    if wang and params.temperature_law(fidelity) and abs(found.coefficient - own) > MUCH * own:
+        yield CORRECTED.format(
+            here=found.coefficient,
+            at=format_quantity(found.temperature, "K"),
+            own=own,
+            warm=format_quantity(warm, "K"),
+            slope=format_quantity(params.friction_temperature_slope, "1/K"),
+        )
+
+
+def _less_cooling(params: ClutchParams, par: Any, cooling: float) -> Iterator[str]:
+    """Yield a line if less than one's own ``heat_transfer`` cools the faces; ``cooling`` [W/K]."""
+    given, start = params.heat_transfer, ClutchParams()
+    here = cooling / params.lining_area
+    if given == start.heat_transfer or abs(here - given) <= MUCH * given:
+        return
+    why = f"oil_flow = {format_quantity(params.oil_flow, 'm3/s')} takes no more (0: all)"
+    if par[k.D_CLOSED_COOLING] != given:
+        why = "oil in the grooves cools closed faces (groove_count = 0: heat_transfer alone)"
+    texts = (format_quantity(x, "W/(m2.K)") for x in (given, here))
+    yield LESS_COOLING.format(given=next(texts), here=next(texts), why=why)
 
 
 def _light(params: ClutchParams, load: float, fidelity: str) -> list[str]:
@@ -331,11 +391,24 @@ def doubts_of_lining(params: ClutchParams, load: float) -> Iterator[str]:
         yield LINING.format(load=load, pressure=pressure / 1e6, most=most / 1e6, kind=kind)
 
 
-def doubts_of_warmth(params: ClutchParams, coldest: float, hottest: float) -> Iterator[str]:
+def range_of_warmth(params: ClutchParams, fidelity: str) -> tuple[float, float] | None:
+    """Return the range [K] of friction over temperature, None where it does not change with it."""
+    if params.temperature_law(fidelity) == "points":
+        given = [p for p in range(1, k.N_POINTS + 1) if getattr(params, f"point_friction_{p}")]
+        first, last = (getattr(params, f"point_temperature_{p}") for p in (given[0], given[-1]))
+        return first, last
+    return k.TEMPERATE if params.temperature_law(fidelity) else None
+
+
+def doubts_of_warmth(
+    params: ClutchParams, coldest: float, hottest: float, fidelity: str = ""
+) -> Iterator[str]:
     """Yield a line if interfaces [K] leave the range of friction over temperature."""
-    low, high = k.TEMPERATE
-    inside = low - ROUNDED <= coldest and hottest <= high + ROUNDED
-    if params.friction_temperature_slope == 0.0 or inside or hottest > k.HOT_LIMIT:
+    known = range_of_warmth(params, fidelity)
+    if known is None or hottest > k.HOT_LIMIT:
+        return
+    low, high = known
+    if low - ROUNDED <= coldest and hottest <= high + ROUNDED:
         return
     at = hottest if hottest > high else coldest
     yield WARMTH.format(at=format_quantity(at, "K"), low=low - 273.15, high=high - 273.15)

@@ -4,7 +4,7 @@ Numbers that come with a call are checked here too.
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import field, fields
 from functools import cache, wraps
 from operator import attrgetter
@@ -25,9 +25,9 @@ def quantity(default: float, unit: str, low: float, high: float, text: str, **ex
     """Return a real-valued field; ``low`` and ``high`` belong to the allowed range.
 
     ``tunable=True``: an FMU's host may change it between two steps. ``overrides``, ``belongs_to``:
-    see ``model.idle``; ``read_by``, ``read_with``, ``only_for``: ``model.unread``. ``at_zero``:
-    what counts where the value is 0, the name of a parameter or input, or a function of all
-    parameters; else the one parameter it ``overrides``.
+    see ``model.idle``; ``read_by``, ``read_with``, ``only_for``: ``model.unread``; ``decides``:
+    ``held_choices``. ``at_zero``: what counts where the value is 0, the name of a parameter or
+    input, or a function of all parameters; else the one parameter it ``overrides``.
     """
     meta = {"kind": "real", "unit": unit, "min": low, "max": high}
     return field(default=default, metadata=_described(meta, text, extra))
@@ -155,6 +155,27 @@ def renewed_values(params: type[Any], given: dict[str, Any]) -> dict[str, Any]:
 def former_values(params: object) -> dict[str, float]:
     """Return parameters of an earlier form that are those of now."""
     return next((EARLIER[c][2](params) for c in type(params).__mro__ if c in EARLIER), {})
+
+
+def written_out(params: T, fitted: Iterable[str] = ()) -> T:
+    """Return the same parameters with what a choice ``auto`` lets act written out.
+
+    ``fitted``: names of parameters that are to act too.
+    """
+    own = getattr(params, "decided", None)
+    return own(fitted) if own else params
+
+
+def held_choices(params: Any, changed: Iterable[str]) -> dict[str, Any]:
+    """Return choices ``auto`` written out that the changed parameters would make anew.
+
+    Over derivatives, draws and fits they are to hold as they are before the change. Metadata
+    ``decides`` of a parameter: such a choice.
+    """
+    names, known = set(changed), type(params).__dataclass_fields__
+    made = {known[n].metadata.get("decides", "") for n in names if n in known} - names - {""}
+    new = {n: getattr(written_out(params), n) for n in made}
+    return {n: value for n, value in new.items() if value != getattr(params, n)}
 
 
 def with_changes(params: object, given: Mapping[str, object], changes: Mapping[str, object]) -> Any:

@@ -41,6 +41,7 @@ from .parameters import (
     check_number,
     earlier_of,
     former_names_of,
+    held_choices,
     other_names_of,
     plainly_named,
     renewed_values,
@@ -218,6 +219,7 @@ class PartFile:
         names = {s.name for s in self.spec.inputs}
         own = {n: value for n, value in values.items() if n not in names}
         inputs = {n: value for n, value in values.items() if n in names}
+        own |= held_choices(self.params, own)
         return with_changes(self.params, self.parameters, own), inputs
 
     def inside(self, name: str, value: float) -> float:

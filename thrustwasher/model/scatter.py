@@ -328,12 +328,14 @@ def _lognormal(place: Place, given: object) -> Law:
 
 def _truncated(place: Place, kind: str, middle: float, spread: float, text: str) -> Law:
     law = Law(kind=kind, low=place.low, high=place.high, middle=middle, spread=spread, text=text)
-    start, end = map(NormalDist().cdf, law._scores())
-    if end - start < LEAST_LEFT or middle + spread == middle:
+    low, high = law._scores()
+    start, end = map(NormalDist().cdf, (low, high))
+    wide = end - start < LEAST_LEFT or high - low < 1.0  # in standard deviations
+    if wide or middle + spread == middle:
         raise ParameterError(
-            f"{text}: {'so wide that it is uniform' if end - start < LEAST_LEFT else 'nothing'} "
+            f"{text}: {'so wide that it is uniform' if wide else 'nothing'} "
             f"compared with {place.text(place.nominal)} in {place.range_text}, allowed: a standard "
-            "deviation of that size, or uniform"
+            f"deviation {'no wider than that range' if wide else 'of that size'}, or uniform"
         )
     return replace(law, cut=1.0 - (end - start))
 

@@ -5,6 +5,7 @@ from dataclasses import fields, replace
 from typing import Any, NamedTuple
 
 from ..errors import ParameterError, suggestion
+from .parameters import held_choices
 from .registry import find_model
 from .solutions import Asked, AtPoint
 
@@ -108,11 +109,14 @@ def _differences(
     found: Table = {name: {} for name in names}
     metas = {f.name: f.metadata for f in fields(params)}
     for v in varied_parameters(params, parameters):
-        refused = None
+        refused, choices = None, held_choices(params, [v.name])
         for points in _difference(v.value, metas[v.name]):
             try:
                 rows = [
-                    (weight, solve(replace(params, **{v.name: v.value + offset}), **point))
+                    (
+                        weight,
+                        solve(replace(params, **choices, **{v.name: v.value + offset}), **point),
+                    )
                     for offset, weight in points
                 ]
             except ParameterError as error:  # a rule between parameters

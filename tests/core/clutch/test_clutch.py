@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
-from thrustwasher.clutch.parameters import ClutchParams
+from thrustwasher.clutch.parameters import SPEC, ClutchParams
 from thrustwasher.clutch.solve import boundary_friction, solve_clutch
 from thrustwasher.errors import ParameterError
+from thrustwasher.fmu.stepper import DirectInstance
+from thrustwasher.model.part_file import find_part
 
 SIZE = {"inner_radius": 0.064, "outer_radius": 0.085, "faces": 8}
 PACK = ClutchParams.preset("paper", **SIZE)
@@ -40,14 +42,134 @@ def test_arrays_are_taken_and_a_scalar_stays_a_scalar():
 def test_every_law_on_every_level_changes_with_the_temperature_and_stays_below_its_range(
     law, fidelity
 ):
-    pack = ClutchParams(friction_law=law, friction_temperature_slope=-2e-3)
+    pack = ClutchParams(
+        friction_law=law, friction_temperature="slope", friction_temperature_slope=-1e-2
+    )
     mu = [
         solve_clutch(pack, load=5e3, speed=0.0, oil_temperature=t, fidelity=fidelity)
         for t in (373.15, 253.15, 473.15, 243.15)
     ]
     warm = np.array([r.friction_coefficient for r in mu])
     assert [len(r.warnings) for r in mu] == [0, 0, 0, 1] and "-20 .. 200" in mu[3].warnings[0]
-    assert warm / warm[0] == pytest.approx([1.0, 1.24, 0.8, 1.24], rel=1e-12)
+    assert warm / warm[0] == pytest.approx(np.exp([0.0, 1.2, -1.0, 1.2]), rel=1e-12)
+
+
+TEXTBOOK = {  # 8 faces, 75/150 mm, uniform wear: the force acts at the mean of both radii
+    "faces": 8,
+    "inner_radius": 0.0375,
+    "outer_radius": 0.075,
+    "effective_radius": 0.05625,
+}
+EVEN = {f"table_friction_{n}": 0.1 for n in range(6)}
+
+
+@pytest.mark.parametrize("fidelity", ["closed", "stribeck", "field", "fine"])
+@pytest.mark.parametrize(
+    "law", [{"friction_law": "constant", "constant_friction": 0.1}, EVEN], ids=["constant", "table"]
+)
+def test_a_coefficient_that_was_given_is_that_of_any_temperature(law, fidelity):
+    """mu n F (ro + ri)/2 = 0.1 x 8 x 2650.72 N x 56.25 mm; 0.22.0 had 107.35 hot, 128.35 cold."""
+    pack = ClutchParams(**TEXTBOOK, **law, **({"constant_friction": 0.1} if law is EVEN else {}))
+    for oil, slip in ((253.15, 0.0), (297.15, 0.0), (353.15, 3.0), (453.15, 0.0)):
+        r = solve_clutch(pack, load=2650.72, speed=slip, oil_temperature=oil, fidelity=fidelity)
+        assert r.torque_capacity == pytest.approx(119.28, abs=0.005)
+
+
+def test_an_fmu_has_the_coefficient_that_was_given():
+    law = {"friction_law": "constant", "constant_friction": 0.1, "starts_pressed": True}
+    with DirectInstance(SPEC, parameters={**TEXTBOOK, **law}) as unit:
+        for oil in (297.15, 423.15):
+            unit.reset()
+            unit.initialize(inputs={"load": 2650.72, "oil_temperature": oil})
+            unit.step(0.0, 1e-3)
+            assert unit.get(["torque_capacity"]) == pytest.approx([119.28], abs=0.005)
+
+
+@pytest.mark.parametrize(
+    ("changes", "fidelity", "law"),
+    [
+        ({}, "field", "slope"),
+        ({}, "closed", ""),
+        ({"friction_law": "wang"}, "fine", "slope"),
+        ({"friction_law": "wang", "friction_temperature_slope": 0.0}, "field", ""),  # the paper's
+        ({"friction_law": "constant"}, "field", ""),
+        ({"table_speed_3": 2.1}, "field", ""),
+        ({"table_speed_5": 108.0 / 3.6}, "field", "slope"),  # the same in km/h
+        ({"table_friction_0": 0.11, "friction_temperature": "slope"}, "field", "slope"),
+    ],
+)
+def test_auto_lets_the_slope_act_on_the_packages_own_numbers_alone(changes, fidelity, law):
+    pack = ClutchParams(**changes)
+    cold, hot = (
+        solve_clutch(pack, load=5e3, speed=0.0, oil_temperature=t, fidelity=fidelity)
+        for t in (323.15, 423.15)
+    )
+    ratio = np.exp(-0.1) if law else 1.0
+    assert pack.temperature_law(fidelity) == law
+    assert hot.torque_capacity == pytest.approx(ratio * cold.torque_capacity, rel=1e-12)
+
+
+CONTROLLER = {  # 0.185 at 0 degC, 0.140 at 80 degC: of a transmission's controller
+    "friction_temperature": "points",
+    "point_temperature_1": 273.15,
+    "point_friction_1": 0.185,
+    "point_temperature_2": 353.15,
+    "point_friction_2": 0.140,
+}
+
+
+@pytest.mark.parametrize("fidelity", ["closed", "field", "fine"])
+def test_points_over_temperature_are_the_constant_coefficient(fidelity):
+    pack = ClutchParams(friction_law="constant", **CONTROLLER)
+    kelvin = np.array([253.15, 273.15, 293.15, 353.15, 423.15])
+    found = [
+        solve_clutch(pack, load=1e3, speed=0.0, oil_temperature=t, fidelity=fidelity)
+        for t in kelvin
+    ]
+    wanted = np.interp(kelvin, [273.15, 353.15], [0.185, 0.140])
+    assert [r.friction_coefficient for r in found] == pytest.approx(wanted, rel=1e-13)
+    assert ["known for 0 .. 80 degC" in "".join(r.warnings) for r in found] == [1, 0, 0, 0, 1]
+
+
+def test_points_change_a_law_over_slip_in_proportion():
+    """The law is that of the reference temperature, here 40 degC with 0.1625."""
+    plain = ClutchParams(friction_temperature_slope=0.0)
+    pack = ClutchParams(**CONTROLLER, reference_temperature=313.15)
+    for speed in (0.0, 0.5):
+        at = {"load": 1e3, "speed": speed, "oil_temperature": 283.15}
+        mu = solve_clutch(pack, **at)
+        ratio = np.interp(mu.temperature, [273.15, 353.15], [0.185, 0.140]) / 0.1625
+        own = solve_clutch(plain, **at).friction_coefficient
+        assert mu.friction_coefficient == pytest.approx(ratio * own, rel=1e-12)
+
+
+def test_derivatives_over_the_table_keep_the_slope_that_auto_lets_act():
+    at = {"load": 9e3, "speed": 0.0, "oil_temperature": 323.15}
+    r = solve_clutch(ClutchParams(), **at)
+    slope = r.sensitivities(["torque_capacity"], ["table_friction_0"])
+    wanted = r.torque_capacity / 0.112
+    assert slope["torque_capacity"]["table_friction_0"] == pytest.approx(wanted, rel=1e-8)
+    drawn, _ = find_part("clutch").varied({"table_friction_0": 0.1232})
+    assert solve_clutch(drawn, **at).torque_capacity == pytest.approx(1.1 * r.torque_capacity)
+
+
+@pytest.mark.parametrize(
+    ("changes", "at", "words"),
+    [
+        ({"friction_law": "constant", "friction_temperature_slope": -2e-3}, {}, "is not used"),
+        ({"friction_law": "constant", **CONTROLLER, "constant_friction": 0.1}, {}, "is not used"),
+        ({"friction_law": "wang"}, {}, "0.11 at reference_temperature = 100 °C"),
+        ({"heat_transfer": 3e3}, {"speed": 0.1}, "3000 W/(m²·K), 156.7 W/(m²·K) here"),
+        ({"heat_transfer": 3e3, "groove_count": 0}, {"speed": 0.1}, "oil_flow"),
+        ({"heat_transfer": 3e3, "groove_count": 0, "oil_flow": 0.0}, {"speed": 0.1}, ""),
+        ({}, {"speed": 0.1}, ""),
+    ],
+)
+def test_a_number_given_that_another_one_changes_is_named_with_what_counts(changes, at, words):
+    """h = 4.86 k (1 - a_l)/(2 d_g) = 176.2, m = rho c Q/(n A) = 738: m (1 - exp(-h/m)) = 156.7."""
+    point = {"load": 1e3, "speed": 0.0, "oil_temperature": 323.15, **at}
+    told = solve_clutch(ClutchParams(**changes), **point).warnings
+    assert len(told) == bool(words) and words in "".join(told)
 
 
 @pytest.mark.parametrize(

@@ -80,7 +80,7 @@ def test_limits_of_a_part_are_warnings_where_they_are_passed(tmp_path, capsys):
     assert words in capsys.readouterr().err
     assert main(["engage", "--part", path, "--load", "5000", "--speed", "200"]) == 0
     said = capsys.readouterr().err
-    assert "energy_per_area = 0.1704 J/mm²" in said and "power_per_area" in said
+    assert "energy_per_area = 0.1706 J/mm²" in said and "power_per_area" in said
 
 
 def test_limits_are_written_and_read_back(tmp_path):

@@ -15,6 +15,20 @@ from thrustwasher.transmission import parameters as transmission_params
 from thrustwasher.washer import parameters as washer_params
 
 SPECS = [find_spec(key) for key in ("washer", "clutch", "gearmesh", "transmission")]
+POINTS = {
+    "friction_temperature": "points",
+    "point_temperature_1": 300.0,
+    "point_friction_1": 0.1,
+    "point_temperature_2": 310.0,
+    "point_friction_2": 0.1,
+}
+
+
+def warmer(k):
+    """Return temperatures of points that rise before the k-th."""
+    return {f"point_temperature_{n}": 300.0 + 10.0 * (n - 1) for n in range(3, k)}
+
+
 BROKEN = {
     "washer": (
         {"gear_inner_radius": 0.01},
@@ -51,6 +65,14 @@ BROKEN = {
         {"friction_law": "table", "table_speed_4": 1.0},
         {"friction_law": "table", "table_speed_5": 8.0},
         {"groove_width": 0.02},
+        {**POINTS, "point_friction_2": 0.0},
+        {**POINTS, "point_friction_4": 0.1},
+        {**POINTS, "point_temperature_1": 223.15},
+        {**POINTS, "point_temperature_2": 300.0},
+        *(
+            {**POINTS, **{f"point_friction_{n}": 0.1 for n in range(3, k + 1)}, **warmer(k)}
+            for k in (3, 4, 5)
+        ),
     ),
     "gearmesh": (
         {"pinion_teeth": 14},

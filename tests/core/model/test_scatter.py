@@ -79,7 +79,7 @@ def test_a_truncated_normal_law_is_that_of_scipy():
     np.testing.assert_allclose(found.value(U), expected, rtol=1e-9)
 
 
-@pytest.mark.parametrize("given", ["10 %", "1 mm", {"lognormal": 9.0}, {"uniform": [0.0, 1.0]}])
+@pytest.mark.parametrize("given", ["10 %", "9 um", {"lognormal": 9.0}, {"uniform": [0.0, 1.0]}])
 def test_no_draw_leaves_the_range_even_at_the_ends(given):
     x = law("roughness", given).value(np.array([0.0, 1e-300, 0.5, 1.0 - 1e-16, 1.0]))
     assert np.isfinite(x).all() and x.min() >= 1.5e-7 and x.max() <= 1e-5
@@ -197,6 +197,9 @@ BOTH = {"roughness": "5 %", "tilt": "5 %", "share": "5 %"}
         ({"roughness": "0 %"}, ["normal = '0 %'", "above 0"]),
         ({"roughness": -1e-7}, ["normal = -1e-07", "above 0"]),
         ({"roughness": 1e9}, ["so wide that it is uniform", "or uniform"]),
+        ({"clutch.scale": "15000000 %"}, ["clutch.scale", "so wide", "in 0.1 .. 2"]),
+        ({"clutch.scale": "191 %"}, ["no wider than that range"]),  # 1.9
+        ({"roughness": {"lognormal": 70.0}}, ["roughness", "so wide"]),  # 66.7 from end to end
         ({"roughness": 1e-300}, ["nothing compared with", "of that size"]),
         ({"roughness": "3 N"}, ["normal = '3 N'", "um"]),
         ({"roughness": True}, ["normal = True", "a number or a text"]),

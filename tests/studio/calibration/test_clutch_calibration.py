@@ -214,6 +214,33 @@ def test_the_change_of_friction_with_temperature_is_fitted_to_points_at_several(
     assert "one temperature" in one["friction_temperature_slope"].reason
 
 
+def choice(found):
+    p = found.params
+    return p.friction_temperature, p.friction_temperature_slope
+
+
+def test_a_fit_writes_out_how_friction_changes_with_temperature():
+    own = ClutchParams.with_table([0.0, 5.0], [0.12, 0.13])
+    assert choice(fitted(pack=ClutchParams())) == ("slope", -1e-3)  # the table's of the start
+    assert choice(fitted(pack=own)) == ("slope", 0.0)  # one's own table has none
+    oil = np.linspace(293.15, 393.15, 5)
+    constant = ClutchParams(friction_law="constant")
+    mu = 0.11 * np.exp(-4e-3 * (oil - HOT))
+    fit = ("constant_friction", "friction_temperature_slope")
+    found = fitted(mu, constant, speed=np.full(5, 50.0), oil_temperature=oil, fit=fit)
+    assert choice(found) == ("slope", pytest.approx(-4e-3, rel=1e-6))
+    points = {"point_temperature_1": 293.15, "point_temperature_2": 393.15}
+    points |= {"point_friction_1": 0.15, "point_friction_2": 0.10, "reference_temperature": 343.15}
+    pack = replace(PACK, friction_temperature="points", **points)
+    warm = np.linspace(293.15, 393.15, 40)
+    exact = EXACT * np.interp(warm, [293.15, 393.15], [0.15, 0.10]) / 0.125
+    found = fitted(exact, pack, oil_temperature=warm)
+    assert {n: getattr(found.params, n) for n in TRUTH} == pytest.approx(TRUTH, rel=1e-8)
+    assert choice(found)[0] == "points" and "by its points" in str(found)
+    with pytest.raises(ParameterError, match="stands in place of"):
+        fitted(exact, pack, oil_temperature=warm, fit=("friction_temperature_slope",))
+
+
 @pytest.mark.parametrize(
     ("slip", "mu", "fit"),
     [

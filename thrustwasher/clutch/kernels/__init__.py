@@ -23,7 +23,7 @@ CALLED = {
         "thrustwasher.clutch.kernels.advance: advance load_memory settle_film",
         "thrustwasher.clutch.kernels.pack_friction: friction ploughing coefficient_slopes",
         "thrustwasher.clutch.kernels.pack_friction: contact_share load_share settled_slope",
-        "thrustwasher.clutch.kernels.pack_friction: shear_slopes viscous_slopes",
+        "thrustwasher.clutch.kernels.pack_friction: shear_slopes temperature_factor viscous_slopes",
         "thrustwasher.clutch.kernels.constants: broken_rule derive derive_rings",
         "thrustwasher.clutch.kernels.directional_derivative: directional_derivative",
         "thrustwasher.clutch.kernels.pack_outputs: fill_outputs mean_surface ring_outputs",

@@ -16,7 +16,8 @@ from .rosenbrock import Ramp, attempt
 from .rosenbrock_derivatives import Change, follow
 
 MAX_SUBSTEPS = 20_000
-N_NEWTON = 3
+N_NEWTON = 12
+SOLVED = 1e-15  # relative: no further step of Newton's
 LEAST_SHARE = 1e-13  # of the time gone by: no smaller substeps
 FIRST_SHARE = 1e-25  # of the interval: the same at its start
 
@@ -111,8 +112,8 @@ def settle(par: Array, ramp: Ramp, duration: float, power_start: float, work: Ar
     end = settled_power(par, ramp[3], ramp[4], work)
     cooling = settled_cooling(par, ramp[3])
     start = end if is_held(ramp) else power_start
-    slopes = par[L.P_FRICTION_TEMPERATURE_SLOPE], par[L.P_SHEAR_TEMPERATURE_SLOPE]
-    if work[L.W_GIVEN] == 0.0 and slopes != (0.0, 0.0):
+    follows = par[L.D_TEMPERATURE_LAW] != 0.0 or par[L.P_SHEAR_TEMPERATURE_SLOPE] != 0.0
+    if work[L.W_GIVEN] == 0.0 and follows:
         end = warmed_power(par, ramp, start, end, cooling, duration, work)
     warm_up(par, 0, start, end, ramp[2], cooling, duration, work)
     return status
@@ -130,8 +131,8 @@ def warmed_power(
 ) -> float:
     """Return the power of a face [W] at an interval's end, at the temperature it has led to there.
 
-    ``start``, ``end``: at its start, and at its end as warm as at the start. Newton; most laws are
-    linear in the temperature, then one step is enough.
+    ``start``, ``end``: at its start, and at its end as warm as at the start. Newton, kept between
+    powers that are known to be too low and too high: points over temperature have corners.
     """
     rise, left = 0.0, 0.0  # K per W at the end; K without it
     for i in range(1 + int(par[L.D_MODES])):
@@ -146,9 +147,19 @@ def warmed_power(
         rise += gain * second
     smooth = math.tanh(abs(ramp[4]) / par[L.P_SPEED_SMOOTHING])
     lever = abs(ramp[4]) * smooth * par[L.D_RADIUS] * ramp[3]
+    low, high = 0.0, math.inf
     for _ in range(N_NEWTON):
         mu, by_t, _ = coefficient_slopes(par, ramp[4], left + rise * end)
-        end -= (end - lever * mu) / (1.0 - lever * by_t * rise)
+        over, steep, last = end - lever * mu, 1.0 - lever * by_t * rise, end
+        if over > 0.0:
+            high = end
+        else:
+            low = end
+        end = last - over / steep if steep > 0.0 else math.inf
+        if not low <= end <= high:
+            end = 0.5 * (low + high) if high < math.inf else lever * mu
+        if abs(end - last) <= SOLVED * end:
+            break
     return end
 
 

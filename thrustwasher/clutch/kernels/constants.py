@@ -12,11 +12,12 @@ from ...numerics.status import NOT_FINITE, OK
 from ...tribology.flow_factors import squeeze_group
 from ...tribology.greenwood_tripp import pressure_scale
 from . import layout as L
-from .pack_friction import ploughing
+from .pack_friction import ploughing, point_friction
 
 SUMMED = 31.0 / 32.0 * 1.0369277551433699  # of 1/j^5 over odd j
 SUMMED_CUBES = 7.0 / 8.0 * 1.2020569031595943  # of 1/j^3 over odd j
 N_ODD = 13  # tanh(j pi/2) is 1 to rounding beyond
+ROUNDING = 1e-12  # of a value: what a change of its unit may do to it
 NUSSELT = 4.86  # Nusselt number of laminar flow in a slot, one wall heated
 
 
@@ -33,6 +34,52 @@ def derive_friction(par: Array) -> None:
     par[L.D_ADHESION] = (
         par[L.P_ADHESION_FACTOR] * 4.0 / (math.pi * par[L.P_HARDNESS_RATIO]) / (1.0 + root)
     )
+
+
+@kernel
+def has_start_table(par: Array) -> bool:
+    """Tell if the table of friction over slip speed is that of the start values."""
+    for k in range(L.N_TABLE + 1):
+        start = L.START_FRICTION[k]
+        if abs(par[np.uintp(L.P_TABLE_FRICTION_0 + 2 * k)] - start) > ROUNDING * start:
+            return False
+        start = L.START_SPEED[k]
+        if (
+            k > 0
+            and abs(par[np.uintp(L.P_TABLE_FRICTION_0 + 2 * k - 1)] - start) > ROUNDING * start
+        ):
+            return False
+    return True
+
+
+@kernel
+def slope_acts(par: Array) -> bool:
+    """Tell if ``friction_temperature`` = auto lets the slope act.
+
+    On the table of the start values and on the law of Wang et al., not on numbers of one's own.
+    """
+    if par[L.P_FIDELITY] == L.CLOSED:
+        return False
+    own = par[L.P_FRICTION_LAW] == L.TABLE_LAW and has_start_table(par)
+    return own or par[L.P_FRICTION_LAW] == L.WANG_LAW
+
+
+@kernel
+def derive_temperature_law(par: Array) -> None:
+    """Fill what changes friction with temperature, and the constant law at the reference."""
+    par[L.D_TEMPERATURE_LAW] = par[L.D_POINTS] = 0.0
+    par[L.D_POINT_REFERENCE], par[L.D_CONSTANT] = 1.0, par[L.P_CONSTANT_FRICTION]
+    asked = par[L.P_FRICTION_TEMPERATURE]
+    if asked == L.POINTS_LAW:
+        n = 0
+        while n < L.N_POINTS and par[np.uintp(L.P_POINT_FRICTION_1 + 2 * n)] > 0.0:
+            n += 1
+        par[L.D_TEMPERATURE_LAW], par[L.D_POINTS] = float(L.POINTS_LAW), float(n)
+        par[L.D_CONSTANT] = point_friction(par, par[L.P_REFERENCE_TEMPERATURE])[0]
+        par[L.D_POINT_REFERENCE] = par[L.D_CONSTANT]
+    elif asked == L.SLOPE_LAW or slope_acts(par):
+        if par[L.P_FRICTION_TEMPERATURE_SLOPE] != 0.0:
+            par[L.D_TEMPERATURE_LAW] = float(L.SLOPE_LAW)
 
 
 @kernel
@@ -189,6 +236,7 @@ def _squeezed(a: float, b: float, still: float) -> float:
 def derive(par: Array) -> int:
     """Fill the constants behind the parameters; return 0, or NOT_FINITE."""
     derive_friction(par)
+    derive_temperature_law(par)
     derive_film(par)
     derive_heat(par)
     derive_cooling(par)
@@ -216,4 +264,26 @@ def broken_rule(par: Array) -> int:
     n, circle = par[L.P_GROOVE_COUNT], par[L.P_OUTER_RADIUS] + par[L.P_INNER_RADIUS]
     if n > 0.0 and not n * par[L.P_GROOVE_WIDTH] < math.pi * circle:
         return 2 + L.N_TABLE
+    if par[L.P_FRICTION_TEMPERATURE] == L.POINTS_LAW:
+        broken = _broken_points(par)
+        return 2 + L.N_TABLE + broken if broken > 0 else 0
+    return 0
+
+
+@kernel
+def _broken_points(par: Array) -> int:
+    """Return the number, from 1, of the first rule that points over temperature break, or 0."""
+    n, last, top = 0, L.NO_POINT, 0
+    for k in range(L.N_POINTS):
+        if par[np.uintp(L.P_POINT_FRICTION_1 + 2 * k)] > 0.0:
+            n, top = n + 1, k + 1
+    if n < top:
+        return 2
+    if n < 2:
+        return 1
+    for k in range(n):
+        temperature = par[np.uintp(L.P_POINT_TEMPERATURE_1 + 2 * k)]
+        if not temperature > last:
+            return 3 + k
+        last = temperature
     return 0

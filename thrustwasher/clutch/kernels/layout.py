@@ -4,19 +4,20 @@ from ...tribology.holding.memory import N_MEMORY
 
 # places: P_ of parameters
 P_INNER_RADIUS, P_OUTER_RADIUS, P_FACES, P_EFFECTIVE_RADIUS, P_FRICTION_LAW = range(0, 5)
-P_FRICTION_DATA, P_FRICTION_SCALE, P_FRICTION_TEMPERATURE_SLOPE = range(5, 8)
-P_REFERENCE_TEMPERATURE, P_CONSTANT_FRICTION, P_TABLE_FRICTION_0, P_TABLE_SPEED_1 = range(8, 12)
-P_TABLE_FRICTION_1 = 12
-P_INDENTATION, P_PLOUGH_WEIGHT, P_HARDNESS_RATIO, P_ADHESION_FACTOR, P_SHEAR_FLOOR = range(21, 26)
-P_STICK_SPEED, P_DECAY_SPEED, P_KINK_WIDTH, P_SHEAR_TEMPERATURE_SLOPE, P_ROUGHNESS = range(26, 31)
-P_CONTACT_MODULUS, P_ASPERITY_DENSITY, P_ASPERITY_RADIUS, P_LINING_THICKNESS = range(31, 35)
-P_PERMEABILITY, P_LAND_SHARE, P_GROOVE_COUNT, P_GROOVE_WIDTH, P_GROOVE_DEPTH = range(35, 40)
-P_INITIAL_FILM, P_SEPARATING_FORCE, P_STARTS_PRESSED, P_FILM_DYNAMICS = range(40, 44)
-P_SHEAR_HEATING, P_OIL_FLOW, P_OIL_DENSITY, P_OIL_HEAT_CAPACITY, P_OIL_CONDUCTIVITY = range(44, 49)
-P_VISCOSITY_CONSTANT, P_VISCOSITY_EXPONENT, P_VISCOSITY_SCALE, P_STEEL_THICKNESS = range(49, 53)
-P_STEEL_DENSITY, P_STEEL_HEAT_CAPACITY, P_STEEL_CONDUCTIVITY, P_CONTACT_RISE = range(53, 57)
-P_HEAT_TRANSFER, P_SPEED_SMOOTHING, P_INPUT_PROFILE, P_HOLDING, P_COUPLING_INERTIA = range(57, 62)
-P_COUPLING_AGE, P_PROBING, P_FIDELITY, N_PARAM = range(62, 66)
+P_FRICTION_DATA, P_FRICTION_SCALE, P_FRICTION_TEMPERATURE = range(5, 8)
+P_FRICTION_TEMPERATURE_SLOPE, P_REFERENCE_TEMPERATURE, P_POINT_TEMPERATURE_1 = range(8, 11)
+P_POINT_FRICTION_1 = 11
+P_CONSTANT_FRICTION, P_TABLE_FRICTION_0, P_TABLE_SPEED_1, P_TABLE_FRICTION_1 = range(20, 24)
+P_INDENTATION, P_PLOUGH_WEIGHT, P_HARDNESS_RATIO, P_ADHESION_FACTOR, P_SHEAR_FLOOR = range(32, 37)
+P_STICK_SPEED, P_DECAY_SPEED, P_KINK_WIDTH, P_SHEAR_TEMPERATURE_SLOPE, P_ROUGHNESS = range(37, 42)
+P_CONTACT_MODULUS, P_ASPERITY_DENSITY, P_ASPERITY_RADIUS, P_LINING_THICKNESS = range(42, 46)
+P_PERMEABILITY, P_LAND_SHARE, P_GROOVE_COUNT, P_GROOVE_WIDTH, P_GROOVE_DEPTH = range(46, 51)
+P_INITIAL_FILM, P_SEPARATING_FORCE, P_STARTS_PRESSED, P_FILM_DYNAMICS = range(51, 55)
+P_SHEAR_HEATING, P_OIL_FLOW, P_OIL_DENSITY, P_OIL_HEAT_CAPACITY, P_OIL_CONDUCTIVITY = range(55, 60)
+P_VISCOSITY_CONSTANT, P_VISCOSITY_EXPONENT, P_VISCOSITY_SCALE, P_STEEL_THICKNESS = range(60, 64)
+P_STEEL_DENSITY, P_STEEL_HEAT_CAPACITY, P_STEEL_CONDUCTIVITY, P_CONTACT_RISE = range(64, 68)
+P_HEAT_TRANSFER, P_SPEED_SMOOTHING, P_INPUT_PROFILE, P_HOLDING, P_COUPLING_INERTIA = range(68, 73)
+P_COUPLING_AGE, P_PROBING, P_FIDELITY, N_PARAM = range(73, 77)
 # end of places
 
 N_MODES = 8  # of heat conduction across half a steel plate
@@ -44,8 +45,12 @@ N_MODES = 8  # of heat conduction across half a steel plate
     D_LIFT_SHARE,
     D_PAD_RATIO,
     D_MODES,
-) = range(N_PARAM, N_PARAM + 21)
-D_DECAY = N_PARAM + 21  # decay rate [1/s] of each mode, from the second place on
+    D_TEMPERATURE_LAW,  # what changes friction with temperature: SLOPE_LAW, POINTS_LAW, 0 nothing
+    D_POINTS,  # number of points of friction over temperature
+    D_POINT_REFERENCE,  # their coefficient at the reference temperature
+    D_CONSTANT,  # coefficient of the constant law there
+) = range(N_PARAM, N_PARAM + 25)
+D_DECAY = N_PARAM + 25  # decay rate [1/s] of each mode, from the second place on
 D_GAIN = D_DECAY + 1 + N_MODES  # their rise [K/s] per W into a face
 N_PACK = D_GAIN + 1 + N_MODES
 # Behind them the rings the pack is resolved into: their number, the place of the first one's
@@ -171,9 +176,16 @@ CLOSED, STRIBECK, FIELD, FINE = 1, 3, 4, 5  # fidelity; 2 had no heat and runs a
 CONSTANT_LAW, TABLE_LAW = 2, 3  # friction_law
 BOUNDARY_DATA = 2  # friction_data
 N_TABLE = 5  # points above standstill
+# The table of the start values: slip speeds [m/s], coefficients.
+START_SPEED = (0.0, 0.1, 0.5, 2.0, 8.0, 30.0)
+START_FRICTION = (0.112, 0.114, 0.118, 0.123, 0.129, 0.126)
+WANG_LAW = 1
+SLOPE_LAW, POINTS_LAW = 2, 3  # friction_temperature
+N_POINTS, NO_POINT = 5, 223.15  # of friction over temperature; K, where a point counts as not given
 LINEAR_PROFILE = 2  # input_profile
 HOT_LIMIT = 523.0  # K
+EXTRAPOLATED_LIMIT = 873.15  # K; above, numbers are no more than an extrapolation
 LEAST_RATIO = -3.0  # film ratio below which rough faces are pressed out of the models' reach
 OPEN_PRESSURE = 1e3  # Pa; a pack pressed less than this is open
 AMBIENT = 1e5  # Pa; oil is drawn apart, and torn, by no more
-TEMPERATE = (253.15, 473.15)  # K; beyond, friction stays as it is at the nearer one
+TEMPERATE = (253.15, 473.15)  # K; beyond, the slope acts no further

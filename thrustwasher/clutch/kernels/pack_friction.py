@@ -64,21 +64,51 @@ def tabled(par: Array, speed: float) -> tuple[float, float]:
 
 
 @kernel
+def point_friction(par: Array, temperature: float) -> tuple[float, float]:
+    """Return the coefficient [-] of the points over temperature, and its slope [1/K].
+
+    Straight between the points, the ends held. At a point the slope is that above.
+    """
+    low, value = par[L.P_POINT_TEMPERATURE_1], par[L.P_POINT_FRICTION_1]
+    if temperature < low:
+        return value, 0.0
+    for k in range(1, int(par[L.D_POINTS])):
+        high = par[np.uintp(L.P_POINT_TEMPERATURE_1 + 2 * k)]
+        after = par[np.uintp(L.P_POINT_FRICTION_1 + 2 * k)]
+        if temperature < high:
+            rise, width = after - value, high - low
+            return value + rise * (temperature - low) / width, rise / width
+        low, value = high, after
+    return value, 0.0
+
+
+@kernel
+def temperature_factor(par: Array, temperature: float) -> tuple[float, float]:
+    """Return friction over that at ``reference_temperature`` [-], and its slope [1/K].
+
+    By ``friction_temperature``: exp(slope (T - reference)), T within TEMPERATE; or the points.
+    """
+    if par[L.D_TEMPERATURE_LAW] == L.POINTS_LAW:
+        value, rise = point_friction(par, temperature)
+        return value / par[L.D_POINT_REFERENCE], rise / par[L.D_POINT_REFERENCE]
+    if par[L.D_TEMPERATURE_LAW] == L.SLOPE_LAW:
+        slope = par[L.P_FRICTION_TEMPERATURE_SLOPE]
+        within = min(max(temperature, L.TEMPERATE[0]), L.TEMPERATE[1])
+        factor = math.exp(slope * (within - par[L.P_REFERENCE_TEMPERATURE]))
+        return factor, slope * factor if within == temperature else 0.0
+    return 1.0, 0.0
+
+
+@kernel
 def coefficient_slopes(par: Array, slip: float, temperature: float) -> tuple[float, float, float]:
     """Return the coefficient of boundary friction [-], its slopes over temperature and |slip|.
 
-    Every law is that of ``reference_temperature``: ``friction_temperature_slope`` changes it in
-    proportion, within TEMPERATE.
+    Every law is that of ``reference_temperature``; ``temperature_factor`` changes it.
     """
-    scale, slope = par[L.P_FRICTION_SCALE], par[L.P_FRICTION_TEMPERATURE_SLOPE]
-    change = scale * slope
-    if slope != 0.0:
-        within = min(max(temperature, L.TEMPERATE[0]), L.TEMPERATE[1])
-        scale *= 1.0 + slope * (within - par[L.P_REFERENCE_TEMPERATURE])
-        if within != temperature:
-            change = 0.0
+    factor, steep = temperature_factor(par, temperature)
+    scale, change = par[L.P_FRICTION_SCALE] * factor, par[L.P_FRICTION_SCALE] * steep
     if par[L.P_FIDELITY] == L.CLOSED or par[L.P_FRICTION_LAW] == L.CONSTANT_LAW:
-        mu = par[L.P_CONSTANT_FRICTION]
+        mu = par[L.D_CONSTANT]
         return scale * mu, change * mu, 0.0
     if par[L.P_FRICTION_LAW] == L.TABLE_LAW:
         mu, steepness = tabled(par, abs(slip) * par[L.D_RADIUS])

@@ -78,7 +78,8 @@ def _of_temperature(scene: Scene, time: Array, signals: Signals) -> Iterator[str
         if not isinstance(part.params, ClutchParams):
             continue
         warm = signals[f"{pack}.temperature"]
-        for line in doubts_of_warmth(part.params, float(warm.min()), float(warm.max())):
+        ends = float(warm.min()), float(warm.max())
+        for line in doubts_of_warmth(part.params, *ends, part.fidelity):
             yield warning("warmth", pack=pack, text=line)
         of_pack = {n: signals[f"{pack}.{n}"] for n in ("load", "speed", "film_ratio", "energy")}
         for line in cold_release(

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import ParameterError
+from ...model.parameters import held_choices
 from ...model.toml_tables import unknown
 from .places import COLUMNS, scene_places
 from .scene import Scene
@@ -70,12 +71,26 @@ def _with_values(scene: Scene, values: Mapping[str, object]) -> Tables:
     if not scene.table:
         raise ParameterError(f"scene {scene.name!r}: was made by hand, allowed: of load_scene")
     tables = dict(scene.table)
-    for path, value in values.items():
+    for path, value in {**_held(scene, values), **values}.items():
         try:
             _put(tables, path.split("."), value)
         except (KeyError, IndexError, TypeError, ValueError):
             raise unknown(f"scene {scene.name!r}", path, scene_places(scene)) from None
     return tables
+
+
+def _held(scene: Scene, values: Mapping[str, object]) -> dict[str, Any]:
+    """Return the choices by path that hold over these values; see ``held_choices``."""
+    changed: dict[str, list[str]] = {}
+    for path in values:
+        part, _, name = path.partition(".")
+        if part in scene.parts:
+            changed.setdefault(part, []).append(name)
+    return {
+        f"{part}.{name}": value
+        for part, names in changed.items()
+        for name, value in held_choices(scene.parts[part].params, names).items()
+    }
 
 
 def _put(table: Tables, path: list[str], value: object) -> None:

@@ -5,6 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 from ...errors import ParameterError
+from ...model.parameters import written_out
 from ...model.part_file import PartFile, find_part
 from ...model.registry import find_model, models_with_points
 from .engagement.trace_fit import TRACES
@@ -93,6 +94,8 @@ def calibrate(
     is_law = not own.computed and not own.units.keys().isdisjoint(data)
     kind = LAWS.get(spec.key, ModelProblem) if is_law else ModelProblem
     points = measured(start, params, data, at, errors or {}, fidelity or start.fidelity)
+    held = tuple(p and written_out(p, fit or ()) for p in points.plan.params)
+    points = replace(points, plan=replace(points.plan, params=held))
     groups = grouped(points) if kind.by_level else None
     points, names = kind.asked(groups.means if groups else points, fit, {*data, *at})
     if twice := set(names) & set(data):

@@ -6,7 +6,7 @@ from typing import Any
 
 from ...clutch.kernels import layout as clutch_layout
 from ...clutch.parameters import ClutchParams
-from ...clutch.solve import LINING, LININGS, ROUNDED, WARMTH
+from ...clutch.solve import LINING, LININGS, ROUNDED, WARMTH, range_of_warmth
 from ...errors import Status
 from ...model.advice import VERIFIED, range_text
 from ...model.registry import MODELS
@@ -132,9 +132,8 @@ def _lining(part: Part) -> list[Any] | None:
 def _warmth(part: Part) -> list[float] | None:
     """Return the range of friction over temperature [K], room at its ends, what is too hot."""
     p = part.params
-    if not isinstance(p, ClutchParams) or p.friction_temperature_slope == 0.0:
-        return None
-    return [*clutch_layout.TEMPERATE, ROUNDED, clutch_layout.HOT_LIMIT]
+    known = range_of_warmth(p, part.fidelity) if isinstance(p, ClutchParams) else None
+    return [*known, ROUNDED, clutch_layout.HOT_LIMIT] if known else None
 
 
 def _holding(scene: Scene, pack: str) -> list[float | None]:

@@ -44,7 +44,7 @@ def table_friction(p, speed):
 def warmed(p, temperature):
     """Friction over that at the reference temperature."""
     within = min(max(temperature, 253.15), 473.15)
-    return 1.0 + p.friction_temperature_slope * (within - p.reference_temperature)
+    return math.exp(p.friction_temperature_slope * (within - p.reference_temperature))
 
 
 def lift(p, u, eta, speed):

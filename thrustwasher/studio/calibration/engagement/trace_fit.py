@@ -10,6 +10,7 @@ import numpy as np
 from ....clutch.parameters import SPEC, ClutchParams
 from ....errors import ParameterError
 from ....model.levels import level_named
+from ....model.parameters import written_out
 from ....model.part_file import PartFile, find_part
 from ....model.point import from_box, taken_text
 from ....numerics.jit import Array
@@ -134,6 +135,7 @@ def calibrate_traces(
         f"real parameters of {SPEC.name}, and of the test rig {', '.join(OF_RIG)}",
     )
     _check_rig(rig, names)
+    rig = written_out(rig, names)
     read, remarks = read_recordings(recordings, rig)
     wholes = [completed(whole, start, rig, held) for whole in read]
     parts = [

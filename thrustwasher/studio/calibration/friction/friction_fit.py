@@ -8,8 +8,8 @@ of them: at most two of these four can be fitted at once. Load does not act at a
 ``friction_data`` of the pack says what the law describes. "total": the points as they are.
 "boundary": the points less the shear of the settled film, at their ``oil_temperature``. A table
 gives way to the law, ``friction_scale`` to 1: the law is that of the points. Where their
-``oil_temperature`` is given, friction changes with it by ``friction_temperature_slope``, which can
-be fitted too.
+``oil_temperature`` is given, friction changes with it by the pack's ``friction_temperature``, which
+is written out; its slope can be fitted too.
 """
 
 from collections.abc import Mapping
@@ -87,17 +87,20 @@ class LawCalibration(Calibration):
         if self.params.friction_data == "total":
             lines = ["Points and law: total friction of a settled pack, shear of its oil included."]
         lines.append(f"Load: {self.load_test.text}.")
-        warm, slope = self.params.reference_temperature, self.params.friction_temperature_slope
+        warm, acts = self.params.reference_temperature, self.params.temperature_law()
+        slope = self.params.friction_temperature_slope if acts == "slope" else 0.0
         if np.all(self._problem.warmer == 0.0):
-            acts = self.params.shear_temperature_slope != 0.0 or slope != 0.0
-            if acts:
+            if acts or self.params.shear_temperature_slope != 0.0:
                 lines.append(
                     f"Temperature: the points count as measured at reference_temperature "
                     f"({warm:g} K); friction changes away from it."
                 )
         else:
+            how = (
+                f"by {100 * slope:.2g} % per kelvin of" if acts != "points" else "by its points at"
+            )
             lines.append(
-                f"Temperature: friction changes by {100 * slope:.2g} % per kelvin of a point's "
+                f"Temperature: friction changes {how} a point's "
                 f"oil_temperature; the law is that of reference_temperature ({warm:g} K)."
             )
         return lines

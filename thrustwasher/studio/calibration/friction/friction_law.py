@@ -11,7 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....clutch.kernels.layout import TEMPERATE
-from ....clutch.kernels.pack_friction import ploughing, settled_slope, viscous_slopes
+from ....clutch.kernels.pack_friction import (
+    ploughing,
+    settled_slope,
+    temperature_factor,
+    viscous_slopes,
+)
 from ....clutch.parameters import ClutchParams
 from ....clutch.solve import prepare
 from ....errors import ParameterError
@@ -169,7 +174,13 @@ class FrictionProblem(ModelProblem):
             raise ParameterError(
                 f"friction is {mean:.3g} on average, allowed: above 0 (for either sign of speed)"
             )
-        params = replace(params, friction_law=law_of, friction_scale=1.0)
+        if params.friction_temperature == "points" and set(names) & {WARMTH, *CONSTANT_LAW}:
+            raise ParameterError(
+                f"fit = {', '.join(names)}: friction_temperature = points stands in place of "
+                f"{WARMTH} and constant_friction, allowed: friction_temperature = slope"
+            )
+        written = _temperature_law(params, WARMTH in names)
+        params = replace(params, friction_law=law_of, friction_scale=1.0, **written)
         if params.friction_data == "boundary":
             if not warm:
                 raise ParameterError(
@@ -222,9 +233,24 @@ class FrictionProblem(ModelProblem):
 
     @cached_property
     def warmer(self) -> Array:
-        """Temperature of the points over the law's [K], as far as friction changes with it."""
+        """Temperature of the points over the law's [K], as far as the slope acts."""
         warm = np.clip(self.points.input("oil_temperature"), *TEMPERATE)
         return np.asarray(warm - self.points.plan.params[0].reference_temperature)
+
+    @cached_property
+    def by_points(self) -> Array | None:
+        """Friction over that of the law [-] where points over temperature say it, else None."""
+        params = self.points.plan.params[0]
+        if params.friction_temperature != "points":
+            return None
+        par, warm = prepare(params, "field"), self.points.input("oil_temperature").tolist()
+        return np.array([temperature_factor(par, t)[0] for t in warm])
+
+    def warmed(self, values: Mapping[str, float]) -> Array:
+        """Return friction at the points over that at the law's temperature [-]."""
+        if self.by_points is not None:
+            return self.by_points
+        return np.asarray(np.exp(values[WARMTH] * self.warmer))
 
     def curve(self, guess: Array) -> Array:
         """Return the coefficients [-] at the measured slip speeds and temperatures."""
@@ -232,8 +258,7 @@ class FrictionProblem(ModelProblem):
 
     def at_points(self, values: Mapping[str, float]) -> Array:
         """Return the coefficients [-] of a law at the measured points."""
-        warm = 1.0 + values[WARMTH] * self.warmer
-        return np.asarray(self.curve_over(values, self.speed) * warm)
+        return np.asarray(self.curve_over(values, self.speed) * self.warmed(values))
 
     def curve_over(self, values: Mapping[str, float], speed: Array) -> Array:
         """Return the coefficients [-] of a law at slip speeds [m/s], at its temperature."""
@@ -243,10 +268,9 @@ class FrictionProblem(ModelProblem):
         """Return the derivatives of the curve, (points, constants)."""
         values = self.values(guess)
         slopes = friction_slopes(values, self.speed, self.names)
-        slopes = slopes * (1.0 + values[WARMTH] * self.warmer)[:, None]
+        slopes = slopes * self.warmed(values)[:, None]
         if WARMTH in self.names:
-            own = self.curve_over(values, self.speed) * self.warmer
-            slopes[:, self.names.index(WARMTH)] = own
+            slopes[:, self.names.index(WARMTH)] = self.at_points(values) * self.warmer
         return np.asarray(slopes)
 
     def starts(self, first: Array) -> list[Array]:
@@ -320,6 +344,14 @@ class FrictionProblem(ModelProblem):
     def drawn_over(self, output: str) -> dict[str, tuple[str, Array]]:
         """Return slip speed and load of the points."""
         return {"slip speed": ("m/s", self.speed), "load": ("N", self.load)}
+
+
+def _temperature_law(params: ClutchParams, fits_slope: bool) -> dict[str, Any]:
+    """Return the fields that write out how friction changes with temperature, as the pack's did."""
+    acts = params.temperature_law()
+    if fits_slope or acts:
+        return {"friction_temperature": "slope" if fits_slope else acts}
+    return {"friction_temperature": "slope", WARMTH: 0.0}
 
 
 def _refuse(

@@ -6,6 +6,7 @@ of its own name: that value is what happens all the same.
 """
 
 from collections.abc import Iterable, Mapping
+from functools import cache
 from typing import Any
 
 Pairs = list[tuple[str, Any]]
@@ -16,11 +17,18 @@ def unread(params: Any, name: str, fidelity: str = "") -> Pairs:
 
     ``fidelity``: the level, "" if it is not known.
     """
-    known = type(params).__dataclass_fields__
-    metadata = {n: f.metadata for n, f in known.items() if "read_by" in f.metadata}
+    kind: Any = type(params)
+    metadata = _conditions(kind)
     if _is_read(metadata, params, name, fidelity):
         return []
     return _roots(metadata, params, name)
+
+
+@cache
+def _conditions(kind: Any) -> dict[str, Any]:
+    """Return the metadata of the fields that not every choice reads."""
+    known: dict[str, Any] = getattr(kind, "__dataclass_fields__")  # noqa: B009
+    return {n: f.metadata for n, f in known.items() if "read_by" in f.metadata}
 
 
 def _is_read(metadata: Mapping[str, Any], params: object, name: str, fidelity: str) -> bool:

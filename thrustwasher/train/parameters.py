@@ -135,7 +135,7 @@ def _of_mesh(i: int) -> dict[str, Any]:
             own.get(f"{gear}_immersion", 0.0), "1", 0.0, 0.5, text
         )
     found |= {PAIR[k]: _taken(PAIR[k], own, words) for k in L.OWN}
-    return {f"mesh_{i}_{name}": f for name, f in found.items()}
+    return {f"mesh_{i}_{name}": _of_chain(f, i) for name, f in found.items()}
 
 
 def _length(default: float, text: str) -> Any:
@@ -165,7 +165,15 @@ def _of_shaft(i: int) -> dict[str, Any]:
         found |= {f"bearing_{k}_{n}": f for n, f in bearing}
     for k in range(1, L.PUSHES + 1):
         found |= {f"force_{k}_{n}": f for n, f in _of_force(f"{words}force {k} from outside: ")}
-    return {f"shaft_{i}_{name}": f for name, f in found.items()}
+    return {f"shaft_{i}_{name}": _of_chain(f, i - 1) for name, f in found.items()}
+
+
+def _of_chain(own: Any, least: int) -> Any:
+    """Return a field that a chain of ``least`` meshes and more reads."""
+    meta = own.metadata
+    if least > 1 and "read_by" not in meta:
+        meta = {**meta, "read_by": tuple(("meshes", n) for n in range(least, L.MESHES + 1))}
+    return field(default=own.default, metadata=meta)
 
 
 def _of_bearing(own: dict[str, Any], shaft: int, k: int, words: str) -> Any:

@@ -11,6 +11,7 @@ from ..gearmesh.solve import solve_gearmesh
 from ..losses.kernels import loss_laws as laws
 from ..losses.loss_ranges import DEPTH, FAST, FROUDE, REYNOLDS
 from ..model.advice import warnings_of
+from ..model.idle import idle_warnings
 from ..model.levels import level_named
 from ..model.parameters import check_number
 from ..model.prepare import filled
@@ -125,7 +126,10 @@ def solve_train(
         status=status,
         fidelity=level_named(SPEC, fidelity),
         _request=Asked(SPEC.key, params, {**point, "fidelity": fidelity}),
-        warnings=tuple(warnings_of(SPEC, status, point, shown, doubts)),
+        warnings=(
+            *idle_warnings(SPEC.key, params, fidelity),
+            *warnings_of(SPEC, status, point, shown, doubts),
+        ),
     )
 
 

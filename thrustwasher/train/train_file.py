@@ -31,6 +31,7 @@ from ..errors import ParameterError, within
 from ..gearmesh.parameters import SPEC as PAIR_SPEC
 from ..model.part_file import (
     PartFile,
+    flat_name,
     load_part,
     preset_file,
     preset_part,
@@ -127,7 +128,10 @@ def own_text(scene: TrainScene, text: str) -> str:
 
 
 def flat_part(where: str, table: dict[str, Any], folder: Path | None = None) -> dict[str, Any]:
-    """Return the table of a part file for a scene; ``folder`` of the part files it names."""
+    """Return the table of a part file for a scene; ``folder`` of the part files it names.
+
+    ``names`` in it: how names of shafts and meshes begin, and how those of the model.
+    """
     nothing_else(where, table, ("train", *TEXTS))
     train = table["train"]
     if not isinstance(train, dict):
@@ -149,17 +153,11 @@ def flat_part(where: str, table: dict[str, Any], folder: Path | None = None) -> 
     found = {key: table[key] for key in TEXTS if key in table and key != "title"}
     for key in ("box", "scatter"):
         if isinstance(found.get(key), dict):
-            found[key] = {_flat_name(name, named): law for name, law in found[key].items()}
+            found[key] = {flat_name(SPEC, named, n): law for n, law in found[key].items()}
     title = {"description": table["title"]} if "title" in table else {}
     own = {"model": SPEC.key, "name": train.get("name", usual_name(SPEC)), "parameters": values}
+    own["names"] = named
     return {**title, **found, **own}
-
-
-def _flat_name(name: str, named: Mapping[str, str]) -> str:
-    for start, flat in named.items():
-        if name.startswith(start):
-            return flat + name.removeprefix(start)
-    return name
 
 
 def _tables(where: str, train: Mapping[str, Any], key: str, most: int) -> dict[str, Any]:

@@ -98,6 +98,45 @@ def test_what_is_wrong_is_named(old, new, words, tmp_path):
         load_part(written(tmp_path, TEXT.replace(old, new, 1)))
 
 
+@pytest.mark.parametrize(
+    ("words", "meant"),
+    [
+        ("train --part {} --set normal_module=3mm", "first.normal_module"),
+        ("train --part {} --set second.normal_modul=3mm", "second.normal_module"),
+        ("train --set normal_module=3mm", "mesh_1_normal_module"),
+        ("sweep {} --over normal_module=2mm:3mm:n3", "first.normal_module"),
+        ("scatter {} --set gear_immersion=0.1", "first.gear_immersion"),
+        ("optimise {} --vary second.face_widht=40mm:50mm --minimise loss", "second.face_width"),
+        ("optimise {} --vary first.face_width=30mm:40mm --minimise first.los", "first.loss"),
+    ],
+)
+def test_suggestions_are_names_of_this_file(words, meant, capsys):
+    assert main(words.format(SCENE).split()) == 2
+    assert f"did you mean {meant}?" in capsys.readouterr().err
+
+
+def test_names_of_the_file_are_taken(tmp_path, capsys):
+    told = []
+    for name in ("first.normal_module", "mesh_1_normal_module"):
+        assert main(["train", "--part", str(SCENE), "--set", f"{name}=2.1mm", "--json"]) == 0
+        told.append(json.loads(capsys.readouterr().out)["loss"])
+    assert told[0] == told[1]
+    out = tmp_path / "rows.csv"
+    assert main(["sweep", str(SCENE), "--over", "first.load_factor=1,2", "--out", str(out)]) == 0
+    capsys.readouterr()
+    by_file = load_part(SCENE).scattered({"first.load_factor": "5 %"}).names
+    assert by_file == ("mesh_1_load_factor",)
+    with pytest.raises(ParameterError, match=r"did you mean .first\.load_factor"):
+        load_part(written(tmp_path, TEXT.replace('"first.load_factor"', '"load_factor"')))
+
+
+def test_what_is_not_there_is_said_to_have_no_effect():
+    p = TrainParams(mesh_3_face_width=0.05, shaft_2_axial="second")
+    said = solve_train(p, torque=150.0, speed=500.0).warnings[:2]
+    assert said[0].startswith("mesh_3_face_width = 50 mm has no effect: read by meshes = 3 only")
+    assert said[1].startswith("shaft_2_axial = second has no effect: read by shaft_2_arrangement")
+
+
 def test_three_bearings_are_refused(tmp_path):
     line = next(x for x in TEXT.splitlines() if x.startswith("  { type"))
     with pytest.raises(ParameterError, match="exactly two"):

@@ -6,6 +6,9 @@ from enum import IntEnum
 from errno import EINVAL
 from os import PathLike, fspath, stat
 from stat import S_ISFIFO
+from typing import TypeVar
+
+T = TypeVar("T")
 
 
 class ParameterError(ValueError):
@@ -24,13 +27,25 @@ class EnvironmentProblem(RuntimeError):
     """Something this machine lacks (a package, a writable folder); the message says what to do."""
 
 
+class Suggesting(dict[str, T]):
+    """What there is by name, with the names among them or for them that are suggested."""
+
+    suggested: Iterable[str] = ()
+
+
 def suggestion(
     name: str, known: Iterable[str], words: str, otherwise: str = "", *, likeness: float = 0.6
 ) -> str:
-    """Return words with the known name in them that was probably meant, else the other ones."""
+    """Return words with the known name in them that was probably meant, else the other ones.
+
+    ``known``: names; of a ``Suggesting`` those it suggests, first one that ends with ``name``.
+    """
     from difflib import get_close_matches  # late: it is for mistakes alone
 
-    names = list(known)
+    names = list(getattr(known, "suggested", known))
+    ends = [n for n in names if n.endswith((f"_{name}", f".{name}"))]
+    if ends and hasattr(known, "suggested"):
+        return words.format(ends[0])
     if (same := name.replace("factor", "scale")) != name and same in names:
         return words.format(same)
     near = get_close_matches(name, names, 1, likeness)

@@ -28,7 +28,7 @@ PINNED = {  # value; relative tolerance
     "ex14_jackson_green": (0.15734, 1e-3),  # share of the film's heat that the solids take
     "ex15_design": (0.257116, 1e-4),  # N m, at the film ratio of the limit
     "ex16_own_driveline": (91.724138, 1e-6),  # N m, the torque of rigid shafts
-    "ex18_reducer": (0.983931, 1e-5),  # efficiency at 150 N m and 500 rad/s
+    "ex18_reducer": (0.983808, 1e-5),  # efficiency at 150 N m and 500 rad/s
     "ex17_engagement": (0.918035, 1e-4),  # factor on friction; the recording was made with 0.92
 }
 IN_SHORT = {"ex14_jackson_green": {"most": 1}}  # CI runs every example as it stands

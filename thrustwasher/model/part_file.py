@@ -30,7 +30,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from ..errors import ParameterError, within
+from ..errors import ParameterError, Suggesting, within
 from ..face_load import LIMITED, over_limits
 from ..moved import now_named
 from ..units import exact_quantity, format_quantity
@@ -94,6 +94,29 @@ class PartFile:
     nominal value follows that."""
     description: str = ""
     notes: str = ""
+    names: Mapping[str, str] = field(default_factory=dict)
+    """How names begin in the file, such as ``first.``, and in the model, ``mesh_1_``."""
+
+    def flat_name(self, name: str) -> str:
+        """Return the model's name for one of the file's, or a text that begins with it."""
+        return flat_name(self.spec, self.names, name)
+
+    def own_name(self, name: str) -> str:
+        """Return the file's name for one of the model."""
+        found = ((own, flat) for own, flat in self.names.items() if name.startswith(flat))
+        own, flat = next(found, ("", ""))
+        return own + name.removeprefix(flat)
+
+    def suggesting(self, known: Mapping[str, Any]) -> Suggesting[Any]:
+        """Return what is known by name; suggested are the names of what this part reads."""
+        found, params = Suggesting(known), self.params
+        own = {f.name for f in fields(params)}
+        found.suggested = [
+            self.own_name(name)
+            for name in known
+            if name not in own or not unread(params, name, self.fidelity)
+        ]
+        return found
 
     @property
     def params(self) -> Any:
@@ -187,7 +210,8 @@ class PartFile:
 
     def places(self, inputs: Mapping[str, float] | None = None) -> dict[str, Place]:
         """Return what of the part can scatter, by name; ``inputs`` [SI], others at their starts."""
-        return part_places(self.spec, self.params, {**self.starts, **(inputs or {})})
+        found = part_places(self.spec, self.params, {**self.starts, **(inputs or {})})
+        return self.suggesting(found)
 
     def scattered(
         self,
@@ -202,7 +226,8 @@ class PartFile:
         places, params = self.places(inputs), self.params
         also = {other: places[name] for other, name in other_names_of(self.spec.params).items()}
         given = self.scatter if table is None else table
-        scatter = read_scatter("[scatter]", given, places | also)
+        also |= {own: place for n, place in places.items() if (own := self.own_name(n)) != n}
+        scatter = read_scatter("[scatter]", given, self.suggesting(places | also))
         idle = {}
         for name in scatter.names:
             failing = unread(params, name, self.fidelity)
@@ -226,6 +251,17 @@ class PartFile:
         """Return the value of an input, moved into the box."""
         low, high = self.box.get(name, (-math.inf, math.inf))
         return min(max(value, low), high)
+
+
+def flat_name(spec: ModelSpec, names: Mapping[str, str], text: str) -> str:
+    """Return a text with the model's name at its head if that is a file's name there.
+
+    ``names``: how names begin in the file and in the model.
+    """
+    head = next((own for own in names if text.startswith(own)), "")
+    flat = names[head] + text.removeprefix(head) if head else text
+    known = {f.name for f in fields(spec.params)} | {s.name for s in spec.outputs}
+    return flat if re.split(r"\W", flat, maxsplit=1)[0] in known else text
 
 
 def load_part(path: str | Path) -> PartFile:
@@ -331,8 +367,10 @@ def scene_of_part(table: Mapping[str, Any]) -> str:
 
 
 def _part(where: str, table: dict[str, Any], folder: Path | None = None) -> PartFile:
+    names: dict[str, str] = {}
     if key := scene_of_part(table):
         table = find_model(key).flat(where, table, folder)
+        names = table.pop("names", {})
     known = (*TEXTS, *TABLES, "oil")
     nothing_else(where, [k for k in table if k not in known], known)
     if isinstance(table.get("notes"), dict):
@@ -368,6 +406,7 @@ def _part(where: str, table: dict[str, Any], folder: Path | None = None) -> Part
         scatter=table.get("scatter", {}),
         description=table.get("description", ""),
         notes=table.get("notes", ""),
+        names=names,
     )
 
 

@@ -7,9 +7,17 @@ import math
 from dataclasses import Field, dataclass, field, fields
 from typing import Any
 
-from ..errors import ParameterError, within
+from ..errors import within
 from ..gearmesh.parameters import GearMeshParams
-from ..model.parameters import check_ranges, choice, count, extended, quantity, read_with
+from ..model.parameters import (
+    check_ranges,
+    check_rules,
+    choice,
+    count,
+    extended,
+    quantity,
+    read_with,
+)
 from ..model.spec import ModelSpec, Rule
 from ..model.unread import condition_words
 from .kernels import layout as L
@@ -23,7 +31,12 @@ HANDS = {"right": "the pinion's teeth run as a right-hand screw", "left": "as a 
 AXIAL = {
     "first": "the first bearing, whichever way",
     "second": "the second bearing, whichever way",
-    "pushed": "that which the shaft is pushed to, as of two taper bearings face to face",
+    "pushed": "that which the shaft is pushed to",
+}
+ARRANGEMENTS = {
+    "none": "axial says which bearing takes the axial force, and radial forces induce none",
+    "O": "back to back: radial forces act outside the pair, at the pressure centres",
+    "X": "face to face: radial forces act inside the pair, at the pressure centres",
 }
 BEARINGS = {
     "ball": "deep groove ball bearing: life with the third power of the load",
@@ -107,14 +120,9 @@ class _TrainParams:
         for i in range(int(self.meshes)):
             with within(f"mesh {i + 1}"):
                 pair_of(self, i)
-        for number in range(int(self.meshes) + 1):
-            if _is_short(self, number + 1):
-                raise ParameterError(RULES[number].message(self))
+        from .kernels.step import broken_rule
 
-
-def _is_short(params: Any, shaft: int) -> bool:
-    first, second = (getattr(params, f"shaft_{shaft}_bearing_{k}_position") for k in (1, 2))
-    return bool(abs(first - second) < 1e-4)
+        check_rules(self, RULES, broken_rule)
 
 
 def pair_of(params: Any, mesh: int) -> GearMeshParams:
@@ -168,9 +176,17 @@ def _length(default: float, text: str) -> Any:
 
 def _of_shaft(i: int) -> dict[str, Any]:
     own, words = SHAFTS[i - 1], f"shaft {i}: "
-    axial = "first" if own["type"] == "ball" else "pushed"
+    text = f"{words}which bearing takes the axial force, where arrangement is none"
     found = {
-        "axial": choice(axial, AXIAL, "Axial", f"{words}which bearing takes the axial force"),
+        "axial": choice(
+            "first", AXIAL, "Axial", text, read_by=((f"shaft_{i}_arrangement", "none"),)
+        ),
+        "arrangement": choice(
+            "none" if own["type"] == "ball" else "X",
+            ARRANGEMENTS,
+            "Arrangement",
+            f"{words}of a pair of taper or angular contact bearings without preload",
+        ),
         "seals": count(
             own.get("seals", 0),
             0,
@@ -188,13 +204,18 @@ def _of_shaft(i: int) -> dict[str, Any]:
         ),
     }
     for k in (1, 2):
-        found |= {f"bearing_{k}_{n}": f for n, f in _of_bearing(own, k, f"{words}bearing {k}: ")}
+        bearing = _of_bearing(own, i, k, f"{words}bearing {k}: ")
+        found |= {f"bearing_{k}_{n}": f for n, f in bearing}
+    for k in range(1, L.PUSHES + 1):
+        force = _of_force(f"shaft_{i}_force_{k}", f"{words}force {k} from outside: ")
+        found |= {f"force_{k}_{n}": f for n, f in force}
     return {f"shaft_{i}_{name}": f for name, f in found.items()}
 
 
-def _of_bearing(own: dict[str, Any], k: int, words: str) -> Any:
+def _of_bearing(own: dict[str, Any], shaft: int, k: int, words: str) -> Any:
     f0, f1, x, y = BALL if own["type"] == "ball" else TAPER
     place = 0.0 if k == 1 else own["end"]
+    pair = tuple((f"shaft_{shaft}_arrangement", name) for name in ("O", "X"))
     yield "type", choice(own["type"], BEARINGS, "Bearing", f"{words}type")
     yield "position", _length(place, f"{words}along its shaft")
     text = f"{words}mean of bore and outer diameter"
@@ -205,9 +226,31 @@ def _of_bearing(own: dict[str, Any], k: int, words: str) -> Any:
     yield "capacity", quantity(own["capacity"], "N", 10.0, 1e8, text)
     yield "x_factor", quantity(x, "1", 0.0, 10.0, f"{words}X of the equivalent load X F_r + Y F_a")
     yield "y_factor", quantity(y, "1", 0.0, 10.0, f"{words}Y of it")
+    text = f"{words}e: up to F_a = e F_r, P is F_r (0: up to where X F_r + Y F_a is)"
+    yield "e_factor", quantity(0.0, "1", 0.0, 10.0, text)
+    text = (
+        f"{words}axial force in an arrangement O or X that it makes of its radial one, over that "
+        "(below 0: taper 0.5/Y, angular contact e, others 0)"
+    )
+    yield "induced_factor", quantity(-1.0, "1", -1.0, 10.0, text, read_by=pair)
+    text = f"{words}distance of its pressure centre from position, in an arrangement O or X"
+    yield "pressure_centre", quantity(0.0, "m", 0.0, 10.0, text, read_by=pair)
     yield "viscous_factor", quantity(f0, "1", 0.0, 50.0, f"{words}f0 of Palmgren's viscous torque")
     text = f"{words}f1 of Palmgren's load torque"
     yield "load_factor", quantity(f1, "1", 0.0, 0.02, text)
+
+
+def _of_force(own: str, words: str) -> Any:
+    pushed, turned = (((f"{own}_{name}", "!=", 0.0),) for name in ("radial", "moment"))
+    text = f"{words}where it acts along the shaft"
+    yield "position", quantity(0.0, "m", -10.0, 10.0, text, read_by=pushed)
+    yield "radial", quantity(0.0, "N", -1e8, 1e8, f"{words}across the shaft")
+    text = f"{words}direction of radial, from y to z"
+    yield "direction", quantity(0.0, "rad", -6.3, 6.3, text, read_by=pushed)
+    yield "axial", quantity(0.0, "N", -1e8, 1e8, f"{words}along the shaft, towards +x")
+    yield "moment", quantity(0.0, "N.m", -1e8, 1e8, f"{words}about an axis across the shaft")
+    text = f"{words}direction of moment's axis, from y to z"
+    yield "moment_direction", quantity(0.0, "rad", -6.3, 6.3, text, read_by=turned)
 
 
 _MORE = {PAIR[k]: _taken(PAIR[k], OIL) for k in L.SHARED}
@@ -217,13 +260,34 @@ for _i in range(1, L.SHAFTS + 1):
     _there = (("meshes", ">=", _i - 1),)  # the shaft behind that mesh
     _MORE |= read_with(_there, _of_shaft(_i)) if _i > 2 else _of_shaft(_i)
 TrainParams: Any = extended(_TrainParams, "TrainParams", _MORE)
-RULES = tuple(
-    Rule(
-        f"shaft_{i}_bearing_2_position = {{shaft_{i}_bearing_2_position}}, allowed: apart from "
-        f"shaft_{i}_bearing_1_position = {{shaft_{i}_bearing_1_position}} by 0.1 mm and more"
+
+
+def _rules(i: int) -> tuple[Rule, ...]:
+    """Return the rules of a shaft in the order of the kernel, ``layout.RULES`` of each."""
+
+    def both(name: str) -> str:
+        found = (f"shaft_{i}_bearing_{k}_{name}" for k in (1, 2))
+        return ", ".join(f"{n} = {{{n}}}" for n in found)
+
+    return (
+        Rule(f"{both('position')}, allowed: apart by 0.1 mm and more"),
+        Rule(
+            f"{both('pressure_centre')}, arrangement = {{shaft_{i}_arrangement}}: radial forces "
+            "act at one place, allowed: apart by 0.1 mm and more"
+        ),
+        Rule(
+            f"{both('y_factor')}, allowed: 0.001 and more of a taper or angular contact bearing, "
+            "whose induced axial force follows from it; or give induced_factor"
+        ),
+        Rule(
+            f"shaft_{i}_arrangement = {{shaft_{i}_arrangement}}, allowed: 'O' or 'X', as its taper "
+            "or angular contact bearings induce axial forces in each other; or induced_factor = 0 "
+            "of those that induce none"
+        ),
     )
-    for i in range(1, L.SHAFTS + 1)
-)
+
+
+RULES = tuple(rule for i in range(1, L.SHAFTS + 1) for rule in _rules(i))
 SPEC = ModelSpec(
     key="train",
     name="GearTrain",

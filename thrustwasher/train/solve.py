@@ -128,7 +128,7 @@ def solve_train(
         fidelity=level_named(SPEC, fidelity),
         _request=Asked(SPEC.key, params, {**point, "fidelity": fidelity}),
         warnings=(
-            *idle_warnings(SPEC.key, params),
+            *idle_warnings(SPEC.key, params, fidelity),
             *warnings_of(SPEC, status, point, shown, doubts),
         ),
     )

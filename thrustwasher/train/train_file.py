@@ -8,6 +8,10 @@
     [train.shafts.rotor]
     bearings = [{ position = "0 mm", ... }, { position = "90 mm", ... }]
 
+    [[train.shafts.rotor.forces]]
+    position = "120 mm"
+    radial = "800 N"
+
     [train.meshes.first]
     pinion = "rotor"
     gear = "middle"
@@ -27,6 +31,7 @@ from ..errors import ParameterError, within
 from ..gearmesh.parameters import SPEC as PAIR_SPEC
 from ..model.part_file import (
     PartFile,
+    flat_name,
     load_part,
     preset_file,
     preset_part,
@@ -46,9 +51,9 @@ GLOBAL = tuple(
     f.name for f in fields(TrainParams) if not f.name.startswith(("mesh_", "shaft_", "meshes"))
 )
 LINKS = ("pinion", "gear", "preset", "part")
-SHAFT = ("axial", "seals", "seal_diameter", "bearings")
-SHORT = {"X": "x_factor", "Y": "y_factor", "C": "capacity", "f0": "viscous_factor"}
-SHORT |= {"f1": "load_factor"}
+SHAFT = ("axial", "arrangement", "seals", "seal_diameter", "bearings", "forces")
+SHORT = {"X": "x_factor", "Y": "y_factor", "e": "e_factor", "C": "capacity"}
+SHORT |= {"f0": "viscous_factor", "f1": "load_factor"}
 _KEYS = ("viscous_factor", "load_factor", "x_factor", "y_factor", "section")
 USUAL = {  # of catalogues and handbooks, where a bearing does not say otherwise; estimates
     "ball": dict(zip(_KEYS, (2.0, 4e-4, 0.56, 1.6, 0.6), strict=True)),
@@ -57,11 +62,15 @@ USUAL = {  # of catalogues and handbooks, where a bearing does not say otherwise
     "taper": dict(zip(_KEYS, (4.0, 4e-4, 0.4, 1.6, 0.6), strict=True)),
 }
 USUAL_PLACE = {"angle": 0.0, "hand": "right", "pinion_immersion": 0.0, "gear_immersion": 0.0}
-BEARING = tuple(
-    f.name.removeprefix("shaft_1_bearing_1_")
-    for f in fields(TrainParams)
-    if f.name.startswith("shaft_1_bearing_1_")
-)
+INDUCING = ("taper", "angular")
+
+
+def _below(start: str) -> tuple[str, ...]:
+    names = [f.name for f in fields(TrainParams) if f.name.startswith(start)]
+    return tuple(name.removeprefix(start) for name in names)
+
+
+BEARING, FORCE = _below("shaft_1_bearing_1_"), _below("shaft_1_force_1_")
 TEXTS = ("title", "description", "notes", "oil", "box", "scatter", "fidelity")
 
 
@@ -119,7 +128,10 @@ def own_text(scene: TrainScene, text: str) -> str:
 
 
 def flat_part(where: str, table: dict[str, Any], folder: Path | None = None) -> dict[str, Any]:
-    """Return the table of a part file for a scene; ``folder`` of the part files it names."""
+    """Return the table of a part file for a scene; ``folder`` of the part files it names.
+
+    ``names`` in it: how names of shafts and meshes begin, and how those of the model.
+    """
     nothing_else(where, table, ("train", *TEXTS))
     train = table["train"]
     if not isinstance(train, dict):
@@ -141,17 +153,11 @@ def flat_part(where: str, table: dict[str, Any], folder: Path | None = None) -> 
     found = {key: table[key] for key in TEXTS if key in table and key != "title"}
     for key in ("box", "scatter"):
         if isinstance(found.get(key), dict):
-            found[key] = {_flat_name(name, named): law for name, law in found[key].items()}
+            found[key] = {flat_name(SPEC, named, n): law for n, law in found[key].items()}
     title = {"description": table["title"]} if "title" in table else {}
     own = {"model": SPEC.key, "name": train.get("name", usual_name(SPEC)), "parameters": values}
+    own["names"] = named
     return {**title, **found, **own}
-
-
-def _flat_name(name: str, named: Mapping[str, str]) -> str:
-    for start, flat in named.items():
-        if name.startswith(start):
-            return flat + name.removeprefix(start)
-    return name
 
 
 def _tables(where: str, train: Mapping[str, Any], key: str, most: int) -> dict[str, Any]:
@@ -204,14 +210,47 @@ def _shaft(where: str, start: str, given: Mapping[str, Any]) -> dict[str, Any]:
     bearings = given.get("bearings")
     if not isinstance(bearings, list) or len(bearings) != L.ENDS:
         raise ParameterError(f"{where}: bearings = {bearings!r}, allowed: exactly two tables")
-    own = {"axial": "first", "seals": int("seal_diameter" in given), "seal_diameter": 0.0}
-    own |= {key: given[key] for key in SHAFT if key in given and key != "bearings"}
+    own: dict[str, Any] = {"axial": "first", "arrangement": "none"}
+    own |= {"seals": int("seal_diameter" in given), "seal_diameter": 0.0}
+    own |= {key: given[key] for key in SHAFT[:4] if key in given}
     found = {start + key: value for key, value in own.items()}
     for k, bearing in enumerate(bearings, 1):
         at = f"{where} bearing {k}"
         if not isinstance(bearing, dict):
             raise ParameterError(f"{at}: {bearing!r}, allowed: a table")
         found |= {f"{start}bearing_{k}_{n}": value for n, value in _bearing(at, bearing).items()}
+    if own["arrangement"] != "none":
+        if "axial" in given:
+            raise ParameterError(f"{where}: axial and arrangement, allowed: one of the two")
+    elif types := [t for b in bearings if (t := b["type"]) in INDUCING and not _is_plain(b)]:
+        raise ParameterError(
+            f"{where}: 'arrangement' is missing, allowed: 'O' (back to back) or 'X' (face to face, "
+            f"as axial = 'pushed'), as {' and '.join(types)} bearings induce axial forces in each "
+            "other; or induced_factor = 0 of those that induce none"
+        )
+    return found | _forces(where, start, given.get("forces", []))
+
+
+def _is_plain(bearing: Mapping[str, Any]) -> bool:
+    """Return whether a bearing is given as one that induces no axial force."""
+    return str(bearing.get("induced_factor")) in ("0", "0.0")
+
+
+def _forces(where: str, start: str, forces: Any) -> dict[str, Any]:
+    if not isinstance(forces, list) or len(forces) > L.PUSHES:
+        raise ParameterError(f"{where}: forces = {forces!r}, allowed: {L.PUSHES} tables at most")
+    found: dict[str, Any] = {}
+    for k, force in enumerate(forces, 1):
+        at = f"{where} force {k}"
+        if not isinstance(force, dict):
+            raise ParameterError(f"{at}: {force!r}, allowed: a table")
+        nothing_else(at, force, FORCE)
+        if "position" not in force:
+            raise ParameterError(f"{at}: 'position' is missing")
+        for key, size in (("direction", "radial"), ("moment_direction", "moment")):
+            if size in force and key not in force:
+                raise ParameterError(f"{at}: {size} without {key!r}, an angle from y to z")
+        found |= {f"{start}force_{k}_{key}": value for key, value in force.items()}
     return found
 
 

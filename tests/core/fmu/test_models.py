@@ -35,7 +35,10 @@ STANDINGS = {
     "DrivelineLosses": [
         {"input_immersion": 0.1, "drum_immersion": 0.1, "drum_seal_diameter": 0.05}
     ],
-    "GearTrain": [{"meshes": 3, "shaft_1_axial": "pushed"}],
+    "GearTrain": [
+        {"meshes": 3, "shaft_1_axial": "pushed"},
+        {"shaft_2_arrangement": "O", "shaft_3_force_1_radial": 3e3, "shaft_3_force_1_axial": 1e3},
+    ],
     "GearMesh": [
         {"permissible_film_ratio": 0.3, "root_limit": 430e6},
         {"film_heat": "atan", "steel": "AISI4340"},

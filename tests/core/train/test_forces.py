@@ -4,8 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from scipy.optimize import linprog
 from trains import SPUR, alike, no_losses_of_shafts
 
+from thrustwasher.train.parameters import TrainParams
 from thrustwasher.train.solve import solve_train
 
 T = 100.0
@@ -145,3 +147,93 @@ def test_the_bearing_that_the_shaft_is_pushed_to_takes_the_axial_force(torque):
     towards = 2 if r.mesh_1_axial_force > 0.0 else 1
     assert getattr(r, f"shaft_1_bearing_{towards}_axial_force") == abs(r.mesh_1_axial_force)
     assert getattr(r, f"shaft_1_bearing_{3 - towards}_axial_force") == 0.0
+
+
+def statics(loads, bearings):
+    """Radial and axial force of two bearings by statics in space, and by contact normals.
+
+    ``loads``: (place, force, couple) on the shaft; a bearing: (position, pressure centre, axial
+    over radial force that it makes). What an outer ring does to its shaft runs through the pressure
+    centre, so that its axial part points from the bearing to there. Without preload as little
+    axial force is there as balance and the bearings' own forces allow: a linear programme.
+    """
+    x, across = np.eye(3)[0], np.eye(3)[1:]
+    total = sum(force for _, force, _ in loads)
+    moment = sum(np.cross(place, force) + couple for place, force, couple in loads)
+    # unknown: y and z of both radial forces; two forces and two moments across vanish
+    columns = [[*e[1:], *np.cross(centre * x, e)[1:]] for _, centre, _ in bearings for e in across]
+    one_y, one_z, two_y, two_z = np.linalg.solve(np.transpose(columns), [*-total[1:], *-moment[1:]])
+    radial = [math.hypot(one_y, one_z), math.hypot(two_y, two_z)]
+    ways = [np.sign(centre - position) for position, centre, _ in bearings]
+    own = [share * size for (*_, share), size in zip(bearings, radial, strict=True)]
+    found = linprog(
+        [1.0, 1.0],
+        A_eq=[ways],
+        b_eq=[-total[0]],
+        bounds=[(least, None) for least in own],
+        options={"primal_feasibility_tolerance": 1e-10},
+    )
+    return radial, list(found.x)
+
+
+def along(angle):
+    return np.array([0.0, math.cos(angle), math.sin(angle)])
+
+
+PUSHED = {"position": 0.16, "radial": 900.0, "direction": 2.0, "axial": -700.0}
+TILTED = {"position": -0.03, "axial": 300.0, "moment": 60.0, "moment_direction": -1.0}
+
+
+@pytest.mark.parametrize("torque", [T, -T])
+@pytest.mark.parametrize("ends", [(0.0, 0.1), (0.1, 0.0)])
+@pytest.mark.parametrize("arrangement", ["O", "X"])
+@pytest.mark.parametrize("forces", [[], [PUSHED], [TILTED, PUSHED]])
+def test_pairs_in_o_and_x_under_teeth_and_forces_from_outside(arrangement, ends, torque, forces):
+    """A helical gear's shaft on taper bearings: both ways of the thrust, both orders of bearings.
+
+    The right-hand pinion is driven along -z t at its radius in +y; the gear feels the opposite.
+    """
+    own = {f"shaft_2_bearing_{k}_position": place for k, place in enumerate(ends, 1)}
+    own |= {"shaft_2_bearing_1_pressure_centre": 0.012, "shaft_2_bearing_2_pressure_centre": 0.017}
+    own |= {"shaft_2_bearing_1_y_factor": 1.6, "shaft_2_bearing_2_y_factor": 1.1}
+    own |= {f"shaft_2_bearing_{k}_type": "taper" for k in (1, 2)}
+    own |= {f"shaft_2_force_{k}_{n}": v for k, f in enumerate(forces, 1) for n, v in f.items()}
+    p = one_mesh(mesh_1_helix_angle=0.3, shaft_2_arrangement=arrangement, **own)
+    r = solve_train(p, torque=torque, speed=200.0)
+    sign = math.copysign(1.0, torque)
+    radius = 25 * 4e-3 / math.cos(0.3)
+    teeth = np.array([-r.mesh_1_axial_force, 0.0, 0.0])
+    teeth += r.mesh_1_radial_force * along(0.0) + sign * r.mesh_1_tangential_force * along(
+        math.pi / 2
+    )
+    loads = [(np.array([0.025, -radius, 0.0]), teeth, np.zeros(3))]
+    for f in forces:
+        force = np.array([f["axial"], 0.0, 0.0])
+        force += f.get("radial", 0.0) * along(f.get("direction", 0.0))
+        couple = f.get("moment", 0.0) * along(f.get("moment_direction", 0.0))
+        loads.append((np.array([f["position"], 0.0, 0.0]), force, couple))
+    out = 1.0 if arrangement == "O" else -1.0
+    bearings = [
+        (place, place + out * (1.0 if place == max(ends) else -1.0) * centre, 0.5 / y)
+        for place, centre, y in zip(ends, (0.012, 0.017), (1.6, 1.1), strict=True)
+    ]
+    radial, axial = statics(loads, bearings)
+    found = forces_of(r, 2)
+    assert found[::2] == pytest.approx(radial, rel=1e-10)
+    assert found[1::2] == pytest.approx(axial, rel=1e-9)
+    for k, (side, y) in enumerate(((0, 1.6), (1, 1.1)), 1):
+        load = max(radial[side], 0.4 * radial[side] + y * axial[side])
+        assert getattr(r, f"shaft_2_bearing_{k}_load") == pytest.approx(load, rel=1e-9)
+
+
+def test_a_force_from_outside_moves_no_power_but_what_its_bearings_lose():
+    own = {"shaft_3_force_1_position": 0.18, "shaft_3_force_1_radial": 8e3}
+    plain, loaded = (solve_train(TrainParams(**more), torque=T, speed=400.0) for more in ({}, own))
+    assert loaded.mesh_loss == pytest.approx(plain.mesh_loss, rel=1e-12)
+    assert loaded.bearing_loss > 1.05 * plain.bearing_loss
+    out = loaded.output_torque * loaded.output_speed
+    assert T * 400.0 - out == pytest.approx(loaded.loss, rel=1e-11)
+    free = no_losses_of_shafts(**own)
+    assert solve_train(free, torque=T, speed=400.0).efficiency == pytest.approx(
+        solve_train(no_losses_of_shafts(), torque=T, speed=400.0).efficiency, rel=1e-14
+    )

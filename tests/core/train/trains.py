@@ -6,12 +6,16 @@ SHAFTS = range(1, 5)
 
 
 def no_losses_of_shafts(**changes):
-    """A train that loses in its teeth alone, so that torques of shafts are known by hand."""
+    """A train that loses in its teeth alone, so that torques of shafts are known by hand.
+
+    On ball bearings: none induces an axial force.
+    """
     dry = {"mesh_2_gear_immersion": 0.0}
     for i in SHAFTS:
-        dry[f"shaft_{i}_seals"] = 0
+        dry |= {f"shaft_{i}_seals": 0, f"shaft_{i}_arrangement": "none"}
         for k in (1, 2):
             dry |= {f"shaft_{i}_bearing_{k}_{f}": 0.0 for f in ("viscous_factor", "load_factor")}
+            dry[f"shaft_{i}_bearing_{k}_type"] = "ball"
     return TrainParams(**{**dry, **changes})
 
 

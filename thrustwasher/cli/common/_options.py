@@ -172,7 +172,7 @@ def read_part(arguments: argparse.Namespace, spec: "ModelSpec") -> PartFile:
     part = solvable(spec.key, preset) if file is None else load_part(file)
     if part.spec.key != spec.key:
         raise ParameterError(f"--part {file}: is one of {part.spec.name}, allowed: {spec.name}")
-    settings = read_settings(arguments.settings, spec)
+    settings = read_settings(arguments.settings, spec, part)
     part = with_oil(arguments, part, settings)
     part = replace(part, parameters=part.parameters | settings)
     part.params  # noqa: B018  (raises what the model says about them)
@@ -245,10 +245,15 @@ def oil_record(part: PartFile) -> dict[str, Any]:
     return {"oil": part.oil.as_dict(part.spec)} if part.oil else {}
 
 
-def read_settings(settings: Iterable[str], spec: "ModelSpec") -> dict[str, Any]:
-    """Return the values that ``--set NAME=VALUE`` gives, by name."""
+def read_settings(
+    settings: Iterable[str], spec: "ModelSpec", part: PartFile | None = None
+) -> dict[str, Any]:
+    """Return the values that ``--set NAME=VALUE`` gives, by name; ``part`` that they are for."""
     metadata = {f.name: f.metadata for f in fields(spec.params)} | earlier_of(spec.params)
     given = split_settings(settings, "--set", "NAME=VALUE, e.g. roughness=4e-7")
+    if part is not None:
+        metadata = part.suggesting(metadata)
+        given = {part.flat_name(name): text for name, text in given.items()}
     given = now_named("--set", former_names_of(spec.params), given)
     for name, text in given.items():
         if name not in metadata:

@@ -52,7 +52,7 @@ def read_target(arguments: argparse.Namespace) -> tuple[Any, dict[str, str] | No
             found = _options.solvable(arguments.target, arguments.preset)
         if arguments.fidelity is not None:
             found = replace(found, fidelity=level_named(found.spec, arguments.fidelity))
-        settings = _options.read_settings(arguments.settings, found.spec)
+        settings = _options.read_settings(arguments.settings, found.spec, found)
         found = _options.with_oil(arguments, found, settings)
         return replace(found, parameters=found.parameters | settings), given
     unused = (*_options.inputs_of_all_models(), "preset", "fidelity", "settings")

@@ -68,7 +68,7 @@ class PartDesigns:
         found = {f.name: f for f in self.target.figures}
         if self.part.spec.key == "washer":
             found |= {name: Figure(name, "N", words) for name, (_, words) in FOLDS.items()}
-        return found
+        return self.part.suggesting(found)
 
     @property
     def identity(self) -> dict[str, str]:

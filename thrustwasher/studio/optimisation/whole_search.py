@@ -114,13 +114,15 @@ def optimise(
         if not isinstance(value, int) or isinstance(value, bool) or not low <= value <= high:
             raise ParameterError(f"{name} = {value!r}, allowed: a whole number {low} .. {high}")
     designs = designs_of(target, at or {}, reached)
+    part = getattr(designs, "part", None)
+    named = str if part is None else part.flat_name
     problem = read_problem(
         designs.places,
         designs.figures,
-        vary=vary,
-        minimise=[minimise] if isinstance(minimise, str) else minimise,
-        maximise=[maximise] if isinstance(maximise, str) else maximise,
-        limits=limits,
+        vary={named(name): ends for name, ends in vary.items()},
+        minimise=[*map(named, [minimise] if isinstance(minimise, str) else minimise)],
+        maximise=[*map(named, [maximise] if isinstance(maximise, str) else maximise)],
+        limits=[*map(named, limits)],
         robust=robust,
     )
     folder = None if out is None else Path(out)

@@ -263,9 +263,10 @@ def part_target(
             name: Figure(name, unit, words, high=part.limits.get(name, math.inf))
             for name, (unit, words) in FACE_LOADS.items()
         }
+    outputs = None if outputs is None else [part.flat_name(name) for name in outputs]
     for name in outputs or ():
         if name not in figures:
-            hint = suggestion(name, figures, "; did you mean {!r}?")
+            hint = suggestion(name, part.suggesting(figures), "; did you mean {!r}?")
             raise ParameterError(f"outputs: {name!r}, allowed: {', '.join(figures)}{hint}")
     safeties = (f"{n}_below_1" for n in least if n.endswith("_safety") and n in figures)
     return PartTarget(

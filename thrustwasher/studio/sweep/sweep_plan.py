@@ -63,7 +63,9 @@ def make_plan(
     """Return the plan of a sweep; arguments as in ``run_sweep``."""
     part = model if isinstance(model, PartFile) else find_part(spec_of(model).key)
     spec, params = spec_of(part.spec.key), part.params if params is None else params
-    known = places(spec)
+    known = part.suggesting(places(spec))
+    at = {part.flat_name(name): value for name, value in at.items()}
+    over = {part.flat_name(name): values for name, values in over.items()}
     asked = part.fidelity if fidelity is None else fidelity
     level, tolerance = chooser.level_and_tolerance(spec.key, spec, asked)
     base = params_of(spec, params)

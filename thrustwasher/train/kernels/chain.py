@@ -107,7 +107,11 @@ def fill_losses(par: Array, oil: float, work: Array, share: float) -> float:
 def bearing_torque(
     par: Array, shaft: int, end: int, turning: float, nu: float, work: Array
 ) -> float:
-    """Return the size of the torque of a bearing [N m] under its equivalent load."""
+    """Return the size of the torque of a bearing [N m] under X F_r + Y F_a, at least F_r.
+
+    That is its equivalent load without the step that a catalogue's e may leave, at which losses and
+    forces might not settle.
+    """
     row = L.P_SHAFT + shaft * L.SHAFT_ROW + L.B_BEARING + end * L.BEARING_ROW
     at = L.W_BEARING + 2 * (L.ENDS * shaft + end)
     load = equivalent_load(
@@ -115,6 +119,7 @@ def bearing_torque(
         work[np.uintp(at + 1)],
         par[np.uintp(row + L.C_X)],
         par[np.uintp(row + L.C_Y)],
+        0.0,
     )
     drag, _, _ = bearing_drag(
         turning,

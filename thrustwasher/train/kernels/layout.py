@@ -3,6 +3,7 @@
 from ...gearmesh.kernels import layout as G
 
 MESHES, SHAFTS, ENDS = 3, 4, 2  # at most; bearings of a shaft
+PUSHES = 2  # at most: forces from outside on a shaft
 # Parameters of a mesh: all meshes share oil and thermal mode; no rings, and none holds.
 SHARED = (
     G.P_THERMAL_MODE,
@@ -35,8 +36,8 @@ P_MESHES, P_OIL_VOLUME, P_STARVATION, P_REQUIRED_LIFE, P_SHARED = range(5)
     A_PAIR,
 ) = range(8)
 P_MESH, MESH_ROW = P_SHARED + N_SHARED, A_PAIR + N_OWN
-# Of each shaft, then of each of its bearings.
-B_AXIAL, B_SEALS, B_SEAL_DIAMETER, B_BEARING = range(4)
+# Of each shaft, then of each of its bearings, then of each force from outside.
+B_AXIAL, B_ARRANGEMENT, B_SEALS, B_SEAL_DIAMETER, B_BEARING = range(5)
 (
     C_KIND,
     C_POSITION,
@@ -45,11 +46,24 @@ B_AXIAL, B_SEALS, B_SEAL_DIAMETER, B_BEARING = range(4)
     C_CAPACITY,
     C_X,
     C_Y,
+    C_E,
+    C_INDUCED,
+    C_CENTRE,
     C_VISCOUS,
     C_LOAD,
     BEARING_ROW,
-) = range(10)
-P_SHAFT, SHAFT_ROW = P_MESH + MESHES * MESH_ROW, B_BEARING + ENDS * BEARING_ROW
+) = range(13)
+(
+    H_POSITION,
+    H_RADIAL,
+    H_DIRECTION,
+    H_AXIAL,
+    H_MOMENT,
+    H_MOMENT_DIRECTION,
+    PUSH_ROW,
+) = range(7)
+B_PUSH = B_BEARING + ENDS * BEARING_ROW
+P_SHAFT, SHAFT_ROW = P_MESH + MESHES * MESH_ROW, B_PUSH + PUSHES * PUSH_ROW
 P_FIDELITY = P_SHAFT + SHAFTS * SHAFT_ROW
 N_PARAM = P_FIDELITY + 1
 # What `derive` adds: of each mesh the ratio of speeds, radii of driver and driven [m], force per
@@ -124,5 +138,7 @@ NWORK = W_PAIR + G.NWORK
 PINION, GEAR = 1, 2  # who drives
 RIGHT, LEFT = 1, 2  # hand
 FIRST, SECOND, PUSHED = 1, 2, 3  # which bearing takes the axial force
+NO_PAIR, BACK_TO_BACK, FACE_TO_FACE = 1, 2, 3  # arrangement: none, O, X
 BALL, ANGULAR, CYLINDRICAL, TAPER = range(1, 5)
 NONE = -1.0  # of what is not there
+RULES = 4  # of each shaft

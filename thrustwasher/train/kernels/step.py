@@ -17,6 +17,7 @@ from ...numerics.status import BAD_INPUT, NOT_FINITE, OK, OUTSIDE_VERIFIED
 from . import layout as L
 from .bearing_life import equivalent_load, rating_life
 from .chain import solve_chain
+from .tooth_forces import centres, induced_of
 
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
 NOUT, NIOUT = L.NOUT, L.NIOUT
@@ -95,11 +96,28 @@ def derive(par: Array) -> int:
 
 @kernel
 def broken_rule(par: Array) -> int:
-    """Return the number, from 1, of the shaft whose bearings lie at one place, or 0."""
+    """Return the number of the first broken rule between parameters, from 1, or 0.
+
+    Four of each shaft, see ``RULES`` of the parameters.
+    """
     for i in range(int(par[L.P_MESHES]) + 1):
-        row = L.P_SHAFT + i * L.SHAFT_ROW + L.B_BEARING + L.C_POSITION
+        own, number = L.P_SHAFT + i * L.SHAFT_ROW, i * L.RULES
+        row = own + L.B_BEARING + L.C_POSITION
         if not abs(par[np.uintp(row)] - par[np.uintp(row + L.BEARING_ROW)]) >= 1e-4:
-            return i + 1
+            return number + 1
+        first, second = centres(par, i)
+        if not abs(first - second) >= 1e-4:
+            return number + 2
+        alone = par[np.uintp(own + L.B_ARRANGEMENT)] == L.NO_PAIR
+        for end in range(L.ENDS):
+            row = own + L.B_BEARING + end * L.BEARING_ROW
+            kind = int(par[np.uintp(row + L.C_KIND)])
+            by_kind = par[np.uintp(row + L.C_INDUCED)] < 0.0
+            by_y = kind == L.TAPER or (kind == L.ANGULAR and par[np.uintp(row + L.C_E)] <= 0.0)
+            if by_kind and by_y and not par[np.uintp(row + L.C_Y)] >= 1e-3:
+                return number + 3
+            if alone and (kind == L.TAPER or kind == L.ANGULAR) and induced_of(par, i, end) > 0.0:
+                return number + 4
     return 0
 
 
@@ -147,7 +165,11 @@ def fill_bearings(par: Array, work: Array, out: Array) -> None:
         speed, at = work[np.uintp(L.W_SPEED + shaft)], L.W_BEARING + 2 * i
         radial, axial = work[np.uintp(at)], work[np.uintp(at + 1)]
         load = equivalent_load(
-            radial, axial, par[np.uintp(given + L.C_X)], par[np.uintp(given + L.C_Y)]
+            radial,
+            axial,
+            par[np.uintp(given + L.C_X)],
+            par[np.uintp(given + L.C_Y)],
+            par[np.uintp(given + L.C_E)],
         )
         loss = work[np.uintp(L.W_LOSS + shaft * L.LOSSES + end)] * speed
         kind = int(par[np.uintp(given + L.C_KIND)])

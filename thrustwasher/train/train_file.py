@@ -240,17 +240,18 @@ def _forces(where: str, start: str, forces: Any) -> dict[str, Any]:
     if not isinstance(forces, list) or len(forces) > L.PUSHES:
         raise ParameterError(f"{where}: forces = {forces!r}, allowed: {L.PUSHES} tables at most")
     found: dict[str, Any] = {}
-    for k, force in enumerate(forces, 1):
-        at = f"{where} force {k}"
+    for number, force in enumerate(forces, 1):
+        at = f"{where} force {number}"
         if not isinstance(force, dict):
             raise ParameterError(f"{at}: {force!r}, allowed: a table")
         nothing_else(at, force, FORCE)
-        if "position" not in force:
-            raise ParameterError(f"{at}: 'position' is missing")
+        if "radial" in force and "position" not in force:
+            raise ParameterError(f"{at}: radial without 'position', where it acts along the shaft")
         for key, size in (("direction", "radial"), ("moment_direction", "moment")):
             if size in force and key not in force:
                 raise ParameterError(f"{at}: {size} without {key!r}, an angle from y to z")
-        found |= {f"{start}force_{k}_{key}": value for key, value in force.items()}
+        own = force if "radial" in force else {k: v for k, v in force.items() if k != "position"}
+        found |= {f"{start}force_{number}_{key}": value for key, value in own.items()}
     return found
 
 

@@ -136,6 +136,14 @@ def test_time_by_another_name_is_refused_with_the_cure(tmp_path, capsys):
     assert "friction_scale     0.92" in out
 
 
+def test_a_matlab_file_over_time_by_another_name_is_not_taken_for_settled_points(tmp_path, capsys):
+    rows = {"timestamps": [0.0, 1.0], "load": [1e3, 2e3], "speed": [9.0, 5.0]}
+    path = tmp_path / "rig.mat"
+    package("scipy.io").savemat(path, {**rows, "friction_torque": [30.0, 60.0]})
+    said = refused(capsys, "clutch", str(path), "--fit", "friction_scale")
+    assert '--column "time=timestamps"' in said
+
+
 @pytest.mark.parametrize("value", [0.0, 12.0])
 def test_an_output_that_is_one_number_in_all_rows_is_doubted(value, tmp_path, capsys):
     path = Path(write(tmp_path / "a.csv"))

@@ -78,8 +78,9 @@ def _find(
                 name, set(units) - {*found}, "did you mean {}? ", likeness=0.6 if strict else 0.75
             )
             if column.name and not column.name.startswith("_"):
-                if (strict or hint) and not table.binary:
-                    hint = hint or time_hint([column])
+                over_time = time_hint([column]) if strict else ""
+                if over_time or ((strict or hint) and not table.binary):
+                    hint = over_time or hint
                     raise ParameterError(
                         f"{path}: column {column.name!r} is not known; {hint}begin its "
                         "name with _ to pass it over"

@@ -112,7 +112,7 @@ def beside_builds(err):
 
 def test_a_summary_names_lock_and_report_and_files_that_were_there_stay(tmp_path, capsys):
     (tmp_path / "notes.txt").write_text("mine")
-    assert main(["shift", "--scene", "msl", "--step", "4 ms", "--out", str(tmp_path)]) == 0
+    assert main(["shift", "msl", "--step", "4 ms", "--out", str(tmp_path)]) == 0
     text, err = capsys.readouterr()
     (said,) = beside_builds(err)
     assert said.startswith("warning: Tie-up"), "no progress bar in a pipe"

@@ -125,7 +125,7 @@ def test_a_tolerance_is_answered_with_a_level_and_its_reason_for_every_part(tmp_
     assert main([*words, "--fidelity", "auto:0.01"]) == 0
     text, err = capsys.readouterr()
     said = beside_builds(err)
-    assert [line.split()[1] for line in said] == ["[clutch]", "[brake]", "Tie-up:"]
+    assert [line.split()[1] for line in said] == ["Tie-up:", "[clutch]", "[brake]"]
     for part in ("clutch", "brake"):
         assert any(line.startswith(f"{part}: ") for line in text.splitlines()), part
     assert "clutch: field, compared with fine at" in text

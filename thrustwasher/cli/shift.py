@@ -29,8 +29,6 @@ REPORT, FOLDER = "report.html", "shift-report"
 FMI = ("2", "3")  # versions of a package's FMUs
 RUNS, STUDY = "256", "scatter"  # base points of a study, its folder in that of the report
 OPTIONS = {
-    "--scene NAME|FILE.toml": "a built-in scene (planetary, brake-test, msl, ...) or a TOML file; "
-    "default planetary",
     "--list": "list the built-in scenes with their titles, and stop",
     "--out DIR": "folder for report.html, overview.png and shift.csv; default shift-report",
     "--no-report": "write no files, only say what came out",
@@ -52,6 +50,8 @@ OPTIONS = {
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
+    what = "a built-in scene (planetary, brake-test, msl, ...) or a TOML file; default planetary"
+    _options.add_subject(parser, "scene", "SCENE", what, asked=False)
     _options.add(parser, OPTIONS)
     parser.set_defaults(out=FOLDER)
     parser.add_argument(

@@ -113,7 +113,7 @@ def beside_builds(err):
 
 def test_a_summary_names_lock_and_report_and_files_that_were_there_stay(tmp_path, capsys):
     (tmp_path / "notes.txt").write_text("mine")
-    assert main(["shift", "--scene", "msl", "--step", "4 ms", "--out", str(tmp_path)]) == 0
+    assert main(["shift", "msl", "--step", "4 ms", "--out", str(tmp_path)]) == 0
     text, err = capsys.readouterr()
     (said,) = beside_builds(err)
     assert said.startswith("warning: Tie-up"), "no progress bar in a pipe"
@@ -126,7 +126,7 @@ def test_a_tolerance_is_answered_with_a_level_and_its_reason_for_every_part(tmp_
     assert main([*words, "--fidelity", "auto:0.01"]) == 0
     text, err = capsys.readouterr()
     said = beside_builds(err)
-    assert [line.split()[1] for line in said] == ["[clutch]", "[brake]", "Tie-up:"]
+    assert [line.split()[1] for line in said] == ["Tie-up:", "[clutch]", "[brake]"]
     for part in ("clutch", "brake"):
         assert any(line.startswith(f"{part}: ") for line in text.splitlines()), part
     assert "clutch: field, compared with fine at" in text

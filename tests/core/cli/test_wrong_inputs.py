@@ -125,6 +125,8 @@ TABLE = [
     ("shift --scatter --scene msl", "nothing scatters in msl: add [scatter]"),
     ("shift --ssp a.ssp --no-guard", "--no-guard: has no effect with --ssp"),
     ("doctor --speed 3", "unrecognized arguments: --speed 3"),
+    ("shift msl --scene msl", "--scene: not allowed with argument SCENE"),
+    ("scatter --runs 4", "one of the arguments TARGET --scene is required"),
     ("washer --load", "argument --load: expected one argument"),
     ("clutch --load nan", "load = 'nan', allowed: a finite number in N"),
     ("washer --grid 1x1", "allowed: two integers from 5 x 8 to 129 x 512"),

@@ -115,6 +115,21 @@ def add(parser: Any, options: Mapping[str, str]) -> None:
         parser.add_argument(name, help=help, **more)
 
 
+def add_subject(
+    parser: Any, name: str, metavar: str, help: str, default: str | None = None, *, asked: bool
+) -> None:
+    """Add what a command is about, by its place or as ``--scene``; not both.
+
+    ``asked``: it must be given, else it is ``default``.
+    """
+    either = parser.add_mutually_exclusive_group(required=asked)
+    one: Any = {"nargs": "?", "default": argparse.SUPPRESS}  # else it overrules the option
+    either.add_argument(name, metavar=metavar, help=help, **one)
+    either.add_argument(
+        "--scene", dest=name, default=default, metavar="NAME|FILE", help=f"the same as {metavar}"
+    )
+
+
 def add_settings(parser: Any, help: str) -> None:
     """Add ``--set``."""
     look: Any = {"metavar": "NAME=VALUE", "dest": "settings"}

@@ -32,13 +32,8 @@ LEAST = ("pitting_safety", "root_safety", "scuffing_safety", "bearing_life")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument(
-        "scene",
-        nargs="?",
-        default="planetary",
-        metavar="SCENE",
-        help="a built-in scene, a gear train (ev-reducer) or a TOML file; default planetary",
-    )
+    what = "a built-in scene, a gear train (ev-reducer) or a TOML file; default planetary"
+    _options.add_subject(parser, "scene", "SCENE", what, "planetary", asked=False)
     _options.add(parser, OPTIONS)
     parser.set_defaults(gear=None)
     _options.add_oil(parser)

@@ -24,14 +24,11 @@ OPTIONS = {
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     models = ", ".join(models_with_points())
-    parser.add_argument(
-        "subject",
-        nargs="?",
-        default=USUAL,
-        metavar="TARGET",
-        help=f"part file, model with its defaults ({models}), scene file or built-in scene "
-        f"(ev-reducer, or as `thrustwasher shift --list` names them); default {USUAL}",
+    what = (
+        f"part file, model with its defaults ({models}), scene file or built-in scene "
+        f"(ev-reducer, or as `thrustwasher shift --list` names them); default {USUAL}"
     )
+    _options.add_subject(parser, "subject", "TARGET", what, USUAL, asked=False)
     _options.add(parser, OPTIONS)
     _options.add_oil(parser)
 

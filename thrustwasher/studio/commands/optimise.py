@@ -40,9 +40,8 @@ OPTIONS = {
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument(
-        "target", metavar="TARGET", help="a part file or a scene (.toml, built-in), or a model"
-    )
+    what = "a part file or a scene (.toml, built-in), or a model"
+    _options.add_subject(parser, "target", "TARGET", what, asked=True)
     _options.add(parser, OPTIONS)
     parser.set_defaults(out=FOLDER)
     _options.add_workers(parser, "processes; default: one per core where they pay, 1: none")

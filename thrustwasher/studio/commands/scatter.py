@@ -44,9 +44,8 @@ OPTIONS = {
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     models = ", ".join(models_with_points())
-    parser.add_argument(
-        "target", metavar="TARGET", help=f"a part file or a scene (.toml, built-in), {models}"
-    )
+    what = f"a part file or a scene (.toml, built-in), {models}"
+    _options.add_subject(parser, "target", "TARGET", what, asked=True)
     _options.add(parser, OPTIONS)
     parser.add_argument("--indices", choices=["all"], help="all: of a scene's costly figures too")
     add_part_options(parser)

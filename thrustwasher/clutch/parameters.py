@@ -303,14 +303,14 @@ class ClutchParams:
     starts_pressed: bool = flag(
         False,
         "film is settled at the start (False: pack starts open)",
-        read_by=(("film_dynamics", True),),
+        read_by=(("film_dynamics", True), ("self", True)),
         of_a_run=True,
     )
     film_dynamics: bool = flag(
         True,
         "field fidelity level: oil takes time to leave and resists shear (False: film "
         "settled, no shear)",
-        read_by=WITH_FILM,
+        read_by=(*WITH_FILM, ("self", False)),
     )
     shear_heating: bool = flag(
         True,

@@ -128,6 +128,11 @@ def _tip(gear: int) -> Callable[[Any], float]:
     return value
 
 
+def _relief_length(gear: str) -> Any:
+    text = f"length of the {gear}'s relief along the path of contact"
+    return quantity(0.0, "m", 0.0, 1.0, text, read_by=((f"tip_relief_{gear}", ">", 0.0),))
+
+
 OF_ATAN = (("film_heat", "atan"),)
 OF_LOSS = (("film_heat", "loss"),)
 BY_FILM = tuple(("friction_law", law) for law in ("li-seireg", "iso", "mixed", "schlenk"))
@@ -136,8 +141,8 @@ BY_SCALE = tuple(("friction_law", law) for law in ("iso", "mixed", "schlenk"))
 BY_STIFFNESS = (("load_sharing", "elastic"),)
 TRANSIENT = (("thermal_mode", "transient"),)
 BY_ROOT = (("root_limit", ">", 0.0),)
+NO_MODULE = (("normal_module", 0.0),)
 SIZE = ("gear_ratio", "pinion_teeth", "centre_distance", "normal_module", "face_width")
-FROM_DISTANCE = (("profile_shift_gear_from_distance", True),)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -156,12 +161,7 @@ class GearMeshParams:
     )
     pinion_teeth: int = count(20, 5, 500, "number of teeth of the pinion")
     centre_distance: float = quantity(
-        0.254,
-        "m",
-        5e-3,
-        10.0,
-        "distance of the two gear axes",
-        read_by=(("normal_module", 0.0),),
+        0.254, "m", 5e-3, 10.0, "distance of the two gear axes", read_by=NO_MODULE
     )
     normal_module: float = quantity(
         0.0,
@@ -465,22 +465,8 @@ class GearMeshParams:
     tip_relief_gear: float = quantity(
         0.0, "m", 0.0, 1e-3, "tip relief of the gear, normal to the flank", read_by=BY_STIFFNESS
     )
-    tip_relief_length_pinion: float = quantity(
-        0.0,
-        "m",
-        0.0,
-        1.0,
-        "length of the pinion's relief along the path of contact",
-        read_by=(("tip_relief_pinion", ">", 0.0),),
-    )
-    tip_relief_length_gear: float = quantity(
-        0.0,
-        "m",
-        0.0,
-        1.0,
-        "length of the gear's relief along the path of contact",
-        read_by=(("tip_relief_gear", ">", 0.0),),
-    )
+    tip_relief_length_pinion: float = _relief_length("pinion")
+    tip_relief_length_gear: float = _relief_length("gear")
     base_oil: str = choice("mineral", BASE_OILS, "BaseOil", "base of the oil, for its friction")
     friction_scale: float = quantity(
         1.0,

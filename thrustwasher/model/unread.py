@@ -51,7 +51,7 @@ def conditions(metadata: Mapping[str, Any]) -> Conditions:
 
 
 @cache
-def all_conditions(params: type[Any]) -> dict[str, Conditions]:
+def all_conditions(params: Any) -> dict[str, Conditions]:
     """Return the conditions of all parameters of a dataclass that have some, by name."""
     every = {n: conditions(f.metadata) for n, f in params.__dataclass_fields__.items()}
     found = {name: own for name, own in every.items() if own}
@@ -90,7 +90,8 @@ def _failing(params: Any, name: str, fidelity: str) -> Conditions:
     """Return the conditions that fail; for one that holds in vain those of its own parameter."""
     required: Conditions = []
     others: list[tuple[bool, Conditions]] = []  # of those of which one is enough: is it met?
-    for c in all_conditions(type(params)).get(name, ()):
+    kind: Any = type(params)
+    for c in all_conditions(kind).get(name, ()):
         holds, missing = c.holds(_value(params, c.by, fidelity)), [c] if c.by != name else []
         if holds:
             missing = _failing(params, c.by, fidelity) if c.follows else []

@@ -19,11 +19,14 @@ def bearing_fields(name: str) -> dict[str, Any]:
     """Return the parameters of a bearing; without a coefficient there is none."""
     one, other, radius = BEARINGS[name]
     words = f"the {name.partition('_')[0]}'s thrust bearing"
+    thrust = (("helix_angle", ">", 0.0),)  # spur teeth give none
     there = {"read_by": ((f"{name}_coefficient", ">", 0.0),)}
     return {
         f"{name}_shaft_1": choice(one, SHAFT, "Shaft", f"one end of {words}", **there),
         f"{name}_shaft_2": choice(other, SHAFT, "Shaft", f"the other end of {words}", **there),
-        f"{name}_coefficient": quantity(0.0, "1", 0.0, 0.1, f"friction of {words} (0: none)"),
+        f"{name}_coefficient": quantity(
+            0.0, "1", 0.0, 0.1, f"friction of {words} (0: none)", read_by=thrust
+        ),
         f"{name}_mean_radius": quantity(radius, "m", 1e-3, 1.0, f"mean radius of {words}", **there),
     }
 

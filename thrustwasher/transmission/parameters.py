@@ -338,8 +338,8 @@ class _TransmissionParams:
 _MORE = {k: x for name in BEARINGS for k, x in bearing_fields(name).items()}
 _MORE |= _piston("clutch") | _piston("brake")
 for _name, _about in PROFILES.items():
-    _pressed = {} if _name == "engine_torque" else {"read_by": (("actuation", "pressure"),)}
-    _MORE |= _profile(_name, *_about, **_pressed)
+    _pressed: dict[str, Any] = {"read_by": (("actuation", "pressure"),)}
+    _MORE |= _profile(_name, *_about, **({} if _name == "engine_torque" else _pressed))
 TransmissionParams = other_names(extended(_TransmissionParams, "TransmissionParams", _MORE))
 
 

@@ -374,7 +374,12 @@ class WasherParams:
     coupling_inertia: float = coupling_inertia()
     coupling_age: int = coupling_age()
     outside_map: str = choice(
-        "solve", OUTSIDE_MAP, "OutsideMap", "what fidelity map does outside its box", of_a_run=True
+        "solve",
+        OUTSIDE_MAP,
+        "OutsideMap",
+        "what fidelity map does outside its box",
+        read_by=(("fidelity", "map"),),
+        of_a_run=True,
     )
 
     @classmethod

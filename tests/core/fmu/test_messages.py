@@ -7,6 +7,7 @@ from thrustwasher.errors import Status
 from thrustwasher.fmu.build import build
 from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.fmu.running.loading import Messages, description, instantiate, unpack
+from thrustwasher.fmu.stepper import Instance
 from thrustwasher.model.registry import find_spec
 
 H = 1e-3
@@ -46,6 +47,17 @@ def listen(natives):
     yield open_
     for listener in made:
         listener.fmu.freeInstance()
+
+
+@pytest.mark.parametrize("made", ["natives", "fmus"])
+def test_a_parameter_that_others_overrule_is_told_once_when_initialization_ends(made, request):
+    path = request.getfixturevalue(made)["ShiftTransmission"]
+    given = {"engine_torque": 120.0, "engine_torque_points": 1, "engine_torque_1": 90.0}
+    with Instance(path, parameters=given) as fmu:
+        fmu.initialize()
+        fmu.step(0.0, H)
+        (text,) = fmu.warnings
+    assert text.endswith(": engine_torque = 120 N.m is not used: engine_torque_points = 1")
 
 
 def test_the_washer_tells_once_when_the_film_is_lost_and_once_when_it_is_back(listen):

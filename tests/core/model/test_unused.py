@@ -62,6 +62,13 @@ HEATS = {f"heat_{i}": 1e3 * i for i in range(1, 8)} | {f"energy_{i}": 0.0 for i 
 PISTONS = {"piston_inner_radius": 0.03, "piston_outer_radius": 0.05, "piston_supply_radius": 0.02}
 # Points beside the model's own example, where what has no effect there acts.
 POINTS = {
+    "washer": [
+        ({}, between("washer", {"load": 20.0}, {"load": 3e3}, speed=100.0)),
+        ({"thermal_mode": "transient", "conduction": "all"}, None),
+        ({"friction_law": "constant"}, between("washer", {"load": 3e3}, {"load": 1e3})),
+        ({"holding": "off"}, between("washer", {"speed": 5.0}, {"speed": -5.0})),
+        ({"fidelity": "map"}, between("washer", {"load": 3e3}, {"load": 2e4})),
+    ],
     "clutch": [
         ({"holding": "off"}, between("clutch", *PACK)),
         ({"fidelity": "closed", "friction_law": "wang", "groove_count": 0}, None),

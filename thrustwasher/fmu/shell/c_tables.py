@@ -184,9 +184,9 @@ def _variable(v: Variable, inputs: Sequence[str], names: Sequence[str]) -> list[
 def _conditions(shown: Interface) -> list[list[Any]]:
     """Return what lets parameters be used; a level that is gone counts as that which runs."""
     places = {v.name: v for v in shown.parameters}
-    gone = shown.spec.successors
-    found = []
-    for name, own in all_conditions(shown.spec.params).items():
+    params: Any = shown.spec.params
+    gone, found = shown.spec.successors, []
+    for name, own in all_conditions(params).items():
         for c in own:
             by = places.get(c.by)
             kind = (by and by.type_name) or ""

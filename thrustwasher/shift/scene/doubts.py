@@ -75,9 +75,7 @@ def _of_bearings(scene: Scene, gearbox: Any) -> Iterator[str]:
     for name in (name for name, there in scene.bearings.items() if there):
         gear = name.removesuffix("_bearing")
         ends = [getattr(gearbox, f"{name}_shaft_{i}") for i in (1, 2)]
-        if gearbox.helix_angle == 0.0:
-            yield f"[{name}]: helix_angle = 0, spur teeth give no thrust: the bearing does nothing"
-        elif gear not in ends:
+        if gearbox.helix_angle > 0.0 and gear not in ends:
             yield (
                 f"[{name}]: between {ends[0]} and {ends[1]}, not at the {gear}, whose thrust it "
                 f"takes: the place where that leaves the {gear} rubs as well and is left out"

@@ -9,7 +9,9 @@ from shell_runs import GUID, model_library, needs_linux, run
 from twin import Twin
 
 from thrustwasher.fmu.description.interface import interface
+from thrustwasher.fmu.running.core import Mode
 from thrustwasher.model.registry import find_spec
+from thrustwasher.model.unread import all_conditions
 
 pytestmark = needs_linux
 CHEAP = ["clutch", "gearmesh", "transmission", "command"]
@@ -64,6 +66,29 @@ def test_300_steps_are_the_cores_to_the_bit(model, fmi):
     twin = run_of(find_spec(model), 7, 300)
     replies = run(fmi, model_library(model), twin.script)
     twin.check(replies)
+
+
+@pytest.mark.parametrize(("model", "fmi"), [("clutch", 2), ("transmission", 3), ("train", 2)])
+def test_what_is_set_and_not_used_is_said_as_the_core_says_it(model, fmi):
+    spec, rng, said = find_spec(model), random.Random(3), []
+    twin = Twin(spec, GUID)
+    conditions = all_conditions(spec.params)
+    deciding = {c.by for own in conditions.values() for c in own if c.by}
+    found = [v for v in interface(spec).parameters if v.name in conditions.keys() | deciding]
+    for _ in range(40):
+        values = {}
+        for v in rng.sample(found, rng.choice([1, 2, 5, 12])):
+            other = rng.randint(int(v.low), int(v.high)) if v.type != "Real" else 1.01 * v.start
+            values[v.name] = other if v.low <= other <= v.high else v.start
+        twin.put(**values)
+        twin.begin()
+        twin.leave()
+        said += twin.core.advice() if twin.core.mode == Mode.STEPPING else []
+        twin.reset()
+    replies = run(fmi, model_library(model), twin.script)
+    twin.check(replies, words=False)
+    told = [m.split("logStatusWarning ")[1] for r in replies for m in r.messages if "Warning" in m]
+    assert told == said and sum(" is not used: " in text for text in said) > 10
 
 
 @pytest.mark.slow

@@ -147,7 +147,7 @@ LARGE = "[washer]\ninner_radius = 0.006\ngear_inner_radius = 0.009\nouter_radius
     [
         ("[transmission]\nwashers = 6", "washers = 6 with planets = 4"),
         ("[transmission]\nwasher_radius = 0.02", "washer_radius = 0.02 m"),
-        ("[transmission]\nhelix_angle = 0.0", "[sun_bearing]: helix_angle = 0, spur teeth"),
+        ("[transmission]\nhelix_angle = 0.0", "has no effect: read by helix_angle > 0 only"),
         ("[transmission]\nhelix_angle = 0.0", "[mesh] helix_angle = 0.349066 rad, but"),
         ('[sun_bearing]\nbetween = ["ring", "case"]', "not at the sun"),
         ("stop_time = 0.9", "cut off"),

@@ -218,7 +218,7 @@ static int tell_ranges(Instance *m) {
     return unverified;
 }
 
-/* Warn once when the solution begins to need care. */
+/* Warn once when the solution begins to need care; what cools down to HOT was told that before. */
 void tell_advice(Instance *m) {
     for (int i = 0; m->warned < 0 && i < N_GONE_LEVELS; i++) {
         if (GONE_LEVELS[i].number != m->now.par[LEVEL]) continue;
@@ -229,7 +229,8 @@ void tell_advice(Instance *m) {
     int unverified = tell_ranges(m);
     int32_t status = IO_STATUS < 0 ? 0 : m->now.solution.iout[AT_LEAST_ONE(IO_STATUS + 1) - 1];
     if (m->now.latch) status = m->now.latch;
-    int told = status == m->warned || (status == STATUS_OUTSIDE_VERIFIED && unverified);
+    int told = status == m->warned || (status == STATUS_OUTSIDE_VERIFIED && unverified)
+               || (status == STATUS_HOT && m->warned == STATUS_EXTRAPOLATED);
     if (!told && status > STATUS_OK && status < FIRST_FAILURE) {
         Text text = begun(m, m->now.time);
         add(&text, " s: %s: %s; ", status_text(status)->name, status_text(status)->advice);

@@ -387,6 +387,7 @@ class Core:
             level = list(self.spec.fidelities)[number - 1]
             found = [*(begin + text for text in gone_level(self.spec, level)), *found]
         is_known = status == self._warned or (status is Status.OUTSIDE_VERIFIED and unverified)
+        is_known |= status is Status.HOT and self._warned == Status.EXTRAPOLATED
         if not is_known and Status.OK < status < FIRST_FAILURE:
             found.append(f"{begin}{status.name}: {status.advice}; {self._point(self.shown.point)}")
         self._warned = status

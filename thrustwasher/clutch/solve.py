@@ -287,9 +287,10 @@ def solve_clutch(
     oil = check_number("oil_temperature", oil_temperature, "K", *OIL.range)
     drum = check_number("drum_speed", drum_speed, "rad/s", *DRUM.range)
     point = {"load": load, "speed": speed, "oil_temperature": oil, "drum_speed": drum}
-    held = interface_temperature
-    if held is not None:
-        held = check_number("interface_temperature", held, "K", OIL.low, k.EXTRAPOLATED_LIMIT)
+    held: float | None = None
+    if interface_temperature is not None:
+        ends = (OIL.range[0], k.EXTRAPOLATED_LIMIT)
+        held = check_number("interface_temperature", interface_temperature, "K", *ends)
         point["interface_temperature"] = held
     par = prepare(params, fidelity)
     guess = start.film_ratio if start else 1.0
@@ -337,8 +338,9 @@ def solve_clutch(
 def _without_numbers(result: ClutchResult) -> ClutchResult:
     """Return a result whose numbers are NaN, and which says its status alone."""
     numbers = [f.name for f in fields(result) if isinstance(getattr(result, f.name), float)]
+    none: dict[str, Any] = dict.fromkeys(numbers, math.nan)
     said = (f"{result.status.name}: {result.status.advice}",)
-    return replace(result, warnings=said, **dict.fromkeys(numbers, math.nan))
+    return replace(result, warnings=said, **none)
 
 
 def heat_status(hottest: float) -> Status:

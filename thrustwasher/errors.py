@@ -109,6 +109,11 @@ class Status(IntEnum):
         "an input is outside the map's box: answered by `field` or at the box's nearest edge, as "
         "outside_map says",
     )
+    EXTRAPOLATED = (
+        7,
+        "the contact is above 600 degC: the numbers are no more than an extrapolation; lower load, "
+        "speed or time",
+    )
     MAX_ITERATIONS = (
         10,
         "not converged; start from a neighbouring result or refine in smaller steps",
@@ -130,6 +135,11 @@ class Status(IntEnum):
         17,
         "an input is outside the map's box; keep to the box, build a map for a larger one, or set "
         "outside_map = hold or solve",
+    )
+    TOO_HOT = (
+        18,
+        "slip that lasts heats the contact above 600 degC, beyond any model of it; lower load or "
+        "speed, cool better, or follow it over time",
     )
 
     def __new__(cls, code: int, advice: str = "") -> "Status":

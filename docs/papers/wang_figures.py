@@ -36,7 +36,10 @@ PRESSURES = ((0.5e6, BLUE, "-"), (1.0e6, ORANGE, "--"), (1.5e6, GREEN, ":"))  # 
 def over_speed(pack: ClutchParams, pressure: float = 1e6) -> tuple[np.ndarray, np.ndarray]:
     """Return shear ratio and coefficient at the speeds of the figures."""
     results = [
-        solve_clutch(pack, load=pressure * AREA, speed=n * math.pi / 30.0, throw=False) for n in RPM
+        solve_clutch(
+            pack, load=pressure * AREA, speed=n * math.pi / 30.0, interface_temperature=373.15
+        )
+        for n in RPM
     ]
     return (
         np.array([r.shear_ratio for r in results]),

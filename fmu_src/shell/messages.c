@@ -290,7 +290,8 @@ static void tell_ranges(Instance *m, int k) {
     }
 }
 
-/* Warn once in a run when the solution begins to need care for a reason, the gravest first. */
+/* Warn once in a run when the solution begins to need care for a reason, the gravest first; what
+ * cools down to HOT was told that before. */
 void tell_advice(Instance *m) {
     for (int i = 0; m->warned < 0 && i < N_GONE_LEVELS; i++) {
         if (GONE_LEVELS[i].number != m->now.par[LEVEL]) continue;
@@ -303,7 +304,8 @@ void tell_advice(Instance *m) {
     for (int i = 1; VARIABLES[i].store == STORE_INP; i++) unverified |= is_beyond(m, &VARIABLES[i], 1);
     int32_t status = IO_STATUS < 0 ? 0 : m->now.solution.iout[AT_LEAST_ONE(IO_STATUS + 1) - 1];
     if (m->now.latch) status = m->now.latch;
-    int told = status == m->warned || (status == STATUS_OUTSIDE_VERIFIED && unverified);
+    int told = status == m->warned || (status == STATUS_OUTSIDE_VERIFIED && unverified)
+               || (status == STATUS_HOT && m->warned == STATUS_EXTRAPOLATED);
     m->warned = status;
     if (!told && status > STATUS_OK && status < FIRST_FAILURE && !m->cared[status]++) {
         Text text = begun(m, m->now.time);

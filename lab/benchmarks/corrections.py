@@ -63,7 +63,9 @@ def _clutch() -> list[Row]:
     found = []
     for oil, before in RECORDED.items():
         torques = [
-            solve_clutch(p, load=load, speed=float(w), oil_temperature=oil).friction_torque
+            solve_clutch(
+                p, load=load, speed=float(w), oil_temperature=oil, interface_temperature=oil
+            ).friction_torque
             for w in SLIPS
         ]
         after = 1.0 / float(np.mean(lever / np.array(torques)))

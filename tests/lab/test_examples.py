@@ -14,7 +14,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 PINNED = {  # value; relative tolerance
     "ex01_washer": (0.25810, 6e-3),  # N m
     "ex02_load_curve": (957.7, 0.02),  # N
-    "ex03_clutch": (-1.7881391386757315, 1e-9),  # N m s/rad: friction falls with slip
+    "ex03_clutch": (-1.9868212651952575, 1e-9),  # N m s/rad: friction falls with slip
     "ex04_shift": (2.1107904, 1e-5),  # s
     "ex05_gearmesh": (0.6747259775410824, 1e-9),  # of the contact stress allowed without heat
     "ex06_calibrate": (1.9784950022118957, 1e-6),  # m/s
@@ -23,13 +23,13 @@ PINNED = {  # value; relative tolerance
     "ex09_package": (2.1107706965, 1e-9),  # s
     "ex10_sweep": (940.0, 1e-9),  # N, the last step of 20 N below the fold of ex08
     "ex11_overload": ([3.675, 0.55, 0.1], 0.05),  # s
-    "ex12_engine_and_vehicle": (0.885353, 2e-4),  # s, as the scene's own engine and vehicle
-    "ex13_engine_and_vehicle_ssp": (0.885353, 5e-4),  # s
+    "ex12_engine_and_vehicle": (0.882370, 2e-4),  # s, as the scene's own engine and vehicle
+    "ex13_engine_and_vehicle_ssp": (0.882370, 5e-4),  # s
     "ex14_jackson_green": (0.15734, 1e-3),  # share of the film's heat that the solids take
     "ex15_design": (0.257116, 1e-4),  # N m, at the film ratio of the limit
     "ex16_own_driveline": (91.724138, 1e-6),  # N m, the torque of rigid shafts
     "ex18_reducer": (0.983808, 1e-5),  # efficiency at 150 N m and 500 rad/s
-    "ex17_engagement": (0.918035, 1e-4),  # factor on friction; the recording was made with 0.92
+    "ex17_engagement": (0.918238, 1e-4),  # factor on friction; the recording was made with 0.92
 }
 IN_SHORT = {"ex14_jackson_green": {"most": 1}}  # CI runs every example as it stands
 OWN_FMUS = ("ex12_engine_and_vehicle", "ex13_engine_and_vehicle_ssp")

@@ -13,7 +13,6 @@ from ..model.prepare import profile_of, rising
 from ..model.solutions import OverTime
 from ..model.spec import REGIMES
 from ..numerics.jit import Array
-from .kernels import layout as k
 from .kernels import pack_friction
 from .parameters import DRUM, LOAD, OIL, SPEC, SPEED, ClutchParams
 from .profile import outputs_over
@@ -22,6 +21,7 @@ from .solve import (
     doubts_of_lining,
     doubts_of_pack,
     doubts_of_warmth,
+    heat_status,
     pack_warnings,
     prepare,
 )
@@ -55,7 +55,7 @@ class Engagement(OverTime):
     power_per_area: Array
     energy_per_area: Array
     regime: list[str]
-    status: Status  # HOT if the interface passed 523 K, OK otherwise
+    status: Status  # EXTRAPOLATED if the interface passed 600 degC, HOT 523 K, OK otherwise
     substeps: int  # Implicit substeps that all intervals together took
     fidelity: str
     warnings: tuple[str, ...] = ()
@@ -115,7 +115,7 @@ def engage_clutch(
     columns |= face_loads(params.face, forces, slips, columns["friction_power"])
     columns["energy_per_area"] = columns["energy"] / params.lining_area
     hottest = float(columns["temperature"].max())
-    status = Status.HOT if hottest > k.HOT_LIMIT else Status.OK
+    status = heat_status(hottest)
     return Engagement(
         time=points,
         load=forces,

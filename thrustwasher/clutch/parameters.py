@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from operator import attrgetter
 from typing import Any, Self
 
@@ -413,10 +413,11 @@ class ClutchParams:
         """
         found = self.friction_temperature
         if found == "auto":
+            own = [getattr(self, f"table_friction_{n}") for n in range(N_TABLE + 1)]
+            own += [getattr(self, f"table_speed_{n}") for n in range(1, N_TABLE + 1)]
+            starts = (*START_FRICTION, *START_SPEED[1:])
             table = self.friction_law == "table" and all(
-                math.isclose(getattr(self, f.name), f.default, rel_tol=1e-12)
-                for f in fields(self)
-                if f.name.startswith("table_")
+                math.isclose(a, b, rel_tol=1e-12) for a, b in zip(own, starts, strict=True)
             )
             shipped = (table or self.friction_law == "wang") and fidelity != "closed"
             found = "slope" if shipped else ""

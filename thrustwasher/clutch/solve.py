@@ -1,7 +1,8 @@
 """Wet clutch: coefficient of boundary friction, and a pack that slips at a constant speed."""
 
+import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -64,7 +65,7 @@ __all__ = ["ClutchParams", "ClutchResult", "boundary_friction", "solve_clutch"]
 class ClutchResult(Differentiable, OnFaces):
     """A pack slipping at constant load and speed: torque and steady temperatures, SI units."""
 
-    friction_torque: float  # [N m] with the sign of the slip; 0 at slip 0
+    friction_torque: float  # [N m] with the sign of the slip; 0 at slip 0; NaN where TOO_HOT
     friction_coefficient: float
     temperature: float  # [K] interface after a very long time at this slip; compare with status HOT
     film_thickness: float
@@ -168,16 +169,25 @@ class SteadyPack(NamedTuple):
 
 
 def steady_pack(
-    par: Any, load: float, slip: float, drum: float, oil: float, ratio: float
+    par: Any,
+    load: float,
+    slip: float,
+    drum: float,
+    oil: float,
+    ratio: float,
+    held: float | None = None,
 ) -> SteadyPack:
-    """Return the steady state at a settled film of ``ratio`` roughnesses."""
+    """Return the steady state at a settled film of ``ratio`` roughnesses.
+
+    ``held``: temperature of the interface [K] of a slip that is over before it warms up.
+    """
     if par[k.P_FIDELITY] != k.FINE:
-        return _part(par, load, slip, drum, oil, ratio)
+        return _part(par, load, slip, drum, oil, ratio, held)
     shares, parts = [], []
     for n in range(int(par[k.D_RINGS])):
         ring = rates.ring_of(par, n)
         shares.append(float(ring[k.D_AREA] / par[k.D_AREA]))
-        parts.append(_part(ring, load * shares[-1], slip, drum, oil, ratio))
+        parts.append(_part(ring, load * shares[-1], slip, drum, oil, ratio, held))
     levers = [s * float(rates.ring_of(par, n)[k.D_RADIUS]) for n, s in enumerate(shares)]
 
     def mean(name: str, weights: list[float]) -> float:
@@ -196,8 +206,19 @@ def steady_pack(
     )
 
 
-def _part(par: Any, load: float, slip: float, drum: float, oil: float, ratio: float) -> SteadyPack:
-    temperature, status, rounds = steady.steady_temperature(par, load, slip, drum, oil, ratio)
+def _part(
+    par: Any,
+    load: float,
+    slip: float,
+    drum: float,
+    oil: float,
+    ratio: float,
+    held: float | None,
+) -> SteadyPack:
+    if held is None:
+        temperature, status, rounds = steady.steady_temperature(par, load, slip, drum, oil, ratio)
+    else:
+        temperature, status, rounds = held, Status.OK, 0
     contact, viscous, _ = steady.steady_torques(par, load, slip, drum, ratio, temperature)
     return SteadyPack(
         float(contact),
@@ -218,6 +239,7 @@ def solve_clutch(
     speed: float,
     oil_temperature: float = 297.15,
     drum_speed: float = 0.0,
+    interface_temperature: float | None = None,
     fidelity: str = "field",
     start: ClutchResult | None = None,
     throw: bool = True,
@@ -231,22 +253,26 @@ def solve_clutch(
     speed : slip [rad/s], with its sign
     oil_temperature : [K]
     drum_speed : [rad/s] of the drum, with its sign; the hub turns by the slip faster
+    interface_temperature : [K] of the faces, up to 600 degC, of a slip that is over before it warms
+        them; by default where cooling balances friction
     fidelity : "closed" (constant coefficient), "stribeck" (coefficient over slip speed), "field"
         (shear of the oil too) or "fine" (the same in rings, ``temperature`` their mean by area)
     start : an earlier result to start the search for the film from
-    throw : False returns the best estimate with its status instead of raising SolveError
+    throw : False returns a result with its status instead of raising SolveError
 
     Raises
     ------
     ParameterError : an argument is out of range; the message names it
-    SolveError : no film or temperature was found
+    SolveError : no film or temperature was found, or one above 600 degC (TOO_HOT), whose numbers
+        are NaN
 
     Notes
     -----
     The film is settled (the asperities carry the load; an open pack has its clearance), the
     temperature is where cooling balances friction. For slip that lasts it soon lies far above
-    what a lining survives: status HOT says so. A shift is over long before; ``engage_clutch``
-    and the FMU give film and temperature over time.
+    what a lining survives: status HOT says so, above 600 degC there is no answer. A shift is over
+    long before; ``engage_clutch`` and the FMU give film and temperature over time,
+    ``interface_temperature`` a moment of it.
 
     Examples
     --------
@@ -261,20 +287,25 @@ def solve_clutch(
     oil = check_number("oil_temperature", oil_temperature, "K", *OIL.range)
     drum = check_number("drum_speed", drum_speed, "rad/s", *DRUM.range)
     point = {"load": load, "speed": speed, "oil_temperature": oil, "drum_speed": drum}
+    held: float | None = None
+    if interface_temperature is not None:
+        ends = (OIL.range[0], k.EXTRAPOLATED_LIMIT)
+        held = check_number("interface_temperature", interface_temperature, "K", *ends)
+        point["interface_temperature"] = held
     par = prepare(params, fidelity)
     guess = start.film_ratio if start else 1.0
     ratio, _, film, turns = pack_friction.settled_slope(par, load, guess)
-    if speed != 0.0 and steady.steady_cooling(par, load, ratio) == 0.0:
+    if speed != 0.0 and held is None and steady.steady_cooling(par, load, ratio) == 0.0:
         raise ParameterError(
             "heat_transfer = 0 W/(m2.K), allowed: above 0 where a steady temperature is requested"
         )
     cooling = float(steady.steady_cooling(par, load, ratio))
-    s = steady_pack(par, load, speed, drum, oil, ratio)
+    s = steady_pack(par, load, speed, drum, oil, ratio, held)
     status = _status(max(Status(film), Status(s.status)), ratio, s.hottest)
     if status.is_failure and throw:
         raise SolveError(f"load = {load:g} N, speed = {speed:g} rad/s: {status.advice}")
     sign, torque = float(np.sign(speed)), float(np.sign(speed)) * (s.contact + s.viscous)
-    return ClutchResult(
+    found = ClutchResult(
         friction_torque=torque,
         friction_coefficient=s.coefficient,
         temperature=s.temperature,
@@ -294,19 +325,37 @@ def solve_clutch(
         warnings=(
             *doubts_of_pack(params, fidelity),
             *_corrected(params, par, fidelity, speed, s),
-            *(_less_cooling(params, par, cooling) if speed else ()),
+            *(_less_cooling(params, par, cooling) if speed and held is None else ()),
             *_light(params, load, fidelity),
             *doubts_of_lining(params, load),
             *doubts_of_warmth(params, s.temperature, s.hottest, fidelity),
             *pack_warnings(status, ratio, s.temperature, s.hottest),
         ),
     )
+    return _without_numbers(found) if status is Status.TOO_HOT else found
+
+
+def _without_numbers(result: ClutchResult) -> ClutchResult:
+    """Return a result whose numbers are NaN, and which says its status alone."""
+    numbers = [f.name for f in fields(result) if isinstance(getattr(result, f.name), float)]
+    none: dict[str, Any] = dict.fromkeys(numbers, math.nan)
+    said = (f"{result.status.name}: {result.status.advice}",)
+    return replace(result, warnings=said, **none)
+
+
+def heat_status(hottest: float) -> Status:
+    """Return the status of a pack over time whose hottest interface [K] this was."""
+    if hottest > k.EXTRAPOLATED_LIMIT:
+        return Status.EXTRAPOLATED
+    return Status.HOT if hottest > k.HOT_LIMIT else Status.OK
 
 
 def _status(solved: Status, ratio: float, hottest: float) -> Status:
     """Return the status of a solution with this film ratio and this hottest interface [K]."""
     if solved.is_failure:
         return solved
+    if hottest > k.EXTRAPOLATED_LIMIT:
+        return Status.TOO_HOT
     if hottest > k.HOT_LIMIT:
         return Status.HOT
     return Status.OUTSIDE_VERIFIED if ratio < k.LEAST_RATIO else solved
@@ -465,6 +514,8 @@ SWEEP = Sweep(
         "oil_energy",
         "advised_step",
         "plant_inertia",
+        "locked",
+        "plant_age",
     ),
     least={"film_ratio": (k.LEAST_RATIO, BEYOND_LAW)},
 )

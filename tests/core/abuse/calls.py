@@ -28,7 +28,7 @@ LEVELS = {
 POWER = Signal(name="power", unit="W", help="", low=-1e9, high=1e9)
 SANE = {
     "washer": (solve_washer, WasherParams, {"load": 300.0, "speed": 953.0, "tilt": 0.002}),
-    "clutch": (solve_clutch, ClutchParams, {"load": 9000.0, "speed": 50.0}),
+    "clutch": (solve_clutch, ClutchParams, {"load": 9000.0, "speed": 5.0}),
     "gearmesh": (solve_gearmesh, GearMeshParams, {"power": 7500.0, "speed": 180.0}),
 }
 

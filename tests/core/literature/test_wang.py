@@ -32,7 +32,8 @@ ALTERNATIVES = {0.20: 4.3891, 0.25: 3.6538, 0.30: 2.8720, 0.35: 2.0057, 0.40: 0.
 
 def friction_at(rpm, pressure=PRESSURE, **changes):
     pack = ClutchParams.preset("paper", **changes)
-    return solve_clutch(pack, load=pressure * AREA, speed=rpm * RPM, throw=False)
+    at = {"load": pressure * AREA, "speed": rpm * RPM, "interface_temperature": 373.15}
+    return solve_clutch(pack, **at)
 
 
 def average_of(**changes):

@@ -22,7 +22,7 @@ from thrustwasher.shift import load_scene, with_fidelities
 
 SOLVED = {
     "washer": (solve_washer, WasherParams(), {"load": 300.0, "speed": 545.0, "tilt": 2e-3}),
-    "clutch": (solve_clutch, ClutchParams(), {"load": 5e3, "speed": 40.0}),
+    "clutch": (solve_clutch, ClutchParams(), {"load": 5e3, "speed": 4.0}),
     "gearmesh": (solve_gearmesh, GearMeshParams(), {"power": 7500.0, "speed": 180.0}),
 }
 GONE = [

@@ -23,7 +23,7 @@ for load, speed, level in ((300, 953, "field"), (1100, 545, "field"),
 for fold in load_curve(washer, speed=545.0, tilt=0.002, grid=(9, 20)).folds:
     print(fold.load.hex(), fold.friction_torque.hex())
 for level in ("closed", "stribeck", "field", "fine"):
-    c = solve_clutch(ClutchParams(), load=9000.0, speed=50.0, fidelity=level)
+    c = solve_clutch(ClutchParams(), load=9000.0, speed=5.0, fidelity=level)
     g = solve_gearmesh(GearMeshParams(), power=7500.0, speed=180.0)
     print(c.friction_torque.hex(), c.temperature.hex(), g.flash_rise.hex())
 """

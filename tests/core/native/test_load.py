@@ -30,7 +30,7 @@ from thrustwasher import *
 solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002)
 solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=0.002, fidelity="map").error_estimate
 load_curve(WasherParams(), speed=545.0, tilt=0.002, grid=(7, 16))
-solve_clutch(ClutchParams(), load=9000.0, speed=50.0)
+solve_clutch(ClutchParams(), load=9000.0, speed=5.0)
 solve_gearmesh(GearMeshParams(), power=7500.0, speed=180.0)
 print(*{name.partition(".")[0] for name in sys.modules})
 """

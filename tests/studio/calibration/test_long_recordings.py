@@ -17,7 +17,7 @@ def recording(n, seed=1, **changes):
     """Return columns of a pack's torque at random points, with 1 % of noise."""
     rng = np.random.default_rng(seed)
     pack = ClutchParams(**changes)
-    speed, load = rng.uniform(1.0, 300.0, n), rng.uniform(1e3, 8e3, n)
+    speed, load = rng.uniform(0.1, 6.0, n), rng.uniform(1e3, 8e3, n)
     torque = [
         solve_clutch(pack, load=f, speed=w).friction_torque * (1.0 + 0.01 * e)
         for f, w, e in zip(load, speed, rng.standard_normal(n), strict=True)

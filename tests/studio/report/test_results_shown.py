@@ -28,7 +28,8 @@ TIME = np.linspace(0.0, 0.3, 31)
 def calibration():
     slip = np.linspace(2.0, 160.0, 20)
     pack = tw.ClutchParams(friction_law="wang", friction_temperature_slope=0.0)
-    friction = [tw.solve_clutch(pack, load=6e3, speed=w).friction_coefficient for w in slip]
+    at = {"load": 6e3, "interface_temperature": 373.15}
+    friction = [tw.solve_clutch(pack, **at, speed=w).friction_coefficient for w in slip]
     scatter = 1e-3 * np.random.default_rng(1).standard_normal(len(slip))
     return tw.calibrate(tw.ClutchParams(), speed=slip, load=6e3, friction=friction + scatter)
 

@@ -246,7 +246,7 @@ def test_a_target_goes_to_workers_and_knows_what_makes_it_another():
 
 def test_what_a_single_solve_warns_of_is_said_of_the_nominal_and_the_base_runs():
     clutch = find_part("clutch")
-    inputs = {**clutch.starts, "load": 2000.0, "speed": 100.0}
+    inputs = {**clutch.starts, "load": 2000.0, "speed": 30.0}
     target = target_of(clutch, {"friction_scale": "6 %"}, inputs=inputs)
     base, _ = target.solve(rows_of(target, 8), np.ones(8, bool))
     nominal, runs = target.doubts(base)

@@ -72,8 +72,10 @@ def derive_temperature_law(par: Array) -> None:
     asked = par[L.P_FRICTION_TEMPERATURE]
     if asked == L.POINTS_LAW:
         n = 0
-        while n < L.N_POINTS and par[np.uintp(L.P_POINT_FRICTION_1 + 2 * n)] > 0.0:
-            n += 1
+        for k in range(L.N_POINTS):
+            if not par[np.uintp(L.P_POINT_FRICTION_1 + 2 * k)] > 0.0:
+                break
+            n = k + 1
         par[L.D_TEMPERATURE_LAW], par[L.D_POINTS] = float(L.POINTS_LAW), float(n)
         par[L.D_CONSTANT] = point_friction(par, par[L.P_REFERENCE_TEMPERATURE])[0]
         par[L.D_POINT_REFERENCE] = par[L.D_CONSTANT]

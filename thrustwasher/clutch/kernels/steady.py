@@ -42,8 +42,8 @@ def steady_temperature(
     """Return (interface temperature [K], status, iterations): cooling = friction power.
 
     Newton inside a bracket that is halved whenever Newton leaves it. The power falls with
-    temperature (the oil thins), so there is one root; should the shear ratio be told to rise with
-    temperature there may be more, and one of them is found.
+    temperature (the oil thins), so there is one root; should friction or the shear ratio be told to
+    rise with temperature there may be more, and one of them is found.
     """
     if slip == 0.0:
         return oil, OK, 0

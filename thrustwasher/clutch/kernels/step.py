@@ -22,7 +22,15 @@ import numpy as np
 from ...numerics.arrays import are_finite, copy
 from ...numerics.jit import Array, Ints, kernel
 from ...numerics.profiles import value_at
-from ...numerics.status import BAD_INPUT, CHATTER, HOT, NOT_FINITE, OK, OUTSIDE_VERIFIED
+from ...numerics.status import (
+    BAD_INPUT,
+    CHATTER,
+    EXTRAPOLATED,
+    HOT,
+    NOT_FINITE,
+    OK,
+    OUTSIDE_VERIFIED,
+)
 from ...numerics.step_size import advised_step
 from ...tribology.holding import memory as M
 from ...tribology.holding.reversals import chatters
@@ -61,7 +69,7 @@ def step(
     """Advance the pack from t to t + dt, then fill the outputs.
 
     Returns 0 or the status of a failure; advice stands in ``iout`` only. In rings ``temperature``
-    is their area mean; the advice HOT goes by the hottest one.
+    is their area mean; HOT and EXTRAPOLATED go by the hottest one.
     """
     linear = par[L.P_INPUT_PROFILE] == L.LINEAR_PROFILE
     before, ahead = point_at(inp, 0.0), 0.0 if linear else dt
@@ -158,6 +166,8 @@ def step(
         advice = HOT
     if chatters(work[L.W_MEMORY :]):
         advice = CHATTER
+    if hottest > L.EXTRAPOLATED_LIMIT:
+        advice = EXTRAPOLATED
     iout[L.IO_STATUS] = advice if status == OK else status
     return status
 

@@ -384,6 +384,7 @@ class Core:
             found += [begin + text for text in told]
         unverified = any(self._is_beyond(1, i) for i in range(len(self.shown.inputs)))
         is_known = status == self._warned or (status is Status.OUTSIDE_VERIFIED and unverified)
+        is_known |= status is Status.HOT and self._warned == Status.EXTRAPOLATED
         self._warned = status
         if not is_known and Status.OK < status < FIRST_FAILURE:
             self._cared[status] = self._cared.get(status, 0) + 1

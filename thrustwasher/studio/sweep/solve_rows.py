@@ -40,8 +40,8 @@ def output_signals(spec: ModelSpec) -> tuple[tuple[Signal, ...], tuple[Signal, .
     """Return the real outputs of a row, and the whole-number ones with the status last."""
     left_out = find_model(spec.key).sweep.not_shown
     real = tuple(s for s in spec.outputs if s.kind == "real" and s.name not in left_out)
-    whole = [s for s in spec.outputs if s.kind != "real"]
-    whole.sort(key=lambda s: s.name == "status")
+    whole = [s for s in spec.outputs if s.kind != "real" and s.name not in left_out]
+    whole.sort(key=lambda s: s.name == "solver_status")
     return real, tuple(whole)
 
 

@@ -42,7 +42,12 @@ def table_friction(p, speed):
 
 
 def warmed(p, temperature):
-    """Friction over that at the reference temperature."""
+    """Friction over that at the reference temperature; points: the first three."""
+    if p.friction_temperature == "points":
+        at = [getattr(p, f"point_temperature_{n}") for n in (1, 2, 3)]
+        mu = [getattr(p, f"point_friction_{n}") for n in (1, 2, 3)]
+        here, there = np.interp([temperature, p.reference_temperature], at, mu)
+        return float(here / there)
     within = min(max(temperature, 253.15), 473.15)
     return math.exp(p.friction_temperature_slope * (within - p.reference_temperature))
 

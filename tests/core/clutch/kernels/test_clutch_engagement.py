@@ -18,10 +18,21 @@ H = 1e-3
 PERMEABILITIES = [0.0, 1e-14, 1e-13, 1e-12, 4e-12]
 
 
-@pytest.mark.parametrize("permeability", PERMEABILITIES)
-def test_a_pack_under_sudden_load_follows_the_tight_reference(permeability):
+STEEP = {"friction_temperature": "slope", "friction_temperature_slope": -1e-2}
+CORNERS = {  # passed on the way from 24 to some 120 degC
+    "friction_temperature": "points",
+    **{"point_temperature_1": 303.15, "point_friction_1": 0.185},
+    **{"point_temperature_2": 328.15, "point_friction_2": 0.140},
+    **{"point_temperature_3": 353.15, "point_friction_3": 0.150},
+}
+
+
+@pytest.mark.parametrize(
+    "changes", [*({"permeability": p} for p in PERMEABILITIES), STEEP, CORNERS], ids=str
+)
+def test_a_pack_under_sudden_load_follows_the_tight_reference(changes):
     """Torque to 1e-5 and temperature to 5e-5 K at every millisecond; a step costs few substeps."""
-    pack = Pack(permeability=permeability)
+    pack = Pack(**changes)
     reference = Reference(pack.params, lambda t: 5898.0, lambda t: 350.0)
     times = np.arange(301) * H
     film, temperature = reference.solve(times)

@@ -166,7 +166,7 @@ def test_asperities_that_suction_presses_rub_with_no_more_than_load_and_atmosphe
         mu, torque = pack.out[k.O_COEFFICIENT], pack.out[k.O_CONTACT_TORQUE]
         assert 0.0 < torque <= min(before, lever * mu * ATMOSPHERE * area * (1.0 + 1e-12))
         before = torque
-    pressed = solve_clutch(pack.params, load=6000.0, speed=50.0).torque_capacity
+    pressed = solve_clutch(pack.params, load=6000.0, speed=0.0).torque_capacity
     assert 0.01 * pressed < before < 0.2 * pressed
 
 

@@ -27,14 +27,15 @@ SAMPLES = 121
 
 
 def slip_figure(result: Any, point: Mapping[str, Any], params: ClutchParams) -> Figure:
-    """Return friction over slip, solved here, at the load and oil temperature of ``point``."""
+    """Return friction over slip, solved here, at load and interface temperature of ``result``."""
     p = params
     has_shares = p.friction_law == "wang" and result.fidelity != "closed"
     fall = (p.stick_speed + 2.0 * p.decay_speed) / p.friction_radius if has_shares else 1.0
     fastest = min(max(2.0 * abs(point["speed"]), fall), SPEED.high or fall)
     speeds = [fastest * (i / (SAMPLES - 1)) ** 2 for i in range(SAMPLES)]
+    held = {**point, "interface_temperature": result.temperature}
     sweep = [
-        solve_clutch(params, **{**point, "speed": speed}, fidelity=result.fidelity, throw=False)
+        solve_clutch(params, **{**held, "speed": speed}, fidelity=result.fidelity)
         for speed in speeds
     ]
     share = (p.indentation, 0.0, p.plough_weight, p.hardness_ratio)
@@ -98,7 +99,7 @@ def clutch_figure(
     heading(
         figure,
         f"Wet friction pack pressed with {format_quantity(point['load'], 'N')}, "
-        f"oil {format_quantity(point['oil_temperature'], 'K')}; dot: {here:.4g} "
+        f"faces at {format_quantity(result.temperature, 'K')}; dot: {here:.4g} "
         f"rad/s, {format_quantity(abs(result.friction_torque), 'N.m')}",
     )
     return figure

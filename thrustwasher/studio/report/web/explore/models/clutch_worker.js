@@ -87,7 +87,8 @@ export class Model extends PointModel {
       stored_heat: series.stored_heat.at(-1),
       boundary_from: times[series.film_ratio.findIndex((u) => u < 1)] ?? NaN,
     };
-    if (!code && outputs.temperature_max > L.HOT_LIMIT) code = L.HOT;
+    const hottest = outputs.temperature_max;
+    if (!code && hottest > L.HOT_LIMIT) code = hottest > L.EXTRAPOLATED_LIMIT ? L.EXTRAPOLATED : L.HOT;
     return { code, outputs, series };
   }
 }

@@ -23,7 +23,15 @@ from ..tribology.viscosity import viscosity
 from ..units import format_quantity
 from .kernels import loss_laws as laws
 from .kernels import step as k
-from .loss_ranges import FAST, LEAST_DEPTH, LEAST_LEFT, MOST_DEPTH, RUBBING
+from .loss_ranges import (
+    FAST,
+    LEAST_DEPTH,
+    LEAST_LEFT,
+    MIXED,
+    MOST_DEPTH,
+    RUBBING,
+    viscosity_ratio,
+)
 from .parameters import SHAFTS, SPEC, LossesParams
 
 __all__ = ["LossesParams", "LossesResult", "solve_losses"]
@@ -159,13 +167,15 @@ def _of_gear(params: object, shaft: str, speed: float, oil: float) -> Iterator[s
 
 
 def _of_bearings(params: Any, point: Mapping[str, float]) -> Iterator[str]:
-    nu = _thickness(params, point["oil_temperature"])
+    nu, mixed = _thickness(params, point["oil_temperature"]), []
     for name in (*SHAFTS, "planet"):
         of = "planet_bearing" if name == "planet" else "bearing"
         own = "planet_bearing" if name == "planet" else f"{name}_bearing"
         speed, diameter = abs(point[f"{name}_speed"]), getattr(params, f"{own}_diameter")
         if speed <= params.speed_smoothing or not getattr(params, f"{own}_count"):
             continue
+        if name == "planet" or params.bearing_law == "palmgren":
+            mixed.append((viscosity_ratio(speed, nu, diameter), f"{name} bearings: "))
         if said := FAST.line(30.0 / math.pi * speed * 1e3 * diameter, f"{name} bearings: "):
             yield said
         kind, section = getattr(params, f"{of}_type_constant"), getattr(params, f"{of}_section")
@@ -176,6 +186,8 @@ def _of_bearings(params: Any, point: Mapping[str, float]) -> Iterator[str]:
                 f"{name} bearings: heated and starved, {100.0 * left:.2g} % of their viscous "
                 "torque is left; drag of the oil around them, which is not in the law, may be more"
             )
+    if mixed and (said := MIXED.line(*min(mixed))):
+        yield said
 
 
 def _of_seals(params: object, point: Mapping[str, float]) -> Iterator[str]:

@@ -9,6 +9,8 @@ from typing import Any
 
 from ..errors import within
 from ..gearmesh.parameters import GearMeshParams
+from ..losses.kernels.skf_series import SERIES
+from ..losses.parameters import FULL_FILM, LAWS
 from ..model.parameters import check_ranges, check_rules, choice, count, extended, quantity
 from ..model.spec import ModelSpec, Rule
 from .kernels import layout as L
@@ -92,6 +94,10 @@ class _TrainParams:
     )
     required_life: float = quantity(
         0.0, "s", 0.0, 1e12, "basic rating life below which a bearing is warned of (0: none)"
+    )
+    bearing_law: str = choice("palmgren", LAWS, "BearingLaw", "law of the bearings' torques")
+    bearing_sliding_friction: float = quantity(
+        0.05, "1", 0.0, 0.3, FULL_FILM, read_by=(("bearing_law", "skf"),)
     )
 
     def __post_init__(self) -> None:
@@ -199,9 +205,17 @@ def _of_bearing(own: dict[str, Any], shaft: int, k: int, words: str) -> Any:
     yield "induced_factor", quantity(-1.0, "1", -1.0, 10.0, text, read_by=pair)
     text = f"{words}distance of its pressure centre from position, in an arrangement O or X"
     yield "pressure_centre", quantity(0.0, "m", 0.0, 10.0, text, read_by=pair)
-    yield "viscous_factor", quantity(f0, "1", 0.0, 50.0, f"{words}f0 of Palmgren's viscous torque")
+    law = {name: (("bearing_law", name),) for name in LAWS}
+    text = f"{words}f0 of Palmgren's viscous torque"
+    yield "viscous_factor", quantity(f0, "1", 0.0, 50.0, text, read_by=law["palmgren"])
     text = f"{words}f1 of Palmgren's load torque"
-    yield "load_factor", quantity(f1, "1", 0.0, 0.02, text)
+    yield "load_factor", quantity(f1, "1", 0.0, 0.02, text, read_by=law["palmgren"])
+    text = f"{words}its series in SKF's tables of friction"
+    yield "series", choice("none", SERIES, "BearingSeries", text, read_by=law["skf"])
+    text = (
+        f"{words}basic static load rating C0, of ball bearings with SKF's friction (0: not given)"
+    )
+    yield "static_capacity", quantity(0.0, "N", 0.0, 1e8, text, read_by=law["skf"])
 
 
 def _of_force(words: str) -> Any:
@@ -244,6 +258,14 @@ def _rules(i: int) -> tuple[Rule, ...]:
             f"shaft_{i}_arrangement = {{shaft_{i}_arrangement}}, allowed: 'O' or 'X', as its taper "
             "or angular contact bearings induce axial forces in each other; or induced_factor = 0 "
             "of those that induce none"
+        ),
+        Rule(
+            f"bearing_law = {{bearing_law}}, {both('type')}, {both('series')}: SKF's model has no "
+            "constants for one of them, allowed: a series of its type, or bearing_law = 'palmgren'"
+        ),
+        Rule(
+            f"bearing_law = {{bearing_law}}, {both('static_capacity')}, allowed: C0 above 0 N of a "
+            "ball bearing"
         ),
     )
 

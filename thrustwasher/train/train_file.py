@@ -53,6 +53,7 @@ GLOBAL = tuple(
 LINKS = ("pinion", "gear", "preset", "part")
 SHAFT = ("axial", "arrangement", "seals", "seal_diameter", "bearings", "forces")
 SHORT = {"X": "x_factor", "Y": "y_factor", "e": "e_factor", "C": "capacity"}
+SHORT |= {"C0": "static_capacity"}
 SHORT |= {"f0": "viscous_factor", "f1": "load_factor"}
 _KEYS = ("viscous_factor", "load_factor", "x_factor", "y_factor", "section")
 USUAL = {  # of catalogues and handbooks, where a bearing does not say otherwise; estimates

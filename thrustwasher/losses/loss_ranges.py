@@ -58,7 +58,7 @@ LIGHT_LOAD = LawRange(
     "",
     0.02,
     math.inf,
-    "it may be off by several times, too large of ball bearings; bearing_law = skf",
+    "it may be off by several times, too large of ball bearings",
     "compared with SKF's model",
 )
 MIXED = LawRange(
@@ -67,9 +67,10 @@ MIXED = LawRange(
     "",
     1.0,
     math.inf,
-    "mixed friction is left out, the torque may be several times it; bearing_law = skf",
+    "mixed friction is left out, the torque may be several times it",
     "kappa of ISO 281",
 )
+OTHER_LAW = "; bearing_law = skf counts it"
 LAW_RANGES = (FROUDE, REYNOLDS, DEPTH, STARVED, FAST, LIGHT_LOAD, MIXED, BRACKET, RUBBING)
 
 

@@ -15,6 +15,7 @@ from ..losses.loss_ranges import (
     FROUDE,
     LIGHT_LOAD,
     MIXED,
+    OTHER_LAW,
     REYNOLDS,
     viscosity_ratio,
 )
@@ -261,7 +262,7 @@ def _of_bearings(
             speed /= _slower(params, i)
     for law, found in ((LIGHT_LOAD, light), (MIXED, mixed)):  # of all bearings the worst
         if found and (line := law.line(*min(found))):
-            yield line
+            yield line + OTHER_LAW
 
 
 def _thickness(params: Any, oil: float) -> float:

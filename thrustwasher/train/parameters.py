@@ -245,7 +245,10 @@ def _rules(i: int) -> tuple[Rule, ...]:
         return ", ".join(f"{n} = {{{n}}}" for n in found)
 
     return (
-        Rule(f"{both('position')}, allowed: apart by 0.1 mm and more"),
+        Rule(
+            f"shaft_{i}_bearing_2_position = {{shaft_{i}_bearing_2_position}}, allowed: apart from "
+            f"shaft_{i}_bearing_1_position = {{shaft_{i}_bearing_1_position}} by 0.1 mm and more"
+        ),
         Rule(
             f"{both('pressure_centre')}, arrangement = {{shaft_{i}_arrangement}}: radial forces "
             "act at one place, allowed: apart by 0.1 mm and more"

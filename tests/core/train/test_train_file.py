@@ -77,7 +77,7 @@ def test_a_mesh_takes_a_preset_or_a_part_and_what_stands_beside(tmp_path):
         ('position = "85 mm"\n', "", "'position' or 'pinion_position' is missing"),
         ("pinion_teeth = 25", "pinion_tooth = 25", "did you mean 'pinion_teeth'"),
         ('type = "ball", position = "0 mm"', 'position = "0 mm"', "'type' is missing"),
-        ('position = "90 mm"', 'position = "0 mm"', "allowed: apart by 0.1 mm"),
+        ('position = "90 mm"', 'position = "0 mm"', "allowed: apart from"),
         ("pinion_teeth = 21", "pinion_teeth = 5", "mesh 2: pinion_teeth = 5"),
         ("[train]\n", "[train]\noil_volum = 3\n", "did you mean 'oil_volume'"),
         ('arrangement = "X"', 'axial = "pushed"', "middle.: 'arrangement' is missing, allowed"),

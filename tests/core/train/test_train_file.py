@@ -83,7 +83,7 @@ def test_a_mesh_takes_a_preset_or_a_part_and_what_stands_beside(tmp_path):
         ('arrangement = "X"', 'axial = "pushed"', "middle.: 'arrangement' is missing, allowed"),
         ('arrangement = "X"', 'arrangement = "T"', "allowed: 'none' or 'O' or 'X'"),
         ('arrangement = "X"', 'arrangement = "X"\naxial = "first"', "one of the two"),
-        ("Y = 1.6", "Y = 0", "y_factor = 0.0, .* or give induced_factor"),
+        ("Y = 1.6", "Y = 0", "middle.bearing_1_y_factor = 0.0, .* or give"),
         ("seals = 2", "seals = 2\nforces = [{ radial = 3 }]", "force 1: 'position' is missing"),
         (
             "seals = 2",

@@ -11,7 +11,15 @@ from ..errors import within
 from ..gearmesh.parameters import GearMeshParams
 from ..losses.kernels.skf_series import SERIES
 from ..losses.parameters import FULL_FILM, LAWS
-from ..model.parameters import check_ranges, check_rules, choice, count, extended, quantity
+from ..model.parameters import (
+    check_ranges,
+    check_rules,
+    choice,
+    count,
+    extended,
+    other_names,
+    quantity,
+)
 from ..model.spec import ModelSpec, Rule
 from .kernels import layout as L
 from .train_signals import INPUTS, OUTPUTS, TERMINALS, absent_outputs
@@ -25,11 +33,8 @@ AXIAL = {
     "first": "the first bearing, whichever way",
     "second": "the second bearing, whichever way",
     "pushed": "that which the shaft is pushed to",
-}
-ARRANGEMENTS = {
-    "none": "axial says which bearing takes the axial force, and radial forces induce none",
-    "O": "back to back: radial forces act outside the pair, at the pressure centres",
-    "X": "face to face: radial forces act inside the pair, at the pressure centres",
+    "O": "both back to back without preload: radial forces act outside the pair and induce axial",
+    "X": "both face to face without preload: radial forces act inside the pair and induce axial",
 }
 BEARINGS = {
     "ball": "deep groove ball bearing: life with the third power of the load",
@@ -150,17 +155,10 @@ def _length(default: float, text: str) -> Any:
 
 def _of_shaft(i: int) -> dict[str, Any]:
     own, words = SHAFTS[i - 1], f"shaft {i}: "
-    text = f"{words}which bearing takes the axial force, where arrangement is none"
+    axial, other = "first" if own["type"] == "ball" else "X", f"shaft_{i}_arrangement"
+    text = f"{words}which bearing takes the axial force; of taper or angular contact ones O or X"
     found = {
-        "axial": choice(
-            "first", AXIAL, "Axial", text, read_by=((f"shaft_{i}_arrangement", "none"),)
-        ),
-        "arrangement": choice(
-            "none" if own["type"] == "ball" else "X",
-            ARRANGEMENTS,
-            "Arrangement",
-            f"{words}of a pair of taper or angular contact bearings without preload",
-        ),
+        "axial": choice(axial, AXIAL, "Axial", text, also=other),
         "seals": count(own.get("seals", 0), 0, 4, f"{words}number of lip seals"),
         "seal_diameter": quantity(
             own.get("seal_diameter", 0.0), "m", 0.0, 1.0, f"{words}diameter under a lip seal"
@@ -185,7 +183,7 @@ def _of_chain(own: Any, least: int) -> Any:
 def _of_bearing(own: dict[str, Any], shaft: int, k: int, words: str) -> Any:
     f0, f1, x, y = BALL if own["type"] == "ball" else TAPER
     place = 0.0 if k == 1 else own["end"]
-    pair = tuple((f"shaft_{shaft}_arrangement", name) for name in ("O", "X"))
+    pair = tuple((f"shaft_{shaft}_axial", name) for name in ("O", "X"))
     yield "type", choice(own["type"], BEARINGS, "Bearing", f"{words}type")
     yield "position", _length(place, f"{words}along its shaft")
     text = f"{words}mean of bore and outer diameter"
@@ -234,7 +232,7 @@ for _i in range(1, L.MESHES + 1):
     _MORE |= _of_mesh(_i)
 for _i in range(1, L.SHAFTS + 1):
     _MORE |= _of_shaft(_i)
-TrainParams: Any = extended(_TrainParams, "TrainParams", _MORE)
+TrainParams: Any = other_names(extended(_TrainParams, "TrainParams", _MORE))
 
 
 def _rules(i: int) -> tuple[Rule, ...]:
@@ -250,17 +248,17 @@ def _rules(i: int) -> tuple[Rule, ...]:
             f"shaft_{i}_bearing_1_position = {{shaft_{i}_bearing_1_position}} by 0.1 mm and more"
         ),
         Rule(
-            f"{both('pressure_centre')}, arrangement = {{shaft_{i}_arrangement}}: radial forces "
-            "act at one place, allowed: apart by 0.1 mm and more"
+            f"{both('pressure_centre')}, axial = {{shaft_{i}_axial}}: radial forces act "
+            "at one place, allowed: apart by 0.1 mm and more"
         ),
         Rule(
             f"{both('y_factor')}, allowed: 0.001 and more of a taper or angular contact bearing, "
             "whose induced axial force follows from it; or give induced_factor"
         ),
         Rule(
-            f"shaft_{i}_arrangement = {{shaft_{i}_arrangement}}, allowed: 'O' or 'X', as its taper "
-            "or angular contact bearings induce axial forces in each other; or induced_factor = 0 "
-            "of those that induce none"
+            f"shaft_{i}_axial = {{shaft_{i}_axial}}, allowed: 'O' or 'X', as its taper or angular "
+            "contact bearings induce axial forces in each other; or induced_factor = 0 of those "
+            "that induce none"
         ),
         Rule(
             f"bearing_law = {{bearing_law}}, {both('type')}, {both('series')}: SKF's model has no "

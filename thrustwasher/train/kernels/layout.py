@@ -39,7 +39,7 @@ P_MESHES, P_OIL_VOLUME, P_STARVATION, P_REQUIRED_LIFE, P_LAW, P_FILM, P_SHARED =
 ) = range(8)
 P_MESH, MESH_ROW = P_SHARED + N_SHARED, A_PAIR + N_OWN
 # Of each shaft, then of each of its bearings, then of each force from outside.
-B_AXIAL, B_ARRANGEMENT, B_SEALS, B_SEAL_DIAMETER, B_BEARING = range(5)
+B_AXIAL, B_SEALS, B_SEAL_DIAMETER, B_BEARING = range(4)
 (
     C_KIND,
     C_POSITION,
@@ -143,7 +143,7 @@ NWORK = W_PAIR + G.NWORK
 PINION, GEAR = 1, 2  # who drives
 RIGHT, LEFT = 1, 2  # hand
 FIRST, SECOND, PUSHED = 1, 2, 3  # which bearing takes the axial force
-NO_PAIR, BACK_TO_BACK, FACE_TO_FACE = 1, 2, 3  # arrangement: none, O, X
+BACK_TO_BACK, FACE_TO_FACE = 4, 5  # arrangements O and X, in which both may
 BALL, ANGULAR, CYLINDRICAL, TAPER = range(1, 5)
 NONE = -1.0  # of what is not there
 RULES = 6  # of each shaft

@@ -114,7 +114,7 @@ def broken_rule(par: Array) -> int:
         first, second = centres(par, i)
         if not abs(first - second) >= 1e-4:
             return number + 2
-        alone = par[np.uintp(own + L.B_ARRANGEMENT)] == L.NO_PAIR
+        alone = par[np.uintp(own + L.B_AXIAL)] <= L.PUSHED
         for end in range(L.ENDS):
             row = own + L.B_BEARING + end * L.BEARING_ROW
             kind = int(par[np.uintp(row + L.C_KIND)])

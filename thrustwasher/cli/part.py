@@ -65,7 +65,7 @@ def _new(arguments: argparse.Namespace) -> None:
     model = find_model(arguments.subject)
     spec = model.spec
     start = find_part(spec.key) if arguments.preset is None else preset_part(spec, arguments.preset)
-    changes = _options.read_settings(arguments.settings, spec)
+    changes = _options.read_settings(arguments.settings, spec, start)
     oil = _options.read_oil(arguments, spec, changes)
     start = start if oil is None else start.with_oil(oil)
     name = checked_name(arguments.name or usual_name(spec))

@@ -51,4 +51,34 @@ RUBBING = LawRange(
     "no lip of rubber runs so fast",
     "limit of fluororubber in DIN 3760 and catalogues, from memory",
 )
-LAW_RANGES = (FROUDE, REYNOLDS, DEPTH, STARVED, FAST, BRACKET, RUBBING)
+PALMGREN = "Palmgren's law of bearings"
+LIGHT_LOAD = LawRange(
+    PALMGREN,
+    "load over C",
+    "",
+    0.02,
+    math.inf,
+    "it may be off by several times, too large of ball bearings",
+    "compared with SKF's model",
+)
+MIXED = LawRange(
+    PALMGREN,
+    "viscosity ratio kappa",
+    "",
+    1.0,
+    math.inf,
+    "mixed friction is left out, the torque may be several times it",
+    "kappa of ISO 281",
+)
+OTHER_LAW = "; bearing_law = skf counts it"
+LAW_RANGES = (FROUDE, REYNOLDS, DEPTH, STARVED, FAST, LIGHT_LOAD, MIXED, BRACKET, RUBBING)
+
+
+def viscosity_ratio(speed: float, nu: float, diameter: float) -> float:
+    """Return kappa of a bearing: kinematic viscosity [m2/s] over the required one of ISO 281.
+
+    ``speed`` [rad/s], above 0; mean ``diameter`` [m].
+    """
+    n, d = speed * 30.0 / math.pi, 1e3 * diameter
+    required = 45000.0 * n**-0.83 if n < 1000.0 else 4500.0 * n**-0.5
+    return float(1e6 * nu * math.sqrt(d) / required)

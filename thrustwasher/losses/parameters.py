@@ -3,8 +3,10 @@
 from dataclasses import dataclass
 from typing import Any
 
-from ..model.parameters import check_ranges, count, extended, quantity
+from ..model.parameters import check_ranges, check_rules, choice, count, extended, quantity
+from ..model.spec import Rule
 from ..model.toml_tables import spec_beside
+from .kernels.skf_series import RADIAL
 
 # Shaft -> bearings, their mean diameter [m] and load [N] each, gear's diameter and width [m], depth
 # over diameter, diameter of the seal [m]; the defaults.
@@ -13,6 +15,17 @@ SHAFTS = {
     "output": (2, 0.065, 800.0, 0.16, 0.03, 0.2, 0.045),
     "drum": (1, 0.08, 200.0, 0.17, 0.05, 0.0, 0.0),
 }
+LAWS = {
+    "palmgren": "f0 and f1 of Palmgren: for moderate load and a full film",
+    "skf": "SKF's model: rolling and sliding friction, mixed too, with constants of the series",
+}
+FULL_FILM = "friction of ball bearings in full film: 0.05 mineral, 0.04 synthetic, 0.1 gearbox oil"
+RULES = (
+    Rule(
+        "bearing_law = {bearing_law}, bearing_series = {bearing_series}: SKF's model has no "
+        "constants for it, allowed: one of its series, or bearing_law = 'palmgren'"
+    ),
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,9 +56,15 @@ class _LossesParams:
         0.0,
         50.0,
         "f0 of the main bearings: 1 to 3 of ball and cylindrical roller bearings",
+        read_by=(("bearing_law", "palmgren"),),
     )
     bearing_load_factor: float = quantity(
-        4e-4, "1", 0.0, 0.02, "f1 of the main bearings: 2e-4 to 1e-3"
+        4e-4,
+        "1",
+        0.0,
+        0.02,
+        "f1 of the main bearings: 2e-4 to 1e-3",
+        read_by=(("bearing_law", "palmgren"),),
     )
     pump_displacement: float = quantity(
         1.5e-5, "m3", 0.0, 1e-2, "oil that the pump moves per turn of the input shaft"
@@ -69,6 +88,9 @@ class _LossesParams:
 
     def __post_init__(self) -> None:
         check_ranges(self)
+        from .kernels.step import broken_rule
+
+        check_rules(self, RULES, broken_rule)
 
 
 def _of_shaft(name: str) -> dict[str, Any]:
@@ -139,10 +161,26 @@ _MORE = {
         10.0,
         "SKF's K_Z of the planets' bearings: 5.1 with cage, 6.2 without",
     ),
+    "bearing_law": choice(
+        "palmgren",
+        LAWS,
+        "BearingLaw",
+        "law of the main bearings' torque; needle bearings of planets follow Palmgren",
+    ),
+    "bearing_series": choice(
+        "none",
+        RADIAL,
+        "RadialSeries",
+        "series of the main bearings in SKF's tables",
+        read_by=(("bearing_law", "skf"),),
+    ),
+    "bearing_sliding_friction": quantity(
+        0.05, "1", 0.0, 0.3, FULL_FILM, read_by=(("bearing_law", "skf"),)
+    ),
 }
 LossesParams = extended(
     _LossesParams,
     "LossesParams",
     {k: v for name in SHAFTS for k, v in _of_shaft(name).items()} | _MORE,
 )
-SPEC = spec_beside(__file__, LossesParams)
+SPEC = spec_beside(__file__, LossesParams, RULES)

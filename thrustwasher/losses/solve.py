@@ -23,7 +23,16 @@ from ..tribology.viscosity import viscosity
 from ..units import format_quantity
 from .kernels import loss_laws as laws
 from .kernels import step as k
-from .loss_ranges import FAST, LEAST_DEPTH, LEAST_LEFT, MOST_DEPTH, RUBBING
+from .loss_ranges import (
+    FAST,
+    LEAST_DEPTH,
+    LEAST_LEFT,
+    MIXED,
+    MOST_DEPTH,
+    OTHER_LAW,
+    RUBBING,
+    viscosity_ratio,
+)
 from .parameters import SHAFTS, SPEC, LossesParams
 
 __all__ = ["LossesParams", "LossesResult", "solve_losses"]
@@ -125,6 +134,7 @@ def solve_losses(
         warnings=(
             *idle_warnings(SPEC.key, params, fidelity),
             *warnings_of(SPEC, status, point, shown, doubts_of_point(params, point)),
+            *_mixed_friction(params, point),
         ),
     )
 
@@ -176,6 +186,23 @@ def _of_bearings(params: Any, point: Mapping[str, float]) -> Iterator[str]:
                 f"{name} bearings: heated and starved, {100.0 * left:.2g} % of their viscous "
                 "torque is left; drag of the oil around them, which is not in the law, may be more"
             )
+
+
+def _mixed_friction(params: Any, point: Mapping[str, float]) -> Iterator[str]:
+    """Yield a line for the bearings that are deepest in mixed friction by Palmgren's law.
+
+    Of a point alone: in a map of a gear shift's gearbox, where they lose little, it is true of most
+    points and says nothing.
+    """
+    nu, mixed = _thickness(params, point["oil_temperature"]), []
+    for name in (*SHAFTS, "planet"):
+        own = "planet_bearing" if name == "planet" else f"{name}_bearing"
+        speed, diameter = abs(point[f"{name}_speed"]), getattr(params, f"{own}_diameter")
+        by_palmgren = name == "planet" or params.bearing_law == "palmgren"
+        if by_palmgren and speed > params.speed_smoothing and getattr(params, f"{own}_count"):
+            mixed.append((viscosity_ratio(speed, nu, diameter), f"{name} bearings: "))
+    if mixed and (said := MIXED.line(*min(mixed))):
+        yield said if "planet" in said else said + OTHER_LAW
 
 
 def _of_seals(params: object, point: Mapping[str, float]) -> Iterator[str]:

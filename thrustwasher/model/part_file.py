@@ -279,7 +279,13 @@ def load_part(path: str | Path) -> PartFile:
     where = f"part {str(path)!r}"
     part = _part(where, read_file("part", path), Path(path).parent)
     with within(f"{where} [parameters]"):
-        part.params  # noqa: B018  (raises what the model says about them)
+        try:
+            part.params  # noqa: B018  (raises what the model says about them)
+        except ParameterError as problem:
+            text = str(problem)
+            for own, flat in part.names.items():
+                text = re.sub(rf"\b{flat}", own, text)
+            raise ParameterError(text) from None
     with within(where):
         part.scattered()
     return part

@@ -9,12 +9,15 @@ from typing import Any
 
 from ..errors import within
 from ..gearmesh.parameters import GearMeshParams
+from ..losses.kernels.skf_series import SERIES
+from ..losses.parameters import FULL_FILM, LAWS
 from ..model.parameters import (
     check_ranges,
     check_rules,
     choice,
     count,
     extended,
+    other_names,
     quantity,
     read_with,
 )
@@ -32,11 +35,8 @@ AXIAL = {
     "first": "the first bearing, whichever way",
     "second": "the second bearing, whichever way",
     "pushed": "that which the shaft is pushed to",
-}
-ARRANGEMENTS = {
-    "none": "axial says which bearing takes the axial force, and radial forces induce none",
-    "O": "back to back: radial forces act outside the pair, at the pressure centres",
-    "X": "face to face: radial forces act inside the pair, at the pressure centres",
+    "O": "both back to back without preload: radial forces act outside the pair and induce axial",
+    "X": "both face to face without preload: radial forces act inside the pair and induce axial",
 }
 BEARINGS = {
     "ball": "deep groove ball bearing: life with the third power of the load",
@@ -114,6 +114,10 @@ class _TrainParams:
         "basic rating life below which a bearing is warned of (0: none)",
         only_for="warnings of results in Python",
     )
+    bearing_law: str = choice("palmgren", LAWS, "BearingLaw", "law of the bearings' torques")
+    bearing_sliding_friction: float = quantity(
+        0.05, "1", 0.0, 0.3, FULL_FILM, read_by=(("bearing_law", "skf"),)
+    )
 
     def __post_init__(self) -> None:
         check_ranges(self)
@@ -176,17 +180,10 @@ def _length(default: float, text: str) -> Any:
 
 def _of_shaft(i: int) -> dict[str, Any]:
     own, words = SHAFTS[i - 1], f"shaft {i}: "
-    text = f"{words}which bearing takes the axial force, where arrangement is none"
+    axial, other = "first" if own["type"] == "ball" else "X", f"shaft_{i}_arrangement"
+    text = f"{words}which bearing takes the axial force; of taper or angular contact ones O or X"
     found = {
-        "axial": choice(
-            "first", AXIAL, "Axial", text, read_by=((f"shaft_{i}_arrangement", "none"),)
-        ),
-        "arrangement": choice(
-            "none" if own["type"] == "ball" else "X",
-            ARRANGEMENTS,
-            "Arrangement",
-            f"{words}of a pair of taper or angular contact bearings without preload",
-        ),
+        "axial": choice(axial, AXIAL, "Axial", text, also=other),
         "seals": count(
             own.get("seals", 0),
             0,
@@ -215,7 +212,7 @@ def _of_shaft(i: int) -> dict[str, Any]:
 def _of_bearing(own: dict[str, Any], shaft: int, k: int, words: str) -> Any:
     f0, f1, x, y = BALL if own["type"] == "ball" else TAPER
     place = 0.0 if k == 1 else own["end"]
-    pair = tuple((f"shaft_{shaft}_arrangement", name) for name in ("O", "X"))
+    pair = tuple((f"shaft_{shaft}_axial", name) for name in ("O", "X"))
     yield "type", choice(own["type"], BEARINGS, "Bearing", f"{words}type")
     yield "position", _length(place, f"{words}along its shaft")
     text = f"{words}mean of bore and outer diameter"
@@ -235,9 +232,17 @@ def _of_bearing(own: dict[str, Any], shaft: int, k: int, words: str) -> Any:
     yield "induced_factor", quantity(-1.0, "1", -1.0, 10.0, text, read_by=pair)
     text = f"{words}distance of its pressure centre from position, in an arrangement O or X"
     yield "pressure_centre", quantity(0.0, "m", 0.0, 10.0, text, read_by=pair)
-    yield "viscous_factor", quantity(f0, "1", 0.0, 50.0, f"{words}f0 of Palmgren's viscous torque")
+    law = {name: (("bearing_law", name),) for name in LAWS}
+    text = f"{words}f0 of Palmgren's viscous torque"
+    yield "viscous_factor", quantity(f0, "1", 0.0, 50.0, text, read_by=law["palmgren"])
     text = f"{words}f1 of Palmgren's load torque"
-    yield "load_factor", quantity(f1, "1", 0.0, 0.02, text)
+    yield "load_factor", quantity(f1, "1", 0.0, 0.02, text, read_by=law["palmgren"])
+    text = f"{words}its series in SKF's tables of friction"
+    yield "series", choice("none", SERIES, "BearingSeries", text, read_by=law["skf"])
+    text = (
+        f"{words}basic static load rating C0, of ball bearings with SKF's friction (0: not given)"
+    )
+    yield "static_capacity", quantity(0.0, "N", 0.0, 1e8, text, read_by=law["skf"])
 
 
 def _of_force(own: str, words: str) -> Any:
@@ -259,7 +264,7 @@ for _i in range(1, L.MESHES + 1):
 for _i in range(1, L.SHAFTS + 1):
     _there = (("meshes", ">=", _i - 1),)  # the shaft behind that mesh
     _MORE |= read_with(_there, _of_shaft(_i)) if _i > 2 else _of_shaft(_i)
-TrainParams: Any = extended(_TrainParams, "TrainParams", _MORE)
+TrainParams: Any = other_names(extended(_TrainParams, "TrainParams", _MORE))
 
 
 def _rules(i: int) -> tuple[Rule, ...]:
@@ -270,19 +275,30 @@ def _rules(i: int) -> tuple[Rule, ...]:
         return ", ".join(f"{n} = {{{n}}}" for n in found)
 
     return (
-        Rule(f"{both('position')}, allowed: apart by 0.1 mm and more"),
         Rule(
-            f"{both('pressure_centre')}, arrangement = {{shaft_{i}_arrangement}}: radial forces "
-            "act at one place, allowed: apart by 0.1 mm and more"
+            f"shaft_{i}_bearing_2_position = {{shaft_{i}_bearing_2_position}}, allowed: apart from "
+            f"shaft_{i}_bearing_1_position = {{shaft_{i}_bearing_1_position}} by 0.1 mm and more"
+        ),
+        Rule(
+            f"{both('pressure_centre')}, axial = {{shaft_{i}_axial}}: radial forces act "
+            "at one place, allowed: apart by 0.1 mm and more"
         ),
         Rule(
             f"{both('y_factor')}, allowed: 0.001 and more of a taper or angular contact bearing, "
             "whose induced axial force follows from it; or give induced_factor"
         ),
         Rule(
-            f"shaft_{i}_arrangement = {{shaft_{i}_arrangement}}, allowed: 'O' or 'X', as its taper "
-            "or angular contact bearings induce axial forces in each other; or induced_factor = 0 "
-            "of those that induce none"
+            f"shaft_{i}_axial = {{shaft_{i}_axial}}, allowed: 'O' or 'X', as its taper or angular "
+            "contact bearings induce axial forces in each other; or induced_factor = 0 of those "
+            "that induce none"
+        ),
+        Rule(
+            f"bearing_law = {{bearing_law}}, {both('type')}, {both('series')}: SKF's model has no "
+            "constants for one of them, allowed: a series of its type, or bearing_law = 'palmgren'"
+        ),
+        Rule(
+            f"bearing_law = {{bearing_law}}, {both('static_capacity')}, allowed: C0 above 0 N of a "
+            "ball bearing"
         ),
     )
 

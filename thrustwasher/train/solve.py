@@ -10,7 +10,16 @@ from ..errors import SolveError, Status
 from ..gearmesh.parameters import SPEC as PAIR
 from ..gearmesh.solve import solve_gearmesh
 from ..losses.kernels import loss_laws as laws
-from ..losses.loss_ranges import DEPTH, FAST, FROUDE, REYNOLDS
+from ..losses.loss_ranges import (
+    DEPTH,
+    FAST,
+    FROUDE,
+    LIGHT_LOAD,
+    MIXED,
+    OTHER_LAW,
+    REYNOLDS,
+    viscosity_ratio,
+)
 from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
 from ..model.levels import level_named
@@ -210,15 +219,14 @@ def _pitch_radius(pair: Any) -> float:
 
 
 def _of_churning(params: Any, i: int, pinion: float, radius: float, oil: float) -> Iterator[str]:
-    pair = pair_of(params, i)
-    mu = pair.viscosity_scale * np.exp(pair.viscosity_b / (oil - 273.15 + pair.viscosity_c))
+    pair, nu = pair_of(params, i), _thickness(params, oil)
     for gear, ratio in (("pinion", 1.0), ("gear", float(pair.gear_ratio))):
         depth = getattr(params, f"mesh_{i + 1}_{gear}_immersion")
         w, r = pinion / ratio, radius * ratio
         froude = w * w * r / laws.GRAVITY
         if depth == 0.0 or froude < laws.LEAST_FR:
             continue
-        reynolds = w * r * pair.face_width * pair.oil_density / mu
+        reynolds = w * r * pair.face_width / nu
         where = f"mesh {i + 1}, {gear}: "
         numbers = ((FROUDE, froude), (REYNOLDS, float(reynolds)), (DEPTH, depth))
         yield from (line for law, value in numbers if (line := law.line(value, where)))
@@ -227,7 +235,8 @@ def _of_churning(params: Any, i: int, pinion: float, radius: float, oil: float) 
 def _of_bearings(
     params: Any, point: Mapping[str, float], shown: Mapping[str, Any]
 ) -> Iterator[str]:
-    speed = abs(point["speed"])
+    speed, nu = abs(point["speed"]), _thickness(params, point["oil_temperature"])
+    light, mixed = list[tuple[float, str]](), list[tuple[float, str]]()
     for i in range(1, int(params.meshes) + 2):
         for end in (1, 2):
             name, words = f"shaft_{i}_bearing_{end}", f"shaft {i}, bearing {end}: "
@@ -251,8 +260,21 @@ def _of_bearings(
             fast = speed * 30.0 / np.pi * 1e3 * getattr(params, f"{name}_diameter")
             if line := FAST.line(fast, words):
                 yield line
+            if params.bearing_law == "palmgren" and speed > params.speed_smoothing:
+                diameter = getattr(params, f"{name}_diameter")
+                light.append((load / capacity, words))
+                mixed.append((viscosity_ratio(speed, nu, diameter), words))
         if i <= int(params.meshes):
             speed /= _slower(params, i)
+    for law, found in ((LIGHT_LOAD, light), (MIXED, mixed)):  # of all bearings the worst
+        if found and (line := law.line(*min(found))):
+            yield line + OTHER_LAW
+
+
+def _thickness(params: Any, oil: float) -> float:
+    """Return the kinematic viscosity [m2/s]."""
+    mu = params.viscosity_scale * np.exp(params.viscosity_b / (oil - 273.15 + params.viscosity_c))
+    return float(mu / params.oil_density)
 
 
 def _slower(params: Any, mesh: int) -> float:

@@ -53,6 +53,7 @@ GLOBAL = tuple(
 LINKS = ("pinion", "gear", "preset", "part")
 SHAFT = ("axial", "arrangement", "seals", "seal_diameter", "bearings", "forces")
 SHORT = {"X": "x_factor", "Y": "y_factor", "e": "e_factor", "C": "capacity"}
+SHORT |= {"C0": "static_capacity"}
 SHORT |= {"f0": "viscous_factor", "f1": "load_factor"}
 _KEYS = ("viscous_factor", "load_factor", "x_factor", "y_factor", "section")
 USUAL = {  # of catalogues and handbooks, where a bearing does not say otherwise; estimates
@@ -62,7 +63,7 @@ USUAL = {  # of catalogues and handbooks, where a bearing does not say otherwise
     "taper": dict(zip(_KEYS, (4.0, 4e-4, 0.4, 1.6, 0.6), strict=True)),
 }
 USUAL_PLACE = {"angle": 0.0, "hand": "right", "pinion_immersion": 0.0, "gear_immersion": 0.0}
-INDUCING = ("taper", "angular")
+INDUCING, ARRANGEMENTS = ("taper", "angular"), ("O", "X")
 
 
 def _below(start: str) -> tuple[str, ...]:
@@ -210,19 +211,23 @@ def _shaft(where: str, start: str, given: Mapping[str, Any]) -> dict[str, Any]:
     bearings = given.get("bearings")
     if not isinstance(bearings, list) or len(bearings) != L.ENDS:
         raise ParameterError(f"{where}: bearings = {bearings!r}, allowed: exactly two tables")
-    own: dict[str, Any] = {"axial": "first", "arrangement": "none"}
+    own: dict[str, Any] = {"axial": given.get("arrangement", given.get("axial", "first"))}
     own |= {"seals": int("seal_diameter" in given), "seal_diameter": 0.0}
-    own |= {key: given[key] for key in SHAFT[:4] if key in given}
+    own |= {key: given[key] for key in ("seals", "seal_diameter") if key in given}
     found = {start + key: value for key, value in own.items()}
     for k, bearing in enumerate(bearings, 1):
         at = f"{where} bearing {k}"
         if not isinstance(bearing, dict):
             raise ParameterError(f"{at}: {bearing!r}, allowed: a table")
         found |= {f"{start}bearing_{k}_{n}": value for n, value in _bearing(at, bearing).items()}
-    if own["arrangement"] != "none":
-        if "axial" in given:
-            raise ParameterError(f"{where}: axial and arrangement, allowed: one of the two")
-    elif types := [t for b in bearings if (t := b["type"]) in INDUCING and not _is_plain(b)]:
+    if {"axial", "arrangement"} <= given.keys():
+        raise ParameterError(f"{where}: axial and arrangement, allowed: one of the two")
+    if given.get("arrangement", "O") not in ARRANGEMENTS:
+        raise ParameterError(
+            f"{where}: arrangement = {given['arrangement']!r}, allowed: 'O' or 'X'"
+        )
+    types = [t for b in bearings if (t := b["type"]) in INDUCING and not _is_plain(b)]
+    if types and own["axial"] not in ARRANGEMENTS:
         raise ParameterError(
             f"{where}: 'arrangement' is missing, allowed: 'O' (back to back) or 'X' (face to face, "
             f"as axial = 'pushed'), as {' and '.join(types)} bearings induce axial forces in each "

@@ -37,7 +37,7 @@ STANDINGS = {
     ],
     "GearTrain": [
         {"meshes": 3, "shaft_1_axial": "pushed"},
-        {"shaft_2_arrangement": "O", "shaft_3_force_1_radial": 3e3, "shaft_3_force_1_axial": 1e3},
+        {"shaft_2_axial": "O", "shaft_3_force_1_radial": 3e3, "shaft_3_force_1_axial": 1e3},
     ],
     "GearMesh": [
         {"permissible_film_ratio": 0.3, "root_limit": 430e6},

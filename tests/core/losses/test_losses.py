@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from slopes import Unit, disagreement
 
-from thrustwasher.errors import Status
+from thrustwasher.errors import ParameterError, Status
 from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.losses.kernels import step as k
 from thrustwasher.losses.kernels.loss_laws import (
@@ -17,6 +17,9 @@ from thrustwasher.losses.kernels.loss_laws import (
     starved,
     thinned,
 )
+from thrustwasher.losses.kernels.skf_friction import skf_drag
+from thrustwasher.losses.kernels.skf_series import TABLE
+from thrustwasher.losses.loss_ranges import viscosity_ratio
 from thrustwasher.losses.parameters import SPEC, LossesParams
 from thrustwasher.losses.solve import solve_losses
 from thrustwasher.model.prepare import filled
@@ -251,7 +254,95 @@ def test_the_regime_of_churning_is_told(speed, celsius, regime):
 )
 def test_a_law_outside_its_range_is_said(point, changes, words):
     assert any(words in text for text in solved(changes, **point).warnings)
-    assert not solved().warnings
+    assert not solved(oil_temperature=313.15).warnings
+
+
+def test_mixed_friction_is_said_where_palmgrens_law_leaves_it_out():
+    """ISO 281: nu_1 = 45000 n^-0.83 d_m^-0.5 below 1000 1/min: 20.5 mm2/s at 668 1/min, 65 mm."""
+    said = solved().warnings
+    assert len(said) == 1 and said[0].startswith("output bearings: viscosity ratio kappa = 0.43")
+    assert 1e6 * viscosity_ratio(1.0, 1.0, 0.065) == pytest.approx(
+        1e12 * math.sqrt(65.0) / 45000.0 * (30.0 / math.pi) ** 0.83, rel=1e-12
+    )
+    by_skf = solved(SKF).warnings  # of the planets' needle bearings
+    assert len(by_skf) == 1 and by_skf[0].startswith("planet bearings: viscosity ratio")
+
+
+SKF = {"bearing_law": "skf", "bearing_series": "62"}
+N, NU = 1500.0, 14.0  # 1/min, mm2/s
+
+
+def skf(series, forces, size=(0.0, 23.2e3), n=N, nu=NU, krs=3e-8, kz=3.1):
+    """N mm of a bearing 50/90 mm."""
+    starving = starved(krs, kz, 0.07, 40.0 / 70.0)
+    row = np.array(TABLE[series][1])
+    speed = n * math.pi / 30.0
+    return 1e3 * skf_drag(speed, nu * 1e-6, forces, 0.07, starving, row, size, 0.05)[0]
+
+
+def contacts(g_rr, g_sl, smooth, kz, n=N, nu=NU):
+    """M_rr + M_sl [N mm] of SKF's catalogue, of a bearing 50/90 mm in an oil jet."""
+    heat = 1.0 / (1.0 + 1.84e-9 * (n * 70.0) ** 1.28 * nu**0.64)
+    track = math.exp(-3e-8 * nu * n * (50.0 + 90.0) * math.sqrt(kz / (2.0 * (90.0 - 50.0))))
+    weight = math.exp(-2.6e-8 * (n * nu) ** 1.4 * 70.0)
+    return heat * track * g_rr * (nu * n) ** 0.6 + g_sl * (weight * 0.12 + (1 - weight) * smooth)
+
+
+def test_skfs_model_by_hand():
+    """A 6210, NU 210 and 30210 under 4 kN and 1.5 kN, by the formulas and constants printed."""
+    r, a = 4000.0, 1500.0
+    sine = math.sin(math.radians(24.6 * (a / 23.2e3) ** 0.24))
+    ball = (
+        3.9e-7 * 70.0**1.96 * (r + 1.7 / sine * a) ** 0.54,
+        3.23e-3 * 70.0**-0.145 * (r**5 + 36.5 * 70.0**1.5 / sine * a**4) ** (1 / 3),
+    )
+    assert skf("62", (r, a)) == pytest.approx(contacts(*ball, 0.05, 3.1), rel=1e-12)
+    plain = 3.9e-7 * 70.0**1.96 * r**0.54, 3.23e-3 * 70.0**-0.26 * r ** (5 / 3)
+    assert skf("62", (r, 0.0)) == pytest.approx(contacts(*plain, 0.05, 3.1), rel=1e-12)
+    roller = 1.09e-6 * 70.0**2.41 * r**0.31, 0.16 * 70.0**0.9 * a + 0.0015 * 70.0 * r
+    assert skf("NU2", (r, a), kz=5.1) == pytest.approx(contacts(*roller, 0.02, 5.1), rel=1e-12)
+    taper = (
+        1.76e-6 * 70.0**2.38 * (r + 10.9 * 1.4 * a) ** 0.31,
+        0.017 * 70.0**0.82 * (r + 2.0 * 1.4 * a),
+    )
+    found = skf("302", (r, a), (1.4, 0.0), kz=6.0)
+    assert found == pytest.approx(contacts(*taper, 0.002, 6.0), rel=1e-12)
+    thrown = 70.0**4 * N * N
+    angular = (
+        5.03e-7 * 70.0**1.97 * (r + 1.9e-12 * thrown + 1.97 * a) ** 0.54,
+        1.3e-2 * 70.0**0.26 * ((r + 1.91e-12 * thrown) ** (4 / 3) + 0.68 * a ** (4 / 3)),
+    )
+    assert skf("7", (r, a), kz=4.4) == pytest.approx(contacts(*angular, 0.05, 4.4), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("series", "capacity", "mu", "least", "most"),
+    [("62", 37.1e3, 0.0015, 0.7, 1.1), ("NU2", 73.5e3, 0.0011, 0.9, 1.5)],
+)
+@pytest.mark.parametrize(("n", "nu"), [(1500.0, 14.0), (1500.0, 28.0), (3000.0, 10.0)])
+def test_skfs_model_beside_its_constant_coefficient(series, capacity, mu, least, most, n, nu):
+    """The catalogue's M = mu P d/2, which it gives for P = 0.1 C and good lubrication."""
+    constant = 0.5 * mu * 0.1 * capacity * 50.0
+    assert least < skf(series, (0.1 * capacity, 0.0), n=n, nu=nu) / constant < most
+
+
+@pytest.mark.parametrize("series", ["62", "7", "NU2", "302"])
+def test_slopes_of_skfs_model(series):
+    row, size = np.array(TABLE[series][1]), (1.4, 23.2e3)
+    law = lambda w, nu: skf_drag(w, nu, (4e3, 1e3), 0.07, 1e-6, row, size, 0.05)  # noqa: E731
+    _, by_speed, by_nu = law(700.0, 14e-6)
+    h = 1e-5
+    change = law(700.0 * (1 + h), 14e-6)[0] - law(700.0 * (1 - h), 14e-6)[0]
+    assert by_speed == pytest.approx(change / (1400.0 * h), rel=1e-7)
+    change = law(700.0, 14e-6 * (1 + h))[0] - law(700.0, 14e-6 * (1 - h))[0]
+    assert by_nu == pytest.approx(change / (28e-6 * h), rel=1e-7)
+
+
+def test_bearings_without_constants_are_refused():
+    with pytest.raises(ParameterError, match="bearing_series = 'none': SKF's model has no"):
+        LossesParams(bearing_law="skf")
+    r, plain = solved(SKF), solved()
+    assert r.planet_torque == plain.planet_torque and r.bearing_power != plain.bearing_power
 
 
 def test_thick_oil_at_speed_is_outside_the_verified_range():
@@ -292,8 +383,10 @@ def test_cold_oil_costs_more():
         [60.0, 120.0, 0.0, -300.0, 50.0, 331.0],
     ],
 )
-def test_derivatives_are_exact(inputs):
-    unit = Unit(k, filled(SPEC, LossesParams(input_immersion=0.2), "handbook", k.NPAR, k.derive))
+@pytest.mark.parametrize("law", [{}, {"bearing_law": "skf", "bearing_series": "NU10"}])
+def test_derivatives_are_exact(inputs, law):
+    params = LossesParams(input_immersion=0.2, **law)
+    unit = Unit(k, filled(SPEC, params, "handbook", k.NPAR, k.derive))
     scale = [max(abs(x), 0.1) * 0.1 for x in inputs]
     assert disagreement(unit, inputs, scale).max() < 1e-7
 

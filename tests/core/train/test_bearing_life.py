@@ -78,7 +78,7 @@ def test_a_maker_s_example_of_a_pair_back_to_back():
     5500 N at 59.9 mm from I, 2000 N on it: F_r 1569 and 3931 N; 0.6 F_r/Y is induced; F_aI = 2000 +
     0.6/1.6 3931 = 3474 N; P = 3164 and 3931 N; lives 109 750 and 80 400 h with its rounded factors.
     """
-    pair = {"arrangement": "O", "force_1_position": 0.0399, "force_1_radial": 5500.0}
+    pair = {"axial": "O", "force_1_position": 0.0399, "force_1_radial": 5500.0}
     one = {"position": 0.0, "pressure_centre": 0.02, "y_factor": 0.73, "e_factor": 0.83}
     two = {"position": 0.05, "pressure_centre": 0.0138, "y_factor": 1.6, "e_factor": 0.38}
     for bearing, own, c in (("1", one, 38e3), ("2", two, 43e3)):

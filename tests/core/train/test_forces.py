@@ -198,7 +198,7 @@ def test_pairs_in_o_and_x_under_teeth_and_forces_from_outside(arrangement, ends,
     own |= {"shaft_2_bearing_1_y_factor": 1.6, "shaft_2_bearing_2_y_factor": 1.1}
     own |= {f"shaft_2_bearing_{k}_type": "taper" for k in (1, 2)}
     own |= {f"shaft_2_force_{k}_{n}": v for k, f in enumerate(forces, 1) for n, v in f.items()}
-    p = one_mesh(mesh_1_helix_angle=0.3, shaft_2_arrangement=arrangement, **own)
+    p = one_mesh(mesh_1_helix_angle=0.3, shaft_2_axial=arrangement, **own)
     r = solve_train(p, torque=torque, speed=200.0)
     sign = math.copysign(1.0, torque)
     radius = 25 * 4e-3 / math.cos(0.3)

@@ -9,6 +9,8 @@ from trains import SPUR, alike, no_losses_of_shafts
 
 from thrustwasher import ParameterError, SolveError, solve_gearmesh
 from thrustwasher.losses.kernels.loss_laws import bearing_drag, seal_drag, starved
+from thrustwasher.losses.kernels.skf_friction import skf_drag
+from thrustwasher.losses.kernels.skf_series import TABLE
 from thrustwasher.train.parameters import TrainParams, pair_of
 from thrustwasher.train.solve import solve_train
 
@@ -132,6 +134,52 @@ def test_bearings_and_seals_lose_what_the_laws_of_losses_say():
     two, _ = seal_drag(333.15, nu_40, 0.045)
     slow = 400.0 / (p.mesh_1_gear_ratio * p.mesh_2_gear_ratio)
     assert r.seal_loss == pytest.approx(one * 400.0 + 2.0 * two * slow, rel=1e-9)
+
+
+SKF = {"bearing_law": "skf"}
+for i, series in ((1, "62"), (2, "302"), (3, "320")):
+    for k in (1, 2):
+        SKF |= {f"shaft_{i}_bearing_{k}_series": series}
+        SKF |= {f"shaft_{i}_bearing_{k}_static_capacity": 23e3 if i == 1 else 0.0}
+
+
+def test_bearings_lose_what_skfs_model_says():
+    """Of a deep groove ball and a taper roller bearing, under their radial and axial forces."""
+    p = TrainParams(**SKF)
+    r = solve_train(p, torque=120.0, speed=400.0, oil_temperature=333.15)
+    mu = p.viscosity_scale * math.exp(p.viscosity_b / (60.0 + p.viscosity_c))
+    of = (("shaft_1_bearing_1", 400.0, 3.1), ("shaft_2_bearing_2", 400.0 / 3.0, 6.0))
+    for name, speed, kind in of:
+        d, section = (getattr(p, f"{name}_{n}") for n in ("diameter", "section"))
+        forces = tuple(getattr(r, f"{name}_{n}_force") for n in ("radial", "axial"))
+        row = np.array(TABLE[getattr(p, f"{name}_series")][1])
+        k_rs = starved(p.starvation_constant, kind, d, section)
+        drag, _, _ = skf_drag(speed, mu / p.oil_density, forces, d, k_rs, row, (1.6, 23e3), 0.05)
+        assert getattr(r, f"{name}_loss") == pytest.approx(drag * speed, rel=1e-6)
+    assert not [text for text in r.warnings if "Palmgren" in text]
+    power = 120.0 * 400.0 - r.output_torque * r.output_speed
+    assert power == pytest.approx(r.loss, rel=1e-12)
+
+
+def test_light_load_and_mixed_friction_are_said_of_palmgrens_law():
+    said = solve_train(TrainParams(), torque=5.0, speed=500.0).warnings
+    found = [text.partition(",")[0] for text in said if "Palmgren" in text]
+    assert found == ["shaft 1", "shaft 3"]
+    warm = solve_train(TrainParams(), torque=150.0, speed=500.0, oil_temperature=313.15).warnings
+    assert not [text for text in warm if "load over C" in text]
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"shaft_2_bearing_1_series": "none"}, "shaft_2_bearing_1_series = 'none'.*no constants"),
+        ({"shaft_2_bearing_2_series": "62"}, "shaft_2_bearing_2_series = '62'.*no constants"),
+        ({"shaft_1_bearing_2_static_capacity": 0.0}, "static_capacity = 0.0, allowed: C0 above 0"),
+    ],
+)
+def test_bearings_without_constants_of_skf_are_refused(changes, words):
+    with pytest.raises(ParameterError, match=words):
+        TrainParams(**{**SKF, **changes})
 
 
 RUBBING = {

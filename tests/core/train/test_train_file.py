@@ -77,13 +77,13 @@ def test_a_mesh_takes_a_preset_or_a_part_and_what_stands_beside(tmp_path):
         ('position = "85 mm"\n', "", "'position' or 'pinion_position' is missing"),
         ("pinion_teeth = 25", "pinion_tooth = 25", "did you mean 'pinion_teeth'"),
         ('type = "ball", position = "0 mm"', 'position = "0 mm"', "'type' is missing"),
-        ('position = "90 mm"', 'position = "0 mm"', "allowed: apart by 0.1 mm"),
+        ('position = "90 mm"', 'position = "0 mm"', "allowed: apart from"),
         ("pinion_teeth = 21", "pinion_teeth = 5", "mesh 2: pinion_teeth = 5"),
         ("[train]\n", "[train]\noil_volum = 3\n", "did you mean 'oil_volume'"),
         ('arrangement = "X"', 'axial = "pushed"', "middle.: 'arrangement' is missing, allowed"),
-        ('arrangement = "X"', 'arrangement = "T"', "allowed: 'none' or 'O' or 'X'"),
+        ('arrangement = "X"', 'arrangement = "T"', "arrangement = 'T', allowed: 'O' or 'X'"),
         ('arrangement = "X"', 'arrangement = "X"\naxial = "first"', "one of the two"),
-        ("Y = 1.6", "Y = 0", "y_factor = 0.0, .* or give induced_factor"),
+        ("Y = 1.6", "Y = 0", "middle.bearing_1_y_factor = 0.0, .* or give"),
         ("seals = 2", "seals = 2\nforces = [{ radial = 3 }]", "force 1: radial without 'position'"),
         (
             "seals = 2",
@@ -131,10 +131,23 @@ def test_names_of_the_file_are_taken(tmp_path, capsys):
 
 
 def test_what_is_not_there_is_said_to_have_no_effect():
-    p = TrainParams(mesh_3_face_width=0.05, shaft_2_axial="second")
+    p = TrainParams(mesh_3_face_width=0.05, shaft_1_bearing_1_pressure_centre=0.01)
     said = solve_train(p, torque=150.0, speed=500.0).warnings[:2]
     assert said[0].startswith("mesh_3_face_width = 50 mm has no effect: read by meshes >= 3 only")
-    assert said[1].startswith("shaft_2_axial = second has no effect: read by shaft_2_arrangement")
+    name = "shaft_1_bearing_1_pressure_centre = 10 mm"
+    assert said[1].startswith(f"{name} has no effect: read by shaft_1_axial = O or X only")
+
+
+def test_taper_bearings_need_an_arrangement_and_balls_take_any():
+    """Flat, as an FMU has it: ``axial`` is O or X too, ``arrangement`` another name of it."""
+    with pytest.raises(ParameterError, match="shaft_2_axial = 'first', allowed: 'O' or 'X'"):
+        TrainParams(shaft_2_axial="first")
+    balls = {f"shaft_2_bearing_{k}_type": "ball" for k in (1, 2)}
+    r = solve_train(TrainParams(shaft_2_axial="first", **balls), torque=150.0, speed=500.0)
+    assert r.shaft_2_bearing_1_axial_force > 0.0 == r.shaft_2_bearing_2_axial_force
+    assert TrainParams(shaft_2_arrangement="O") == TrainParams(shaft_2_axial="O")
+    double = {f"shaft_2_bearing_{k}_induced_factor": 0.0 for k in (1, 2)}
+    assert TrainParams(shaft_2_axial="second", **double).shaft_2_axial == "second"
 
 
 def test_three_bearings_are_refused(tmp_path):

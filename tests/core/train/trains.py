@@ -12,7 +12,7 @@ def no_losses_of_shafts(**changes):
     """
     dry = {"mesh_2_gear_immersion": 0.0}
     for i in SHAFTS:
-        dry |= {f"shaft_{i}_seals": 0, f"shaft_{i}_arrangement": "none"}
+        dry |= {f"shaft_{i}_seals": 0, f"shaft_{i}_axial": "first"}
         for k in (1, 2):
             dry |= {f"shaft_{i}_bearing_{k}_{f}": 0.0 for f in ("viscous_factor", "load_factor")}
             dry[f"shaft_{i}_bearing_{k}_type"] = "ball"

@@ -1,9 +1,11 @@
 """Compiled code of the driveline losses.
 
-=============  ===========================================================================
-``loss_laws``  size of the torque of a rolling bearing, of a dipping gear, of a shaft seal
-``step``       torques of all shafts, their powers and heat, how they change: exact; regimes
-=============  ===========================================================================
+================  ========================================================================
+``loss_laws``     size of the torque of a rolling bearing, of a dipping gear, of a shaft seal
+``skf_friction``  torque of a rolling bearing by SKF's model
+``skf_series``    its constants by type and series
+``step``          torques of all shafts, their powers and heat, how they change: exact; regimes
+================  ========================================================================
 """
 
 # What Python calls: module of the library -> functions, by their module.
@@ -11,6 +13,7 @@ CALLED = {
     "thrustwasher.losses.kernels.step": (
         "thrustwasher.losses.kernels.loss_laws: bearing_drag churning_constants churning_drag",
         "thrustwasher.losses.kernels.loss_laws: seal_drag starved thinned",
-        "thrustwasher.losses.kernels.step: derive sens step",
+        "thrustwasher.losses.kernels.skf_friction: skf_drag",
+        "thrustwasher.losses.kernels.step: broken_rule derive sens step",
     ),
 }

@@ -22,6 +22,9 @@ from .loss_laws import (
     seal_drag,
     starved,
 )
+from .skf_friction import SKF, fill_series, skf_drag
+from .skf_series import RADIAL_NUMBERS
+from .skf_series import ROW as SERIES_ROW
 
 # places: P_ of parameters
 P_PLANETS, P_PLANET_BEARING_COUNT, P_PLANET_BEARING_DIAMETER, P_PLANET_VISCOUS_FACTOR = range(0, 4)
@@ -36,7 +39,7 @@ P_OUTPUT_SEAL_DIAMETER, P_DRUM_BEARING_COUNT, P_DRUM_BEARING_DIAMETER = range(29
 P_DRUM_BEARING_LOAD, P_DRUM_GEAR_DIAMETER, P_DRUM_GEAR_WIDTH, P_DRUM_IMMERSION = range(32, 36)
 P_DRUM_SEAL_DIAMETER, P_STARVATION_CONSTANT, P_BEARING_SECTION = range(36, 39)
 P_BEARING_TYPE_CONSTANT, P_PLANET_BEARING_SECTION, P_PLANET_BEARING_TYPE_CONSTANT = range(39, 42)
-P_FIDELITY, N_PARAM = range(42, 44)
+P_BEARING_LAW, P_BEARING_SERIES, P_BEARING_SLIDING_FRICTION, P_FIDELITY, N_PARAM = range(42, 47)
 # end of places
 P_SHAFT = P_INPUT_BEARING_COUNT
 # of each shaft, input, output, drum; places behind P_SHAFT + ROW times its number
@@ -48,7 +51,8 @@ D_SLOW, D_FAST, D_AREA, D_CUBE = (N_PARAM + i * SHAFTS for i in range(4))
 D_STARVING = N_PARAM + 4 * SHAFTS
 D_PUMP = D_STARVING + SPEEDS
 D_NU_40 = D_PUMP + 1
-NPAR = D_NU_40 + 1
+D_SERIES = D_NU_40 + 1  # type and constants of the main bearings' series
+NPAR = D_SERIES + SERIES_ROW
 I_FORCE, I_OIL, NINP = SPEEDS, SPEEDS + 1, SPEEDS + 2
 NSTATE = 1  # the heat since the start [J]
 (
@@ -103,7 +107,14 @@ def derive(par: Array) -> int:
     par[D_PUMP] = work / (2.0 * math.pi * par[P_PUMP_EFFICIENCY])
     thick, _ = oil_viscosity(par, 313.15)
     par[D_NU_40] = thick
+    fill_series(RADIAL_NUMBERS, int(par[P_BEARING_SERIES]), par[D_SERIES : D_SERIES + SERIES_ROW])
     return OK if are_finite(par[N_PARAM:]) else NOT_FINITE
+
+
+@kernel
+def broken_rule(par: Array) -> int:
+    """Return 1 where SKF's model has no constants for the main bearings, else 0."""
+    return 1 if int(par[P_BEARING_LAW]) == SKF and int(par[P_BEARING_SERIES]) <= 1 else 0
 
 
 @kernel
@@ -152,7 +163,14 @@ def resist(par: Array, inp: Array, work: Array) -> None:
         n, diameter = par[np.uintp(row + A_COUNT)], par[np.uintp(row + A_DIAMETER)]
         f0, f1 = par[P_BEARING_VISCOUS_FACTOR], par[P_BEARING_LOAD_FACTOR]
         load = par[np.uintp(row + A_LOAD)]
-        drag, a, b = bearing_drag(turning, nu, load, diameter, f0, f1, starving)
+        if int(par[P_BEARING_LAW]) == SKF:
+            row_of_series = par[D_SERIES : D_SERIES + SERIES_ROW]
+            film = par[P_BEARING_SLIDING_FRICTION]
+            drag, a, b = skf_drag(
+                turning, nu, (load, 0.0), diameter, starving, row_of_series, (0.0, 1.0), film
+            )
+        else:
+            drag, a, b = bearing_drag(turning, nu, load, diameter, f0, f1, starving)
         put(work, at, sign, (n * drag, n * a * more, n * b * nu_slope), steep)
         slow, fast = par[np.uintp(D_SLOW + i)], par[np.uintp(D_FAST + i)]
         area, cube = par[np.uintp(D_AREA + i)], par[np.uintp(D_CUBE + i)]

@@ -76,6 +76,7 @@ def make_plan(
     else:
         if axes:
             raise ParameterError("points: allowed: without axes to vary; it names every point")
+        points = {part.flat_name(name): values for name, values in points.items()}
         rows, lines, order = _listed(points, known, spec)
     given = [*held, *(a.place.name for a in axes), *(rows if points is not None else ())]
     twice = [name for name in given if given.count(name) > 1]

@@ -9,6 +9,7 @@ from ...gearmesh.kernels import layout as G
 from ...gearmesh.kernels.mesh_point import viscosity_at
 from ...gearmesh.kernels.step import step as mesh_step
 from ...losses.kernels.loss_laws import bearing_drag, churning_drag, seal_drag
+from ...losses.kernels.skf_friction import SKF, skf_drag
 from ...numerics.jit import Array, Ints, kernel
 from ...numerics.status import MAX_ITERATIONS, OK
 from . import layout as L
@@ -107,13 +108,26 @@ def fill_losses(par: Array, oil: float, work: Array, share: float) -> float:
 def bearing_torque(
     par: Array, shaft: int, end: int, turning: float, nu: float, work: Array
 ) -> float:
-    """Return the size of the torque of a bearing [N m] under X F_r + Y F_a, at least F_r.
+    """Return the size of the torque of a bearing [N m].
 
-    That is its equivalent load without the step that a catalogue's e may leave, at which losses and
-    forces might not settle.
+    Palmgren's law takes X F_r + Y F_a, at least F_r: its equivalent load without the step that a
+    catalogue's e may leave, at which losses and forces might not settle.
     """
     row = L.P_SHAFT + shaft * L.SHAFT_ROW + L.B_BEARING + end * L.BEARING_ROW
-    at = L.W_BEARING + 2 * (L.ENDS * shaft + end)
+    at, number = L.W_BEARING + 2 * (L.ENDS * shaft + end), L.ENDS * shaft + end
+    if int(par[L.P_LAW]) == SKF:
+        series = L.D_SERIES + number * L.SERIES_ROW
+        drag, _, _ = skf_drag(
+            turning,
+            nu,
+            (work[np.uintp(at)], work[np.uintp(at + 1)]),
+            par[np.uintp(row + L.C_DIAMETER)],
+            par[np.uintp(L.D_STARVED + number)],
+            par[series : series + L.SERIES_ROW],
+            (par[np.uintp(row + L.C_Y)], par[np.uintp(row + L.C_STATIC)]),
+            par[L.P_FILM],
+        )
+        return drag
     load = equivalent_load(
         work[np.uintp(at)],
         work[np.uintp(at + 1)],
@@ -128,7 +142,7 @@ def bearing_torque(
         par[np.uintp(row + L.C_DIAMETER)],
         par[np.uintp(row + L.C_VISCOUS)],
         par[np.uintp(row + L.C_LOAD)],
-        par[np.uintp(L.D_STARVED + L.ENDS * shaft + end)],
+        par[np.uintp(L.D_STARVED + number)],
     )
     return drag
 

@@ -1,8 +1,10 @@
 """Where each number of the gear train lies in its arrays."""
 
 from ...gearmesh.kernels import layout as G
+from ...losses.kernels import skf_series
 
 MESHES, SHAFTS, ENDS = 3, 4, 2  # at most; bearings of a shaft
+SERIES_ROW = skf_series.ROW  # type and constants of a bearing's series
 PUSHES = 2  # at most: forces from outside on a shaft
 # Parameters of a mesh: all meshes share oil and thermal mode; no rings, and none holds.
 SHARED = (
@@ -21,8 +23,8 @@ SHARED = (
 FIXED = (G.P_INTERNAL, G.P_HOLDING, G.P_COUPLING_INERTIA, G.P_COUPLING_AGE)
 OWN = tuple(i for i in range(G.P_FIDELITY) if i not in SHARED + FIXED)
 N_SHARED, N_FIXED, N_OWN = len(SHARED), len(FIXED), len(OWN)
-# The train: number of meshes, oil that the gears dip into, life that is asked for.
-P_MESHES, P_OIL_VOLUME, P_STARVATION, P_REQUIRED_LIFE, P_SHARED = range(5)
+# The train: number of meshes, oil that the gears dip into, life that is asked for, law of bearings.
+P_MESHES, P_OIL_VOLUME, P_STARVATION, P_REQUIRED_LIFE, P_LAW, P_FILM, P_SHARED = range(7)
 # Of each mesh, before the parameters of its pair: who drives, hand of the pinion's helix, positions
 # along the shafts, angle of the centre line, depths in the oil over diameter.
 (
@@ -37,7 +39,7 @@ P_MESHES, P_OIL_VOLUME, P_STARVATION, P_REQUIRED_LIFE, P_SHARED = range(5)
 ) = range(8)
 P_MESH, MESH_ROW = P_SHARED + N_SHARED, A_PAIR + N_OWN
 # Of each shaft, then of each of its bearings, then of each force from outside.
-B_AXIAL, B_ARRANGEMENT, B_SEALS, B_SEAL_DIAMETER, B_BEARING = range(5)
+B_AXIAL, B_SEALS, B_SEAL_DIAMETER, B_BEARING = range(4)
 (
     C_KIND,
     C_POSITION,
@@ -51,8 +53,10 @@ B_AXIAL, B_ARRANGEMENT, B_SEALS, B_SEAL_DIAMETER, B_BEARING = range(5)
     C_CENTRE,
     C_VISCOUS,
     C_LOAD,
+    C_SERIES,
+    C_STATIC,
     BEARING_ROW,
-) = range(13)
+) = range(15)
 (
     H_POSITION,
     H_RADIAL,
@@ -69,13 +73,14 @@ N_PARAM = P_FIDELITY + 1
 # What `derive` adds: of each mesh the ratio of speeds, radii of driver and driven [m], force per
 # torque of the driver, radial and axial over tangential; constants of churning of both gears
 # (`churning_constants`, radius times width, cube root of that times the radius); of each bearing
-# its starvation; viscosity at 40 degC; the pairs' own arrays.
+# its starvation, type and constants of its series; viscosity at 40 degC; the pairs' own arrays.
 E_RATIO, E_DRIVER, E_DRIVEN, E_RADIAL, E_AXIAL, E_GEARS = range(6)
 GEAR_ROW = 4
 E_ROW = E_GEARS + 2 * GEAR_ROW
 D_MESH = N_PARAM
 D_STARVED = D_MESH + MESHES * E_ROW
-D_NU_40 = D_STARVED + SHAFTS * ENDS
+D_SERIES = D_STARVED + SHAFTS * ENDS
+D_NU_40 = D_SERIES + SHAFTS * ENDS * SERIES_ROW
 D_PAIR = D_NU_40 + 1
 NPAR = D_PAIR + MESHES * G.NPAR
 I_TORQUE, I_SPEED, I_OIL, NINP = range(4)
@@ -138,7 +143,7 @@ NWORK = W_PAIR + G.NWORK
 PINION, GEAR = 1, 2  # who drives
 RIGHT, LEFT = 1, 2  # hand
 FIRST, SECOND, PUSHED = 1, 2, 3  # which bearing takes the axial force
-NO_PAIR, BACK_TO_BACK, FACE_TO_FACE = 1, 2, 3  # arrangement: none, O, X
+BACK_TO_BACK, FACE_TO_FACE = 4, 5  # arrangements O and X, in which both may
 BALL, ANGULAR, CYLINDRICAL, TAPER = range(1, 5)
 NONE = -1.0  # of what is not there
-RULES = 4  # of each shaft
+RULES = 6  # of each shaft

@@ -11,6 +11,8 @@ from ...gearmesh.kernels.step import broken_rule as broken_pair
 from ...gearmesh.kernels.step import derive as derive_pair
 from ...gearmesh.kernels.working_pair import section
 from ...losses.kernels.loss_laws import churning_constants, starved
+from ...losses.kernels.skf_friction import SKF, fill_series
+from ...losses.kernels.skf_series import NUMBERS
 from ...numerics.arrays import are_finite
 from ...numerics.jit import Array, Ints, kernel
 from ...numerics.status import BAD_INPUT, NOT_FINITE, OK, OUTSIDE_VERIFIED
@@ -91,6 +93,10 @@ def derive(par: Array) -> int:
             par[np.uintp(row + L.C_DIAMETER)],
             par[np.uintp(row + L.C_SECTION)],
         )
+        series = L.D_SERIES + i * L.SERIES_ROW
+        fill_series(
+            NUMBERS, int(par[np.uintp(row + L.C_SERIES)]), par[series : series + L.SERIES_ROW]
+        )
     return OK if are_finite(par[L.N_PARAM : L.D_PAIR]) else NOT_FINITE
 
 
@@ -98,7 +104,7 @@ def derive(par: Array) -> int:
 def broken_rule(par: Array) -> int:
     """Return the number of the first broken rule between parameters, from 1, or 0.
 
-    Four of each shaft, see ``RULES`` of the parameters.
+    ``layout.RULES`` of each shaft, see ``RULES`` of the parameters.
     """
     for i in range(int(par[L.P_MESHES]) + 1):
         own, number = L.P_SHAFT + i * L.SHAFT_ROW, i * L.RULES
@@ -108,7 +114,7 @@ def broken_rule(par: Array) -> int:
         first, second = centres(par, i)
         if not abs(first - second) >= 1e-4:
             return number + 2
-        alone = par[np.uintp(own + L.B_ARRANGEMENT)] == L.NO_PAIR
+        alone = par[np.uintp(own + L.B_AXIAL)] <= L.PUSHED
         for end in range(L.ENDS):
             row = own + L.B_BEARING + end * L.BEARING_ROW
             kind = int(par[np.uintp(row + L.C_KIND)])
@@ -118,6 +124,13 @@ def broken_rule(par: Array) -> int:
                 return number + 3
             if alone and (kind == L.TAPER or kind == L.ANGULAR) and induced_of(par, i, end) > 0.0:
                 return number + 4
+            if int(par[L.P_LAW]) != SKF:
+                continue
+            series = int(par[np.uintp(row + L.C_SERIES)])
+            if series <= 1 or int(NUMBERS[L.SERIES_ROW * (series - 2)]) != kind:
+                return number + 5
+            if kind == L.BALL and not par[np.uintp(row + L.C_STATIC)] > 0.0:
+                return number + 6
     return 0
 
 

@@ -53,13 +53,13 @@ def support(
 def centres(par: Array, shaft: int) -> tuple[float, float]:
     """Return where the radial forces of both bearings act along a shaft [m].
 
-    Outside the pair in O, inside in X; at the bearings without an arrangement.
+    Outside the pair in O, inside in X, else at the bearings.
     """
     own = L.P_SHAFT + shaft * L.SHAFT_ROW
     one, two = own + L.B_BEARING, own + L.B_BEARING + L.BEARING_ROW
     first, second = par[np.uintp(one + L.C_POSITION)], par[np.uintp(two + L.C_POSITION)]
-    arrangement, inwards = int(par[np.uintp(own + L.B_ARRANGEMENT)]), 0.0
-    if arrangement != L.NO_PAIR:
+    arrangement, inwards = int(par[np.uintp(own + L.B_AXIAL)]), 0.0
+    if arrangement > L.PUSHED:
         inwards = 1.0 if (arrangement == L.FACE_TO_FACE) == (second > first) else -1.0
     first += inwards * par[np.uintp(one + L.C_CENTRE)]
     return first, second - inwards * par[np.uintp(two + L.C_CENTRE)]
@@ -109,20 +109,17 @@ def bear(par: Array, meshes: int, shaft: int, work: Array) -> None:
     radial = (math.hypot(y1, z1), math.hypot(y2, z2))
     first = par[np.uintp(own + L.B_BEARING + L.C_POSITION)]
     is_ahead = par[np.uintp(own + L.B_BEARING + L.BEARING_ROW + L.C_POSITION)] > first
-    arrangement, at = int(par[np.uintp(own + L.B_ARRANGEMENT)]), L.W_BEARING + 2 * L.ENDS * shaft
+    takes, at = int(par[np.uintp(own + L.B_AXIAL)]), L.W_BEARING + 2 * L.ENDS * shaft
     work[np.uintp(at)], work[np.uintp(at + 1)] = radial[0], 0.0
     work[np.uintp(at + 2)], work[np.uintp(at + 3)] = radial[1], 0.0
-    if arrangement != L.NO_PAIR:
+    if takes > L.PUSHED:
         induced = (
             induced_of(par, shaft, 0) * radial[0],
             induced_of(par, shaft, 1) * radial[1],
         )
         towards = axial if is_ahead else -axial
-        work[np.uintp(at + 1)], work[np.uintp(at + 3)] = shared_thrust(
-            arrangement, induced, towards
-        )
+        work[np.uintp(at + 1)], work[np.uintp(at + 3)] = shared_thrust(takes, induced, towards)
         return
-    takes = int(par[np.uintp(own + L.B_AXIAL)]) - 1
-    if takes == L.PUSHED - 1:  # the one that lies where the shaft is pushed to
-        takes = 1 if (axial > 0.0) == is_ahead else 0
-    work[np.uintp(at + 2 * takes + 1)] = abs(axial)
+    if takes == L.PUSHED:  # the one that lies where the shaft is pushed to
+        takes = L.SECOND if (axial > 0.0) == is_ahead else L.FIRST
+    work[np.uintp(at + 2 * takes - 1)] = abs(axial)

@@ -35,22 +35,25 @@ def efficiency_figure(found: Any) -> Figure:
     grid = {name: c[name][order].reshape(len(speed), len(torque)) for name in c}
     figure, axes = new_figure(12.4, 4.3, 1, 3, head=1)
     percent, rpm = 100.0 * grid["efficiency"], RPM * speed
+    running = grid["warnings"][np.isfinite(percent)]
+    everywhere = running.min() if len(running) else 0.0  # of which a picture shows nothing
+    further = grid["warnings"] > everywhere
     if min(percent.shape) > 1 and np.isfinite(percent).sum() > 2:
         lines = axes[0].contour(rpm, torque, percent.T, levels=_levels(percent), colors=BLACK)
         _named_apart(axes[0], lines)
         _quadrants(axes[0], rpm, torque, percent)
-        _hatch(axes[0], rpm, torque, grid["warnings"])
+        _hatch(axes[0], rpm, torque, further)
     else:
         along = (torque, "torque [N m]") if len(torque) > 1 else (rpm, "speed [rpm]")
         axes[0].plot(along[0], percent.ravel(), "o-", color=BLACK)
-        bad = grid["warnings"].ravel() > 0.0
+        bad = further.ravel()
         axes[0].plot(along[0][bad], percent.ravel()[bad], "x", color=RED)
         axes[0].set_xlabel(along[1])
     flat = min(percent.shape) > 1
     grey = ", grey: none" if flat and min(rpm[0], torque[0]) < 0.0 else ""
     label(
         axes[0],
-        f"Efficiency [%]{grey}{_warned(flat) if (c['warnings'] > 0.0).any() else ''}",
+        f"Efficiency [%]{grey}{_warned(flat, everywhere > 0.0, further.any())}",
         "speed [rpm]" if flat else "",
         "torque [N m]" if flat else "efficiency [%]",
     )
@@ -107,14 +110,17 @@ def _quadrants(axis: Any, rpm: Any, torque: Any, percent: Any) -> None:
         _fill(axis, rpm, torque, ~np.isfinite(percent), {"color": GREY, "alpha": 0.3, "lw": 0.0})
 
 
-def _warned(flat: bool) -> str:
-    return f", {'hatched' if flat else 'crossed'}: warnings"
+def _warned(flat: bool, everywhere: bool, further: bool) -> str:
+    """Say which points have warnings; those marked have more than every point has."""
+    if further:
+        return f", {'hatched' if flat else 'crossed'}: warnings"
+    return ", warnings at all points" if everywhere else ""
 
 
-def _hatch(axis: Any, rpm: Any, torque: Any, warnings: Any) -> None:
-    """Hatch around each point that has warnings, half way to its neighbours."""
+def _hatch(axis: Any, rpm: Any, torque: Any, where: Any) -> None:
+    """Hatch around some points, half way to their neighbours."""
     look: dict[str, Any] = {"fill": False, "hatch": "///", "edgecolor": RED, "linewidth": 0.0}
-    _fill(axis, rpm, torque, warnings > 0.0, look)
+    _fill(axis, rpm, torque, where, look)
 
 
 def _fill(axis: Any, rpm: Any, torque: Any, where: Any, look: dict[str, Any]) -> None:

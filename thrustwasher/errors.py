@@ -27,14 +27,27 @@ class EnvironmentProblem(RuntimeError):
 def suggestion(
     name: str, known: Iterable[str], words: str, otherwise: str = "", *, likeness: float = 0.6
 ) -> str:
-    """Return words with the known name in them that was probably meant, else the other ones."""
-    from difflib import get_close_matches  # late: it is for mistakes alone
+    """Return words with the known name in them that was probably meant, else the other ones.
+
+    First what has all words of the name among its own, as pinion_teeth has teeth; of several that
+    are equally alike the first.
+    """
+    from difflib import SequenceMatcher  # late: it is for mistakes alone
+
+    def parts(text: str) -> set[str]:
+        return set(text.replace(".", "_").split("_"))
 
     names = list(known)
     if (same := name.replace("factor", "scale")) != name and same in names:
         return words.format(same)
-    near = get_close_matches(name, names, 1, likeness)
-    return words.format(near[0]) if near else otherwise
+
+    def alike(other: str) -> float:
+        return SequenceMatcher(None, other, name).ratio()
+
+    if longer := [other for other in names if parts(name) < parts(other) or other == name]:
+        return words.format(max(longer, key=alike))
+    near = [other for other in names if alike(other) >= likeness]
+    return words.format(max(near, key=alike)) if near else otherwise
 
 
 @contextmanager

@@ -50,6 +50,7 @@ TABLE = [
     ("washer --rpm 300", "; did you mean --speed?"),
     ("washer --roughness 4e-7", "; did you mean --set roughness=VALUE?"),
     ("clutch --pressure 1e6", "; inputs: --load, --speed, --oil-temperature, --drum-speed"),
+    ("gearmesh --set teeth=20", "did you mean pinion_teeth?"),
     ("gearmesh --set load=40", "GearMesh has no parameter 'load'; it is an input; "),
     ("gearmesh --set pinion_teeth=10", "15 and more for gear_ratio = 2, pressure_angle = 20 deg"),
     ("gearmesh --set pinion_teeth=10", "addendum = 1, or profile_shift_pinion = 0.45 (else"),

@@ -4,6 +4,7 @@ Pairs of all kinds, one quantity at a time, the others as they are (``jumps.find
 jump has its cause next to it; one without is a fault.
 """
 
+import math
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import Field, dataclass, fields, replace
@@ -83,6 +84,16 @@ def pairs() -> dict[str, tuple[GearMeshParams, str]]:
         "reversed_bending": 0.7,
     }
     shift: Changes = {"profile_shift_pinion": 0.3, "profile_shift_gear": -0.1}
+    low: Changes = {
+        "gear_ratio": 57 / 38,
+        "pinion_teeth": 38,
+        "normal_module": 1.75e-3,
+        "helix_angle": math.radians(15.0),
+        "face_width": 21e-3,
+        "profile_shift_pinion": 1.6915,
+        "profile_shift_gear": 2.0003,
+        "addendum": 0.42,
+    }
     given: Changes = {
         "profile_shift_pinion": 0.3,
         "profile_shift_gear_from_distance": True,
@@ -97,6 +108,7 @@ def pairs() -> dict[str, tuple[GearMeshParams, str]]:
         "spur, relieved": replace(spur, **relieved),
         "helical, overlap below 1": replace(planet, **narrow),
         "helical, overlap above 1": planet,
+        "helical, contact ratio about 1": replace(planet, **low),
         "helical, elastic": replace(planet, **narrow, **elastic),
         "helical, relieved": replace(planet, **relieved),
         "ring, helical": replace(planet, gear_ratio=74 / 18, **ring),

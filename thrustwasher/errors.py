@@ -38,9 +38,14 @@ def suggestion(
 ) -> str:
     """Return words with the known name in them that was probably meant, else the other ones.
 
-    ``known``: names; of a ``Suggesting`` those it suggests, first one that ends with ``name``.
+    ``known``: names; of a ``Suggesting`` those it suggests, first one that ends with ``name``. Else
+    first what has all words of the name among its own, as pinion_teeth has teeth; of several that
+    are equally alike the first.
     """
-    from difflib import get_close_matches  # late: it is for mistakes alone
+    from difflib import SequenceMatcher  # late: it is for mistakes alone
+
+    def parts(text: str) -> set[str]:
+        return set(text.replace(".", "_").split("_"))
 
     names = list(getattr(known, "suggested", known))
     ends = [n for n in names if n.endswith((f"_{name}", f".{name}"))]
@@ -48,8 +53,14 @@ def suggestion(
         return words.format(ends[0])
     if (same := name.replace("factor", "scale")) != name and same in names:
         return words.format(same)
-    near = get_close_matches(name, names, 1, likeness)
-    return words.format(near[0]) if near else otherwise
+
+    def alike(other: str) -> float:
+        return SequenceMatcher(None, other, name).ratio()
+
+    if longer := [other for other in names if parts(name) < parts(other) or other == name]:
+        return words.format(max(longer, key=alike))
+    near = [other for other in names if alike(other) >= likeness]
+    return words.format(max(near, key=alike)) if near else otherwise
 
 
 @contextmanager

@@ -43,6 +43,7 @@ GROUPS = {
 COMMANDS = tuple(name for group in GROUPS.values() for name in group)
 DONE, DEFECT, WRONG_INPUT, NO_SOLUTION, PIPE_CLOSED = 0, 1, 2, 3, 141
 LONGEST = 2000  # characters of a message
+LIKE = 0.75  # of two names from which on one is taken for the other
 WIDTH = 79  # of what stands below the examples
 SIGNALS: dict[int, str] = {signal.SIGINT: "stopped", signal.SIGTERM: "terminated"}
 if hasattr(signal, "SIGHUP"):  # not on Windows
@@ -185,6 +186,7 @@ class _Parser(argparse.ArgumentParser):
 
     def __init__(self, prog: str, **options: Any) -> None:
         super().__init__(prog, allow_abbrev=False, **options)
+        self.meant: Callable[[str, str], str] = lambda _name, spelled: spelled
         self._negative_number_matcher = re.compile(r"-[0-9.]")
 
     def parse_args(self, args: Any = None, namespace: Any = None) -> Any:
@@ -203,11 +205,13 @@ class _Parser(argparse.ArgumentParser):
         """Raise instead of printing the usage and leaving; name what was probably meant."""
         wrong = re.search(r"unrecognized arguments: (--[\w-]+)|invalid choice: '([^']*)'", message)
         hint = ""
-        if wrong:
-            known = (
-                re.findall(r"'([^']*)'", message)[1:] if wrong[2] else self._option_string_actions
-            )
-            hint = suggestion(wrong[1] or wrong[2], known, "; did you mean {}?")
+        if wrong and wrong[2]:
+            known = re.findall(r"'([^']*)'", message)[1:]
+            hint = suggestion(wrong[2], known, "; did you mean {}?")
+        elif wrong:
+            bare = [o[2:] for o in self._option_string_actions if o.startswith("--")]
+            hint = suggestion(wrong[1][2:], bare, "; did you mean --{}?", likeness=LIKE)
+            hint = self.meant(wrong[1][2:].replace("-", "_"), hint)
         raise ParameterError(f"{message}{hint} (see {self.prog} --help)")
 
     def _print_message(self, message: str, file: Any = None) -> None:
@@ -266,6 +270,7 @@ def _parser(command: Any, label: str) -> _Parser:
         formatter_class=_Help,
     )
     command.add_arguments(parser)
+    parser.meant = getattr(command, "meant", parser.meant)
     return parser
 
 

@@ -75,20 +75,30 @@ ANGLE = LawRange(
     "their results are to be confirmed by tests",
     f"ISO 6336-1, scope, {MEMORY}",
 )
+SHORT = "outside ISO 6336"
 LAW_RANGES = (LOAD, SLOW, STIFF, SHIFTS, CONTACT, HELIX, ANGLE)
 
 
 def outside_of_pair(p: GearMeshParams) -> Iterator[str]:
     """Yield what of the parameters lies outside the range of a law."""
     par = as_array(p)
+    contact = sum(constants.path_of(par)[1:])
     found = [
-        CONTACT.line(sum(constants.path_of(par)[1:])),
+        CONTACT.line(contact) if contact >= 1.0 else _short(contact, constants.overlap_ratio(par)),
         HELIX.line(math.degrees(p.helix_angle)),
         ANGLE.line(math.degrees(p.pressure_angle)),
     ]
     if p.load_sharing == "elastic" and not p.internal:
         found.append(SHIFTS.line(p.profile_shift_pinion + float(gear_shift(par))))
     yield from (line for line in found if line)
+
+
+def _short(contact: float, overlap: float) -> str:
+    return (
+        f"contact ratio = {contact:.4g} with an overlap of {overlap:.4g}: {SHORT}, whose formulas "
+        "begin at 1: all safeties, pitting_stress and root_stress are extrapolated; loss, pressure "
+        "and flash follow the lines of contact"
+    )
 
 
 def outside_of_point(p: GearMeshParams, par: Any, torque: float, speed: float) -> Iterator[str]:

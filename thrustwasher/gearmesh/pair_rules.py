@@ -9,15 +9,37 @@ from .parameter_array import as_array
 ALWAYS = "so large that a pair is always in contact"
 
 
+def _cure(p: Any, gear: str) -> str:
+    """Return the least profile shift of a gear, in steps of 0.05, with which the pair keeps all.
+
+    And with which a rack does not undercut it; "" if none up to 1 does.
+    """
+    from .kernels import constants as g
+    from .kernels import layout as k
+
+    par = as_array(p)
+    teeth = p.pinion_teeth * (1.0 if gear == "pinion" else p.gear_ratio)
+    turned = math.atan(math.tan(p.pressure_angle) / math.cos(p.helix_angle))
+    least = 1.0 - 0.5 * teeth * math.sin(turned) ** 2 / math.cos(p.helix_angle)
+    place = k.P_PROFILE_SHIFT_PINION if gear == "pinion" else k.P_PROFILE_SHIFT_GEAR
+    before = par[place]
+    for step in range(1, 21):
+        par[place] = 0.05 * step
+        if par[place] > before and par[place] >= least and not g.broken_rule(par):
+            return f", or profile_shift_{gear} = {0.05 * step:g}"
+    return ""
+
+
 def _interference(p: Any) -> str:
     from .kernels import constants as g
     from .kernels.working_pair import is_standard, section
 
+    cure = _cure(p, "pinion")
     if not is_standard(as_array(p)):
         return (
-            f"pinion_teeth = {p.pinion_teeth!r}, allowed: more, or a smaller tip of the gear: with "
-            f"profile_shift_pinion = {p.profile_shift_pinion!r} the gear's tips cut below the "
-            "pinion's involute (interference)"
+            f"pinion_teeth = {p.pinion_teeth!r}, allowed: more, or a smaller tip of the gear{cure}:"
+            f" with profile_shift_pinion = {p.profile_shift_pinion!r} the gear's tips cut below "
+            "the pinion's involute (interference)"
         )
     _, _, angle, _ = section(as_array(p))
     gear, slant = p.addendum_gear or p.addendum, math.cos(p.helix_angle)
@@ -30,18 +52,32 @@ def _interference(p: Any) -> str:
     return (
         f"pinion_teeth = {p.pinion_teeth!r}, allowed: {least} and more for gear_ratio = "
         f"{p.gear_ratio:g}, pressure_angle = {math.degrees(p.pressure_angle):g} deg, addendum "
-        f"= {gear:g} (with fewer the gear's tips cut below the pinion's involute: "
-        "interference)"
+        f"= {gear:g}{cure} (else the gear's tips cut below the pinion's involute: interference)"
+    )
+
+
+def _interference_of_gear(p: Any) -> str:
+    return (
+        f"addendum = {p.addendum!r}, allowed: less{_cure(p, 'gear')} (the pinion's tips cut below "
+        "the gear's involute: interference)"
     )
 
 
 def _contact_ratio(p: Any) -> str:
     from .kernels import constants as g
 
-    contact = sum(g.path_of(as_array(p))[1:])
+    par = as_array(p)
+    contact, overlap = sum(g.path_of(par)[1:]), float(g.overlap_ratio(par))
+    helical = (
+        f", or of helical teeth {g.LEAST_CONTACT:g} and more and together with the overlap ratio "
+        f"{g.LEAST_TOTAL:g} and more, here {contact + overlap:.4g} (else the lines of contact "
+        "end); more face_width makes more"
+        if overlap
+        else ""
+    )
     return (
         f"addendum = {p.addendum!r}, allowed: {ALWAYS}; the contact ratio is {contact:.4g}, "
-        "allowed: 1 and more"
+        f"allowed: 1 and more{helical}"
     )
 
 
@@ -123,7 +159,11 @@ RULES = (
         "tips cut below the pinion's involute: interference)",
         _interference,
     ),
-    Rule(f"addendum = {{addendum}}, allowed: {ALWAYS} (contact ratio 1 and more)", _contact_ratio),
+    Rule(
+        f"addendum = {{addendum}}, allowed: {ALWAYS} (contact ratio 1 and more, or 1.01 and more "
+        "together with the overlap ratio)",
+        _contact_ratio,
+    ),
     Rule(
         "effective_roughness = {effective_roughness}, allowed: 7.459e-06 .. 6.297e-05 for "
         "friction_law = 'li-seireg' (0: that of the surface)"
@@ -140,7 +180,8 @@ RULES = (
     ),
     Rule(
         "addendum = {addendum}, allowed: less (the pinion's tips cut below the gear's involute: "
-        "interference)"
+        "interference)",
+        _interference_of_gear,
     ),
     Rule(
         "film_heat = 'atan', allowed: without helix_angle ({helix_angle} rad), internal "
@@ -199,8 +240,8 @@ RULES = (
         "share load_share"
     ),
     Rule(
-        "load_sharing = 'elastic', allowed: for contact ratios below 3; take a smaller addendum "
-        "({addendum}) or load_sharing = 'rigid'"
+        "load_sharing = 'elastic', allowed: for contact ratios from 1 on and below 3; take another "
+        "addendum ({addendum}) or load_sharing = 'rigid'"
     ),
     Rule(
         "tip_relief_length_pinion = {tip_relief_length_pinion} m, tip_relief_length_gear = "
@@ -217,5 +258,9 @@ RULES = (
         "conductivity_gear = {conductivity_gear} W/(m.K), heat_capacity_gear = "
         "{heat_capacity_gear} J/(kg.K), density_gear = {density_gear} kg/m3, allowed: 0 (not "
         "given) or from 0.1, 50 and 500 on"
+    ),
+    Rule(
+        "pressure_viscosity = {pressure_viscosity} 1/Pa, allowed: 0 (by base_oil and viscosity) or "
+        "1e-09 .. 1e-07 1/Pa"
     ),
 )

@@ -346,7 +346,12 @@ class GearMeshParams:
         read_by=OF_ATAN,
     )
     pressure_viscosity: float = quantity(
-        2.2e-8, "1/Pa", 1e-9, 1e-7, "pressure coefficient of the viscosity, at 38 degC"
+        0.0,
+        "1/Pa",
+        0.0,
+        1e-7,
+        "pressure coefficient of the viscosity at 38 degC (0: by base_oil and viscosity)",
+        at_zero=_constant("D_ALPHA"),
     )
     heat_partition: str = choice(
         "constant",

@@ -34,7 +34,7 @@ FASTEST = 100.0  # m/s at the pitch line; faster gears have losses that are not 
 def doubts_of_parameters(p: GearMeshParams) -> list[str]:
     """Return what contradicts itself in parameters."""
     found = [*_teeth(p), *_flanks(p), *_roughness(p), *_fouling(p), *_load_factor(p)]
-    return [*found, *_materials(p), *_root(p), *outside_of_pair(p)]
+    return [*found, *_materials(p), *_root(p), *_oil(p), *outside_of_pair(p)]
 
 
 def doubts_of_point(
@@ -237,6 +237,16 @@ def _materials(p: GearMeshParams) -> list[str]:
             "friction are those of steel on steel"
         ]
     return []
+
+
+def _oil(p: GearMeshParams) -> list[str]:
+    """Return a line on an oil whose pressure coefficient no formula has."""
+    if p.base_oil != "ester" or p.pressure_viscosity:
+        return []
+    return [
+        "base_oil = 'ester': no standard gives its pressure coefficient, that of a polyalphaolefin "
+        "is taken for the films (an estimate); give pressure_viscosity"
+    ]
 
 
 def _root(p: GearMeshParams) -> list[str]:

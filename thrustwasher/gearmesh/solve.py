@@ -21,6 +21,7 @@ from .kernels.constants import derive
 from .kernels.load_sharing import shared
 from .kernels.operating_point import solve_point
 from .kernels.working_pair import gear_shift, tips
+from .law_ranges import SHORT
 from .parameters import LOAD, OIL, SPEC, SPEED, GearMeshParams, absent_outputs, limits_assumed
 from .plausibility import doubts_of_parameters, doubts_of_point
 
@@ -229,7 +230,10 @@ def solve_gearmesh(
         *doubts_of_point(params, par, work, torque, speed, oil),
     ]
     absent = dict.fromkeys(absent_outputs(params))
-    messages = warnings_of(SPEC, status, {"oil_temperature": oil}, _shown(work.tolist()))
+    short = [line for line in doubts if SHORT in line]  # that the status is about
+    doubts = [line for line in doubts if line not in short]
+    at, shown = {"oil_temperature": oil}, _shown(work.tolist())
+    messages = warnings_of(SPEC, status, at, shown, short)
     point = {"power": power, "speed": speed, "oil_temperature": oil, "fidelity": fidelity}
     known = {
         "status": status,

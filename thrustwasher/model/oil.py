@@ -59,6 +59,7 @@ BASES = {
     "pag": "polyglycol",
 }
 BASE = "base_oil"
+PRESSED = "pressure_viscosity"
 USUAL_DENSITY = 850.0  # kg/m3 of an oil that does not say it
 AT = 313.15  # K, at which the density is that of the parts
 FAR_OFF = 0.10  # relative error of a law that is worth a warning
@@ -157,6 +158,8 @@ class Oil:
         shown = ", ".join(f"{key} {100 * error:.2g} %" for key, error in laws.items())
         stay = {p for s in specs for *_, p in NUMBERS.values() if p in _names(s)}
         stay -= {p for s in specs for p in self.parameters_for(s)}
+        by_base = PRESSED in stay
+        stay -= {PRESSED}
         return "; ".join(
             filter(
                 None,
@@ -169,6 +172,9 @@ class Oil:
                     else "",
                     f"given in addition to it: {', '.join(self.rest)}" if self.rest else "",
                     f"the part's own stay: {', '.join(sorted(stay))}" if stay else "",
+                    f"{PRESSED}, unless given, by base oil and viscosity (ISO/TR 15144-1)"
+                    if by_base
+                    else "",
                 ),
             )
         )

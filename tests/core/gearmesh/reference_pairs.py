@@ -97,6 +97,40 @@ H701 = {
     "tip_diameter_gear": 114.386e-3,
     "base_oil": "pao",
 }
+# Sun and planet of the second stage of the same gearbox, report stage_02.rtf: spur, 75 degC.
+STAGE_2 = {
+    "gear_ratio": 2.0,
+    "pinion_teeth": 18,
+    "normal_module": 21e-3,
+    "face_width": 0.55,
+    "profile_shift_pinion": 0.3890,
+    "profile_shift_gear": 0.5039,
+    "working_centre_distance": 0.584,
+    "tip_diameter_pinion": 0.432838,
+    "tip_diameter_gear": 0.815663,
+    "sigma_rms": 0.85e-6,
+    "mean_roughness": 0.6e-6,
+    "youngs_modulus": 206e9,
+    "load_factor": 1.25 * 1.06 * 1.10,
+    "face_load_factor": 2.06,
+    "permissible_film_ratio": 0.143,
+}
+# Low-loss test gears of GEARpie (REPORT/H951.txt): 200 N m, 1500 rpm, 46.23 mPa s at 75 degC; the
+# width is that of its overlap of 1.00.
+H951 = {
+    "gear_ratio": 57 / 38,
+    "pinion_teeth": 38,
+    "normal_module": 1.75e-3,
+    "helix_angle": math.radians(15.0),
+    "face_width": 21.24e-3,
+    "profile_shift_pinion": 1.6915,
+    "profile_shift_gear": 2.0003,
+    "tip_diameter_pinion": 76.23e-3,
+    "tip_diameter_gear": 111.734e-3,
+    "youngs_modulus": 206e9,
+    "mean_roughness": 0.6e-6,
+    "sigma_rms": 0.85e-6,
+}
 
 
 def stage_3(**changes):

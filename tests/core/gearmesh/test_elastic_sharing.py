@@ -182,7 +182,10 @@ def test_shares_fit_for_every_contact_ratio_below_three():
         ({"film_heat": "atan"}, "film_heat = 'loss'"),
         ({"tip_relief_pinion": 1e-5}, "a length above 0"),
         ({"tip_relief_gear": 1e-5, "tip_relief_length_gear": 0.05}, "the path of contact, 19.1"),
-        ({"addendum": 1.5, "pinion_teeth": 200, "pressure_angle": 0.25}, "contact ratios below 3"),
+        (
+            {"addendum": 1.5, "pinion_teeth": 200, "pressure_angle": 0.25},
+            "contact ratios from 1 on and below 3",
+        ),
     ],
 )
 def test_what_cannot_be_shared_is_refused(changes, words):

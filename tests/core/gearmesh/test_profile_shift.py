@@ -1,6 +1,7 @@
 """Profile shift, distance of the axes, tips: against circles and involutes drawn anew."""
 
 import math
+import re
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -219,3 +220,20 @@ def test_thin_tips_and_undercut_are_said():
     assert "pinion's teeth are 0.131 modules thick" in said
     assert "profile_shift_gear = -0.5, below -0.404" in said
     assert not any("modules" in line for line in solved(**TYPE_C).warnings)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"pinion_teeth": 10},
+        {"pinion_teeth": 12, "helix_angle": 0.3, "gear_ratio": 4.0},
+        {"pinion_teeth": 30, "gear_ratio": 0.34},
+    ],
+)
+def test_the_shift_that_a_refusal_names_is_taken_and_leaves_no_undercut(changes):
+    with pytest.raises(ParameterError) as refused:
+        GearMeshParams(**changes)
+    name, value = re.findall(r"or (profile_shift_\w+) = ([\d.]+)", str(refused.value))[0]
+    cured = GearMeshParams(**changes, **{name: float(value)})
+    said = solve_gearmesh(cured, power=5e3, speed=100.0).warnings
+    assert not any("undercuts" in line and name in line for line in said)

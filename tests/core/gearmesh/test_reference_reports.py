@@ -6,7 +6,16 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from reference_pairs import FZG_C, H501, H701, ISO_EXAMPLE_1, ISO_SPECTRUM, of_viscosity, stage_3
+from reference_pairs import (
+    FZG_C,
+    H501,
+    H701,
+    ISO_EXAMPLE_1,
+    ISO_SPECTRUM,
+    STAGE_2,
+    of_viscosity,
+    stage_3,
+)
 
 from thrustwasher import GearMeshParams, ParameterError, oil, solve_gearmesh
 from thrustwasher.cli import main
@@ -120,6 +129,35 @@ def test_the_film_of_the_micropitting_reference_test():
     film = math.exp(micropitting.local_film(constant, pressed, 400.85, 124.0, law))
     assert film == pytest.approx(0.0514e-6, rel=5e-3)
     assert film / 0.5e-6 == pytest.approx(0.102, rel=1e-2)
+
+
+def test_micropitting_of_spur_teeth_beside_a_report():
+    """Printed: film ratio 0.536, safety 3.746, bodies of 78.5 degC, a third of the load at the end.
+
+    The same share to a thousandth by hand: the ends' pressure of 452.469 MPa, 32.45 mm, E_r 226374.
+    """
+    grade = oil("ISO VG 220").parameters_for("gearmesh")
+    speed = (294.5 - 47.8) * math.pi / 30.0
+    params = GearMeshParams(**STAGE_2, **grade)
+    r = solve_gearmesh(params, power=54035.2 * speed, speed=speed, oil_temperature=348.15)
+    assert r.film_ratio_gf == pytest.approx(0.536, rel=0.025)
+    assert r.micropitting_safety == pytest.approx(3.746, rel=0.025)
+    assert r.loss_factor == pytest.approx(0.149, abs=5e-4)
+    # there a third of all 5 MW heats the bodies, here what rolls: without the carrier's turning
+    counted = (5e6 / 3.0 / (54035.2 * speed)) ** 0.72
+    warmer = replace(params, lubrication_factor=counted)
+    r = solve_gearmesh(warmer, power=54035.2 * speed, speed=speed, oil_temperature=348.15)
+    assert r.film_ratio_gf == pytest.approx(0.536, rel=0.006)
+    par = prepare(params, "field")
+    line = 519.82 / math.cos(math.radians(20.0))
+    share = 2.0 * math.pi * 32.45 * 452.469**2 / (226374.0 * line)
+    at_end = [micropitting.spur_part(par, s, 0.5) for s in (-par[L.D_APPROACH], par[L.D_RECESS])]
+    assert [0.5 * x for x in at_end] == pytest.approx([share, share], rel=2e-3)
+    inner = 1.0 - par[L.D_APPROACH]  # where the pair before it leaves
+    assert micropitting.spur_part(par, inner, 0.5) == pytest.approx(4.0 / 3.0, rel=1e-12)
+    assert micropitting.spur_part(par, inner, 1.0) == 1.0
+    elastic = prepare(replace(params, load_sharing="elastic"), "field")
+    assert micropitting.spur_part(elastic, inner, 0.5) == 1.0
 
 
 def test_the_least_film_is_that_of_all_places():

@@ -223,7 +223,8 @@ def test_a_command_solves_with_the_oil_and_says_so(mine, capsys):
         == oil("ISO VG 100").parameters_for("gearmesh")["viscosity_b"]
     )
     assert len(told["warnings"]) == 6 and all(f"warning: {w}\n" in err for w in told["warnings"])
-    assert "the part's own stay: oil_conductivity, oil_heat_capacity, pressure_viscosity" in err
+    assert "the part's own stay: oil_conductivity, oil_heat_capacity; pressure_viscosity, " in err
+    assert "unless given, by base oil and viscosity (ISO/TR 15144-1)" in err
 
 
 def test_a_scenes_oil_is_replaced_as_a_whole():

@@ -105,6 +105,7 @@ BROKEN = {
         {"load_sharing": "elastic", "tip_relief_pinion": 1e-5},
         {"youngs_modulus_gear": 1e6},
         {"density_gear": 1.0},
+        {"pressure_viscosity": 1e-12},
     ),
     "transmission": (
         {"ring_teeth": 30, "planet_teeth": 0},

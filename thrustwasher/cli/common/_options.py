@@ -20,13 +20,25 @@ from ...model.part_file import (
     scene_parts,
 )
 from ...model.point import Point, point_of
-from ...model.record import Option
+from ...model.record import Model, Option
 from ...model.registry import find_model, models_with_points, spec_of
 from ...moved import now_named
 from ...settings import Place, places, split_settings
 from ...units import has_unit, parse_quantity
 from ._output import note, parameters_of, warn
 
+QUANTITIES = {  # what a quantity is called -> its unit
+    "torque": "N.m",
+    "force": "N",
+    "pressure": "Pa",
+    "power": "W",
+    "rpm": "rad/s",
+    "omega": "rad/s",
+    "velocity": "rad/s",
+    "rotation": "rad/s",
+    "temperature": "K",
+    "temp": "K",
+}
 LIKELY_RPM = 1000.0  # a speed without a unit from here on may be one in rpm
 if TYPE_CHECKING:  # they need numpy, which not every command does
     from ...model.oil import Oil
@@ -45,6 +57,23 @@ def add_inputs(parser: argparse.ArgumentParser, inputs: "Iterable[Signal]") -> N
             help=f"{signal.help} [{signal.unit}]; {span}, default {signal.usual:g} or "
             "the nearest value in the part's [box]",
         )
+
+
+def other_way(name: str, model: Model) -> str:
+    """Return how to give what no option of a model has: as another input, or by ``--set``."""
+    spec, given, unit = model.spec, model.inputs(), QUANTITIES.get(name, "")
+    instead = model.command.instead if model.command else {}
+    for old in spec.inputs:
+        new = instead.get(old.name)
+        if new and (name == old.name or unit == old.unit):
+            how = ", torque times speed" if (old.unit, new.unit) == ("N.m", "W") else ""
+            return f"; give {option_name(new.name)}{how}"
+    same = [s.name for s in given if s.name == name or s.unit == unit]
+    if len(same) == 1:
+        return f"; did you mean {option_name(same[0])}?"
+    names = [f.name for f in fields(spec.params)]
+    inputs = f"; inputs: {', '.join(option_name(s.name) for s in given)}"
+    return suggestion(name, names, "; did you mean --set {}=VALUE?", inputs, likeness=0.75)
 
 
 def inputs_of_all_models() -> dict[str, str]:
@@ -273,6 +302,8 @@ def read_settings(
     for name, text in given.items():
         if name not in metadata:
             hint = suggestion(name, metadata, "did you mean {}? ")
+            if name in {s.name for s in spec.inputs}:
+                hint = "it is an input; "
             raise ParameterError(
                 f"--set {name}={text}: {spec.name} has no parameter {name!r}; {hint}"
                 f"thrustwasher {spec.key} --parameters lists them"
@@ -335,8 +366,8 @@ def add_oil(parser: Any) -> None:
         "--oil",
         metavar="OIL",
         help='oil that sets viscosity and density: a name ("ISO VG 46", "Dexron VI", "SAE '
-        '75W-90"), or "kinematic_viscosity_40=46 cSt, kinematic_viscosity_100=6.8 cSt, '
-        'density_15=870"',
+        '75W-90"; with its base, "ISO VG 320 PAO", friction and film of gears too), or '
+        '"kinematic_viscosity_40=46 cSt, kinematic_viscosity_100=6.8 cSt, density_15=870"',
     )
 
 

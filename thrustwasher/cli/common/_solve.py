@@ -45,6 +45,10 @@ class PointCommand:
             )
         _output.add_targets(parser, plot=model.plot)
 
+    def meant(self, name: str, spelled: str) -> str:
+        """Return what to say of an option that there is not, ``spelled`` what is spelled alike."""
+        return spelled if spelled else _options.other_way(name, self._model)
+
     def run(self, arguments: argparse.Namespace) -> int:
         """Solve, then print or draw."""
         model, spec = self._command, self._model.spec

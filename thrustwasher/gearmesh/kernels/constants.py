@@ -12,7 +12,8 @@ from ...numerics.arrays import are_finite
 from ...numerics.jit import Array, kernel
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
-from .contact import compliance
+from .contact import alpha_of_oil, compliance
+from .flank_temperature import oil_viscosity
 from .load_sharing import pitch_of, sharing_rule
 from .micropitting import derive_micropitting, thinnest_films
 from .path_of_contact import (
@@ -22,6 +23,7 @@ from .path_of_contact import (
     even_part,
     flanks_at,
     line_of_action,
+    shortest_lines,
 )
 from .tooth_root import derive_root, root_rule
 from .working_pair import are_pointed, is_standard, pair_rule, section, tips, working_section
@@ -46,6 +48,10 @@ MATERIALS = (
 )
 POISSON = 0.3
 LEAST_LIMIT = 2e7  # Pa, of a contact limit that is given
+COEFFICIENT_AT = 311.15  # K, 38 degC
+LEAST_COEFFICIENT = 1e-9  # 1/Pa, of the viscosity, that is given
+LEAST_CONTACT = 0.1  # contact ratio of helical teeth
+LEAST_TOTAL = 1.01  # contact and overlap ratio together where the first is below 1
 RIM = 4.0  # transverse modules from a ring's pitch circle to its outside; an estimate
 STILL_COOLING = 50.0  # W/(m2 K), of gears that hardly move, over their pitch cylinders; an estimate
 
@@ -81,6 +87,14 @@ def path_of(par: Array) -> tuple[float, float, float]:
 
 
 @kernel
+def overlap_ratio(par: Array) -> float:
+    """Return the overlap ratio eps_beta [-]."""
+    side, centre, _, _ = section(par)
+    around = 2.0 * math.pi * centre / (par[L.P_GEAR_RATIO] + side) / par[L.P_PINION_TEETH]
+    return float(par[L.P_FACE_WIDTH] * math.tan(par[L.P_HELIX_ANGLE]) / around)
+
+
+@kernel
 def derive_geometry(par: Array) -> None:
     """Fill section, path of contact, curvature and speeds where it starts, loads per torque."""
     ratio, teeth = par[L.P_GEAR_RATIO], par[L.P_PINION_TEETH]
@@ -96,9 +110,7 @@ def derive_geometry(par: Array) -> None:
     line, pitch, width = centre * math.sin(angle), centre / (ratio + side), par[L.P_FACE_WIDTH]
     par[L.D_SLIDE_ROLL] = slide_roll(ratio, start, side)
     par[L.D_CONTACT_RATIO] = approach + recess
-    reference = pitch if is_standard(par) else section(par)[1] / (ratio + side)
-    around = 2.0 * math.pi * reference / teeth  # pitch of the teeth [m]
-    par[L.D_OVERLAP] = width * math.tan(par[L.P_HELIX_ANGLE]) / around
+    par[L.D_OVERLAP] = overlap_ratio(par)
     par[L.D_LOAD] = 1.0 / (width * pitch * math.cos(angle))
     par[L.D_UNIT_LOAD] = 1.0 / (width * pitch)
     par[L.D_LINE] = par[L.P_LOAD_SHARE] / (width * pitch * math.cos(angle))
@@ -149,10 +161,25 @@ def derive_materials(par: Array) -> None:
 
 
 @kernel
+def pressure_viscosity(par: Array) -> float:
+    """Return the pressure coefficient of the viscosity at 38 degC [1/Pa]: as given, else the oil's.
+
+    Source of the latter: ``alpha_of_oil``.
+    """
+    given = par[L.P_PRESSURE_VISCOSITY]
+    if given > 0.0:
+        return float(given)
+    scale, b, c = par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
+    thick = oil_viscosity(COEFFICIENT_AT, scale, b, c)
+    return alpha_of_oil(int(par[L.P_BASE_OIL]) - 1, thick)
+
+
+@kernel
 def derive(par: Array) -> int:
     """Fill the constants behind the parameters; return 0, or NOT_FINITE."""
     derive_geometry(par)
     derive_materials(par)
+    par[L.D_ALPHA] = pressure_viscosity(par)
     par[L.D_OIL_CAPACITY] = par[L.P_OIL_DENSITY] * par[L.P_OIL_HEAT_CAPACITY]
     rough = par[L.P_SURFACE] == L.ROUGH
     sigma = SIGMA_ROUGH if rough else SIGMA_FINE
@@ -249,8 +276,8 @@ def wide_loss_factor(
     ratio: float, teeth: float, approach: float, recess: float, side: float
 ) -> float:
     """Return H_v [-] of teeth so wide and helical that the whole path always bears evenly."""
-    square = (approach * approach + recess * recess) / (approach + recess)
-    return math.pi * (ratio + side) / (teeth * ratio) * square
+    mean = _moment(-approach, recess) / (approach + recess)
+    return 2.0 * math.pi * (ratio + side) / (teeth * ratio) * mean
 
 
 @kernel
@@ -262,8 +289,9 @@ def single_contact_factors(par: Array) -> tuple[float, float]:
     places bound the contact of two pairs. Source: ISO 6336-2:2006 as publicly quoted.
     """
     pitch, even = flanks_at(par, 0.0)[0], even_part(par)
-    first = math.sqrt(pitch / flanks_at(par, par[L.D_RECESS] - 1.0)[0])
-    second = math.sqrt(pitch / flanks_at(par, 1.0 - par[L.D_APPROACH])[0])
+    before, behind = par[L.D_APPROACH], par[L.D_RECESS]
+    first = math.sqrt(pitch / flanks_at(par, max(behind - 1.0, -before))[0])
+    second = math.sqrt(pitch / flanks_at(par, min(1.0 - before, behind))[0])
     first, second = max(first, 1.0), max(second, 1.0)
     return first - even * (first - 1.0), second - even * (second - 1.0)
 
@@ -300,6 +328,8 @@ def derive_limits(par: Array) -> None:
     # The standard's form falls below an even sharing of all pairs where the ratio is above 3.
     spur = max((4.0 - contact) / 3.0, 1.0 / contact)
     sharing = spur * (1.0 - even) + even / contact
+    if contact < 1.0:
+        sharing = 1.0 / shortest_lines(contact, par[L.D_OVERLAP])
     diameter = 2.0 * par[L.D_CENTRE] / (ratio + side)
     elastic = 1.0 / (math.pi * par[L.D_THETA])
     slant = math.cos(par[L.P_HELIX_ANGLE])
@@ -338,10 +368,15 @@ def derive_body(par: Array) -> None:
 
 @kernel
 def has_own_material(par: Array) -> bool:
-    """Tell if the gear is of another material than the pinion."""
-    given = par[L.P_YOUNGS_MODULUS_GEAR] + par[L.P_POISSON_RATIO_GEAR] + par[L.P_DENSITY_GEAR]
-    given += par[L.P_CONDUCTIVITY_GEAR] + par[L.P_HEAT_CAPACITY_GEAR]
-    return bool(par[L.P_MATERIAL_GEAR] != L.AS_PINION or given > 0.0)
+    """Tell if a number of the gear's material differs from the pinion's, whoever gave it."""
+    modulus = gear_value(par, L.P_YOUNGS_MODULUS_GEAR, L.P_YOUNGS_MODULUS, 0)
+    poisson = gear_value(par, L.P_POISSON_RATIO_GEAR, L.P_POISSON_RATIO, -1)
+    conducts = gear_value(par, L.P_CONDUCTIVITY_GEAR, L.P_CONDUCTIVITY, 1)
+    stores = gear_value(par, L.P_HEAT_CAPACITY_GEAR, L.P_HEAT_CAPACITY, 2)
+    heavy = gear_value(par, L.P_DENSITY_GEAR, L.P_DENSITY, 3)
+    metal = modulus != par[L.P_YOUNGS_MODULUS] or poisson != par[L.P_POISSON_RATIO]
+    heat = conducts != par[L.P_CONDUCTIVITY] or stores != par[L.P_HEAT_CAPACITY]
+    return bool(metal or heat or heavy != par[L.P_DENSITY])
 
 
 @kernel
@@ -360,6 +395,8 @@ def broken_rule(par: Array) -> int:
         return 25
     if 0.0 < par[L.P_DENSITY_GEAR] < 500.0:
         return 25
+    if 0.0 < par[L.P_PRESSURE_VISCOSITY] < LEAST_COEFFICIENT:
+        return 26
     if 0.0 < par[L.P_ADDENDUM_GEAR] < 0.3:
         return 9
     if 0.0 < par[L.P_NORMAL_MODULE] < 1e-4:
@@ -376,7 +413,10 @@ def broken_rule(par: Array) -> int:
     start, approach, recess = path_of(par)
     if not start > 0.0:
         return 1
-    if not approach + recess >= 1.0:
+    reach = approach + recess
+    if not reach >= 1.0 and not (
+        reach >= LEAST_CONTACT and reach + overlap_ratio(par) >= LEAST_TOTAL
+    ):
         return 2
     if par[L.P_FRICTION_LAW] == L.LI_SEIREG:
         s = effective_roughness(par)
@@ -386,14 +426,15 @@ def broken_rule(par: Array) -> int:
             return 4
         if not slide_roll(ratio, start, side) > LEAST_SLIDE_ROLL:
             return 5
-    reach = approach + recess
     if side > 0.0:
         reach *= base_pitch(ratio, par[L.P_PINION_TEETH], angle, side)
         if not start + reach < 1.0:
             return 6
     if are_pointed(par):
         return 18
-    beyond = par[L.P_HELIX_ANGLE] + par[L.P_ADDENDUM_GEAR] + par[L.P_INTERNAL] > 0.0
+    beyond = par[L.P_HELIX_ANGLE] > 0.0 or par[L.P_INTERNAL] > 0.0
+    own_addendum = par[L.P_ADDENDUM_GEAR] > 0.0
+    beyond = beyond or (own_addendum and par[L.P_ADDENDUM_GEAR] != par[L.P_ADDENDUM])
     beyond = beyond or not is_standard(par) or has_own_material(par)
     if is_paper and (beyond or par[L.P_FRICTION_LAW] == L.MIXED_FRICTION):
         return 7

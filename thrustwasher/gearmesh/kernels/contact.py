@@ -3,9 +3,16 @@
 import math
 
 from ...numerics.jit import kernel
-from ...numerics.smoothing import soft_least, soft_most
+from ...numerics.smoothing import smoothstep, soft_least, soft_most
 
 BEND = 0.1  # of a bound: the width over which the friction bends into it
+# Factor [1/Pa] and power of the pressure coefficient over the viscosity, both at 38 degC, of
+# mineral oil, polyalphaolefin, ester, polyglycol.
+ALPHA = ((2.657e-8, 0.1348), (1.466e-8, 0.0507), (1.466e-8, 0.0507), (1.392e-8, 0.1572))
+REFERENCE = 311.0  # K, 38 degC, at which the pressure coefficient of the viscosity is given
+FALL = 516.0  # K; alpha = alpha_38 (1 + 516 (1/T - 1/311)): ISO/TR 15144-1 as publicly quoted
+LEAST_ALPHA = 0.01  # of alpha_38; the formula ends at some 780 K
+LEAST_B, THINS = 1e-6, 50.0  # K, of the law of viscosity; real oils have 500 and more
 BOUNDARY_SPEED = 1.0  # m/s at the pitch line; below, boundary friction limits the law of the loss
 
 
@@ -52,6 +59,43 @@ def film_thickness(
     g = pressure_viscosity * stiff
     w = line_load / (stiff * radius)
     return 2.65 * radius * math.exp(0.7 * math.log(u) + 0.54 * math.log(g) - 0.13 * math.log(w))
+
+
+@kernel
+def alpha_of_oil(base: int, viscosity: float) -> float:
+    """Return the pressure coefficient of the viscosity at 38 degC [1/Pa] by the base of the oil.
+
+    ``base``: place in ``ALPHA``; ``viscosity`` [Pa s] at 38 degC, ambient pressure. Source:
+    approximations of ISO/TR 15144-1 as publicly quoted, the same as those of AGMA 925-A03 in other
+    units; an ester, which neither has, counts as polyalphaolefin.
+    """
+    factor, power = ALPHA[base]
+    return factor * math.exp(power * math.log(viscosity))
+
+
+@kernel
+def pressure_coefficient(temperature: float) -> tuple[float, float]:
+    """Return the pressure coefficient over that at 38 degC [-], its relative slope [1/K]."""
+    found = 1.0 + FALL * (1.0 / temperature - 1.0 / REFERENCE)
+    if found <= LEAST_ALPHA:
+        return LEAST_ALPHA, 0.0
+    return found, -FALL / (temperature * temperature * found)
+
+
+@kernel
+def coefficient_at(viscosity: float, scale: float, b: float, c: float) -> tuple[float, float]:
+    """Return ``pressure_coefficient`` where the oil is as viscous [Pa s], and its log slope.
+
+    ``scale`` [Pa s], ``b``, ``c`` [K]: the law of the viscosity, which tells the temperature. An
+    oil that does not thin as it warms up, ``b`` 0, keeps its coefficient; up to THINS that fades.
+    The slope is that over the logarithm of the viscosity.
+    """
+    if b < LEAST_B:
+        return 1.0, 0.0
+    warmth, thins = b / math.log(viscosity / scale), smoothstep(b / THINS)
+    found, slope = pressure_coefficient(warmth - c + 273.15)
+    taken = 1.0 + thins * (found - 1.0)
+    return taken, -thins * found / taken * slope * warmth * warmth / b
 
 
 @kernel

@@ -43,7 +43,7 @@ def film_changes(
     shear, cap = bulk + speed - film, 0.0
     if par[L.P_TRACTION_LAW] != L.AMBIENT:
         cap = 0.5 * load
-        power = par[L.P_PRESSURE_VISCOSITY] * field[L.F_PRESSURE]
+        power = par[L.D_ALPHA] * field[L.F_PRESSURE]
         shear += power * cap if power < 200.0 else 0.0
 
     _, thins, exponent = viscosity_follows(par)

@@ -89,8 +89,9 @@ N_PARAM = 93
     D_HOT_SLIDING,
     D_HOT_SHARE,
     D_HOT_FILM,
+    D_ALPHA,
     D_PLACES,
-) = range(N_PARAM, N_PARAM + 61)
+) = range(N_PARAM, N_PARAM + 62)
 # The line of action: positions from the pitch point in base pitches, shares of the load that the
 # pair there bears, shares of the loss; D_PLACES is the number of positions. Where the loss heats,
 # also lengths and, per root of load and speed, flash of a friction of 1, film, mean pressure; then

@@ -36,7 +36,9 @@ from .working_pair import gear_shift, working_section
 STEEL = 206e9  # Pa
 CORRECTION = 0.8  # of the theoretical stiffness, C_M
 LEAST_SHARE = 1e-12  # of a pair that relief has lifted off: its film and width stay finite
-MOST_RATIO = 3.0  # contact ratio below which all positions have room
+MOST_RATIO = (
+    3.0  # contact ratio below which all positions have room; from 1 on a pair is in contact
+)
 HALVINGS, NEWTON = 60, 40
 MOST_CORNERS = 32
 
@@ -108,7 +110,7 @@ def sharing_rule(par: Array, ratio: float, pitch: float) -> int:
         return 0
     if par[L.P_FILM_HEAT] != L.LOSS:
         return 21
-    if not ratio < MOST_RATIO:
+    if not 1.0 <= ratio < MOST_RATIO:
         return 22
     reach = 0.0
     for k in range(2):

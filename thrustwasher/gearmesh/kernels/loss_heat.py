@@ -24,7 +24,7 @@ from .mesh_point import (
     viscosity_follows,
 )
 from .micropitting import fill_micropitting, micropitting_change
-from .path_friction import fill_friction, film_scale, friction_changes, is_uniform
+from .path_friction import fill_friction, film_change, film_scale, friction_changes, is_uniform
 from .path_of_contact import flanks_at
 
 HALVINGS = 52
@@ -148,7 +148,7 @@ def _fill_hottest(par: Array, torque: float, line: float, turning: float, work: 
     width = hertz_width(borne * line, radius, par[L.D_THETA])
     work[L.F_LINE_LOAD], work[L.F_WIDTH] = borne * line, width
     work[L.F_PRESSURE] = borne * line / width
-    film *= film_scale(line, turning, work[L.F_VISCOSITY])
+    film *= film_scale(par, line, turning, work[L.F_VISCOSITY])
     work[L.F_FILM], work[L.F_RATIO] = film, film / par[L.D_SIGMA]
     work[L.F_PRESSURE_MAX] = 4.0 / math.pi * par[L.D_PRESSURE_MOST] * math.sqrt(factor * line)
     work[L.F_STRESS], work[L.F_SLIDING] = work[L.F_PRESSURE_MAX], sliding * turning
@@ -218,7 +218,7 @@ def loss_changes(
     dafter += warmer
     dout[L.F_MEAN_FRICTION], dout[L.F_FRICTION], dout[L.F_BULK] = dmean, hottest, dafter
     dout[L.F_OIL_HEAT], dout[L.F_STORED] = dheat, 0.0
-    film = 0.7 * (held + steep * dbody + faster) - 0.13 * load
+    film = film_change(par, viscosity, held + steep * dbody, faster, load)
     part = scuffs / work[L.F_SCUFFING_FRICTION] if work[L.F_SCUFFING_FRICTION] > 0.0 else 0.0
     flash = flash_change(par, work, torque, load, faster, seed[L.I_LOAD], part)
     dout[L.F_FLASH] = dout[L.F_FLASH_MAX] = flash

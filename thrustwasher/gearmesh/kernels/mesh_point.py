@@ -109,11 +109,11 @@ def heat_film(par: Array, oil: float, speed: float, field: Array) -> tuple[int, 
         line_load,
         par[L.D_RADIUS],
         par[L.D_THETA],
-        par[L.P_PRESSURE_VISCOSITY],
+        par[L.D_ALPHA],
     )
     shear, cap = bulk * sliding / film, 1e300
     if par[L.P_TRACTION_LAW] != L.AMBIENT:
-        shear *= math.exp(min(par[L.P_PRESSURE_VISCOSITY] * pressure, 200.0))
+        shear *= math.exp(min(par[L.D_ALPHA] * pressure, 200.0))
         cap = par[L.P_LIMITING_TRACTION] * pressure
     taken = par[L.D_SHARE] * sliding * width  # heat into the pinion per stress, [m2/s]
     factor = taken * flank.surface_factor(width, v1, par[L.P_CONDUCTIVITY], par[L.D_CAPACITY])
@@ -206,10 +206,14 @@ def stress_asperities(par: Array, oil: float, field: Array) -> None:
 
 @kernel
 def outside(par: Array, oil: float, field: Array) -> bool:
-    """Tell if the point lies where the laws are stretched: oil, hardness, softened steel."""
+    """Tell if the point lies where the laws are stretched.
+
+    Oil, hardness, softened steel, a contact ratio below 1.
+    """
     ultimate = ULTIMATE[0] if par[L.P_STEEL] == L.AISI1020 else ULTIMATE[1]
     return (
-        oil < COLDEST
+        par[L.D_CONTACT_RATIO] < 1.0
+        or oil < COLDEST
         or oil > WARMEST
         or field[L.F_ASPERITY] > HOTTEST_ASPERITY
         or field[L.F_PRESSURE] > par[L.P_HARDNESS_FACTOR] * ultimate

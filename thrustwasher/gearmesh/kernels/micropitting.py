@@ -3,8 +3,8 @@
 
 ISO/TS 6336-22 (ISO/TR 15144-1), method B, as publicly quoted; the standard's text was not at hand.
 The standard's own friction and its own steady temperature of the bodies go into it, whatever the
-loss does. The load is shared as elsewhere in the mesh; near both ends of the path a helical tooth
-bears more.
+loss does. So does its own sharing of the load where two spur pairs are in contact, unless stiffness
+shares it; near both ends of the path a helical tooth bears more.
 """
 
 import math
@@ -12,29 +12,19 @@ import math
 import numpy as np
 
 from ...numerics.jit import Array, kernel
-from ...numerics.smoothing import floored, floored_slope
+from ...numerics.smoothing import floored, floored_slope, smoothstep
 from . import layout as L
+from .contact import pressure_coefficient
 from .flank_temperature import LOWEST_OIL
 from .mesh_point import thinning
-from .path_of_contact import base_pitch
+from .path_of_contact import JOINS, base_pitch, even_part, pair_share
 
 LEAST_ROLLING = 0.1  # m/s, sum of the speeds at the pitch point; as of the other mean frictions
 BUTTRESS = 0.3  # more load at both ends of the path with an overlap of 1 and more
 BUTTRESS_LENGTH = 0.2e-3  # m along the path, times the sine of the base helix angle
-REFERENCE = 311.0  # K, 38 degC, at which the pressure coefficient of the viscosity is given
-FALL = 516.0  # K; alpha = alpha_38 (1 + 516 (1/T - 1/311))
-LEAST_ALPHA = 0.01  # of alpha_38; the formula ends at some 780 K
+AT_END = 1.0 / 3.0  # of the load on a spur pair where contact begins and ends; twice that at B, D
 OF_UNITS = math.log(1.6) - 0.7 * math.log(2.0)
 SLIDING = 0.22  # power of the sliding parameter
-
-
-@kernel
-def pressure_coefficient(temperature: float) -> tuple[float, float]:
-    """Return the pressure coefficient over that at 38 degC [-], its relative slope [1/K]."""
-    found = 1.0 + FALL * (1.0 / temperature - 1.0 / REFERENCE)
-    if found <= LEAST_ALPHA:
-        return LEAST_ALPHA, 0.0
-    return found, -FALL / (temperature * temperature * found)
 
 
 @kernel
@@ -45,6 +35,26 @@ def buttress(par: Array, position: float) -> float:
     if off >= length:  # spur teeth, whose length is 0, have none
         return 1.0
     return 1.0 + BUTTRESS * min(par[L.D_OVERLAP], 1.0) * (1.0 - off / length)
+
+
+@kernel
+def spur_part(par: Array, position: float, share: float) -> float:
+    """Return the share [-] of the load at a place, over ``share``, the equal one of the mesh.
+
+    Of two spur pairs in contact the one that begins or ends bears a third of the load, rising to
+    two thirds where the other one leaves; the more overlap, the less of that counts. It fades as
+    a place bears more than half of the load, and between contact ratios of 2 and 2.05, so that
+    nothing jumps.
+    """
+    contact, one, two = par[L.D_CONTACT_RATIO], pair_share(par, 1.0), pair_share(par, 2.0)
+    if par[L.P_LOAD_SHARING] == L.ELASTIC or not (contact > 1.0 and one > two):
+        return 1.0
+    reach = min(contact - 1.0, 1.0)  # base pitches in which two pairs are in contact
+    off = max(min(position + par[L.D_APPROACH], par[L.D_RECESS] - position, reach), 0.0)
+    counts = min(max((one - share) / (one - two), 0.0), 1.0)
+    counts *= 1.0 - smoothstep((contact - 2.0) / JOINS)
+    uneven = counts * (2.0 * AT_END * (1.0 + off / reach) - 1.0)
+    return 1.0 + uneven * (1.0 - even_part(par) / (contact * share))
 
 
 @kernel
@@ -162,7 +172,7 @@ def _scales(
     friction -= 0.05 * math.log(viscosity)
     rise = math.exp(par[L.D_GF_RISE] + 0.72 * (load + speed + friction))
     heat = math.exp(friction + 0.75 * load + 0.5 * speed)
-    pressed = 0.7 * speed - 0.13 * load + 0.6 * math.log(par[L.P_PRESSURE_VISCOSITY])
+    pressed = 0.7 * speed - 0.13 * load + 0.6 * math.log(par[L.D_ALPHA])
     return rise, heat, pressed
 
 
@@ -184,8 +194,9 @@ def _place_film(par: Array, k: int, line: float, apart: float) -> tuple[float, f
     x = 1.0 / (ratio + side) + position * apart
     radius = x * (1.0 - side * x) * line / par[L.D_COS_BASE]
     rolling = (x + (1.0 - side * x) / ratio) * line
-    more = par[L.D_FACTOR] * buttress(par, position)
-    load, root = more * par[np.uintp(L.D_PATH_SHARE + k)], math.sqrt(more)
+    share = par[np.uintp(L.D_PATH_SHARE + k)]
+    more = par[L.D_FACTOR] * buttress(par, position) * spur_part(par, position, share)
+    load, root = more * share, math.sqrt(more)
     film = film_constant(radius, rolling, load, 2.0 / par[L.D_THETA])
     return film, par[np.uintp(L.D_PATH_FLASH + k)] * root * math.sqrt(root)
 

@@ -11,7 +11,14 @@ import numpy as np
 from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import floored, floored_slope, soft_least, soft_most
 from . import layout as L
-from .contact import BOUNDARY_SPEED, common_law, iso_and_slope, li_seireg, schlenk_and_slopes
+from .contact import (
+    BOUNDARY_SPEED,
+    coefficient_at,
+    common_law,
+    iso_and_slope,
+    li_seireg,
+    schlenk_and_slopes,
+)
 from .path_of_contact import LOSS_LUBRICANT, SCUFFING_LUBRICANT, flanks_at, loss_over_scuffing
 
 LEAST_ROLLING = 0.1  # m/s, below it the standard's mean friction would grow without bound; estimate
@@ -29,9 +36,33 @@ def is_uniform(par: Array) -> bool:
 
 
 @kernel
-def film_scale(line: float, turning: float, viscosity: float) -> float:
-    """Return the film's factor that all positions share: (mu om)^0.7 w^-0.13."""
-    return math.exp(0.7 * math.log(viscosity * turning) - 0.13 * math.log(line))
+def pressed_more(par: Array, viscosity: float) -> tuple[float, float]:
+    """Return alpha at the film's temperature over that at 38 degC [-], its log slope.
+
+    ``viscosity`` [Pa s] of the film tells its temperature; the slope is over the log of it.
+    """
+    scale, b, c = par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_B], par[L.P_VISCOSITY_C]
+    return coefficient_at(viscosity, scale, b, c)
+
+
+@kernel
+def film_scale(par: Array, line: float, turning: float, viscosity: float) -> float:
+    """Return the film's factor that all positions share: (mu om)^0.7 (alpha/alpha_38)^0.54 w^-0.13.
+
+    ``viscosity`` [Pa s] of the film.
+    """
+    alpha, _ = pressed_more(par, viscosity)
+    film = 0.7 * math.log(viscosity * turning) + 0.54 * math.log(alpha)
+    return math.exp(film - 0.13 * math.log(line))
+
+
+@kernel
+def film_change(
+    par: Array, viscosity: float, thicker: float, faster: float, heavier: float
+) -> float:
+    """Return the relative change of ``film_scale``, from those of viscosity, speed and load."""
+    _, slope = pressed_more(par, viscosity)
+    return 0.7 * (thicker + faster) + 0.54 * slope * thicker - 0.13 * heavier
 
 
 @kernel
@@ -94,21 +125,23 @@ def contact_share(ratio: float) -> tuple[float, float]:
 @kernel
 def film_friction(
     par: Array, k: int, line: float, turning: float, viscosity: float, film: float
-) -> tuple[float, float, float]:
+) -> tuple[float, float, float, float]:
     """Return the friction [-] of an Eyring film at position ``k``, and log slopes.
 
     tau = tau_0 asinh(mu exp(alpha p) V_s/(h tau_0)) over the mean pressure p, at most
-    limiting_traction. The slopes are those over the shear rate and over the pressure.
+    limiting_traction. The slopes are those over the shear rate, over the pressure, over alpha.
     """
     pressure = par[np.uintp(L.D_PATH_PRESSURE + k)] * math.sqrt(line)
-    eyring, thick = par[L.P_EYRING_STRESS], par[L.P_PRESSURE_VISCOSITY] * pressure
+    eyring, thick = par[L.P_EYRING_STRESS], par[L.D_ALPHA] * pressure
+    thick *= pressed_more(par, viscosity)[0]
     sliding = abs(par[np.uintp(L.D_POSITION + k)]) * par[L.D_SLIDE] * turning
     shear = viscosity * math.exp(min(thick, 200.0)) * sliding / (film * eyring)
     stress, steep = eyring * math.asinh(shear), eyring * shear / math.hypot(1.0, shear)
     limit = par[L.P_LIMITING_TRACTION]
     value, slope = soft_least(stress / pressure, limit, 0.1 * limit)
     thicker = thick if thick < 200.0 else 0.0
-    return value, slope * steep / pressure, slope * (steep * thicker - stress) / pressure
+    by_alpha = slope * steep * thicker / pressure
+    return value, slope * steep / pressure, by_alpha - slope * stress / pressure, by_alpha
 
 
 @kernel
@@ -141,7 +174,7 @@ def fill_friction(
             found, work[L.F_SCUFFING_SLOPE] = scuffing_friction(par, line, turning, oil)
             work[L.F_SCUFFING_FRICTION] = found
         return mean
-    scale = film_scale(line, turning, viscosity)
+    scale = film_scale(par, line, turning, viscosity)
     if par[L.P_FRICTION_LAW] == L.MIXED_FRICTION:
         _share_load(par, line, turning, viscosity, scale, mean, work)
     else:
@@ -177,7 +210,7 @@ def _share_load(
     for k in range(int(par[L.D_PLACES])):
         film = par[np.uintp(L.D_PATH_FILM + k)] * scale
         share, _ = contact_share(film / par[L.D_SIGMA])
-        found, _, _ = film_friction(par, k, line, turning, viscosity, film)
+        found, _, _, _ = film_friction(par, k, line, turning, viscosity, film)
         weight = par[np.uintp(L.D_PATH_LOSS + k)]
         contact += weight * share
         sheared += weight * (1.0 - share) * found
@@ -212,12 +245,13 @@ def friction_changes(
     mean = work[L.F_FRICTION_SLOPE] * held + work[L.F_SPEED_SLOPE] * moved
     if is_uniform(par):
         return mean, mean, work[L.F_SCUFFING_SLOPE] * (held + moved)
-    film = 0.7 * (thicker + speed) - 0.13 * load
+    film = film_change(par, viscosity, thicker, speed, load)
     if par[L.P_FRICTION_LAW] == L.MIXED_FRICTION:
-        change = (film, thicker + speed - film, 0.5 * load)
+        stiffer = pressed_more(par, viscosity)[1] * thicker
+        change = (film, thicker + speed - film, 0.5 * load, stiffer)
         mean, hottest = _shared_changes(par, line, turning, viscosity, change, mean, work)
         return mean, hottest, local_over_loss(par) * hottest
-    scale, mean, hottest = film_scale(line, turning, viscosity), 0.0, 0.0
+    scale, mean, hottest = film_scale(par, line, turning, viscosity), 0.0, 0.0
     for k in range(int(par[L.D_PLACES])):
         radius, _, _ = flanks_at(par, par[L.D_POSITION + k])
         here = par[L.D_PATH_FILM + k] * scale
@@ -235,20 +269,23 @@ def _shared_changes(
     line: float,
     turning: float,
     viscosity: float,
-    change: tuple[float, float, float],
+    change: tuple[float, float, float, float],
     mean: float,
     work: Array,
 ) -> tuple[float, float]:
-    """Return the changes of the mixed friction; ``change`` of film, shear rate and pressure."""
-    scale, place = film_scale(line, turning, viscosity), int(work[L.W_PLACE])
+    """Return the changes of the mixed friction; ``change`` of film, shear rate, pressure, alpha."""
+    scale, place = film_scale(par, line, turning, viscosity), int(work[L.W_PLACE])
     standard, _, _ = mean_friction(par, line, turning, work[L.F_BULK_VISCOSITY])
     contact, more, sheared, grows, here, there = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for k in range(int(par[L.D_PLACES])):
         film = par[np.uintp(L.D_PATH_FILM + k)] * scale
         share, steep = contact_share(film / par[L.D_SIGMA])
-        found, by_shear, by_pressure = film_friction(par, k, line, turning, viscosity, film)
+        found, by_shear, by_pressure, by_alpha = film_friction(
+            par, k, line, turning, viscosity, film
+        )
         weight = par[np.uintp(L.D_PATH_LOSS + k)]
         moved, rising = steep * change[0], by_shear * change[1] + by_pressure * change[2]
+        rising += by_alpha * change[3]
         contact += weight * share
         more += weight * moved
         sheared += weight * (1.0 - share) * found

@@ -3,7 +3,8 @@
 
 Positions count from the pitch point in base pitches. Spur teeth share the load equally, all pairs
 that are in contact; teeth with an overlap of 1 and more bear evenly on the whole path. In between
-the overlap ratio says which part of the load does the one, which the other.
+the overlap ratio says which part of the load does the one, which the other. Below a contact ratio
+of 1 the lines of contact themselves say it.
 """
 
 import math
@@ -21,6 +22,7 @@ NODES = (0.0, 0.5 - math.sqrt(3.0 / 28.0), 0.5, 0.5 + math.sqrt(3.0 / 28.0), 1.0
 WEIGHTS = (0.05, 49.0 / 180.0, 16.0 / 45.0, 49.0 / 180.0, 0.05)
 N_NODES = 5
 MAX_PIECES = 16
+CLOSE = 1e-9  # base pitches between places that are one
 EVEN_HEAT = math.sqrt(2.0 / math.pi) / 0.7859834  # Blok's factor of even over elliptic heat
 # X_L of mineral oil, polyalphaolefin, ester, polyglycol: with Schlenk's law, as an open program
 # has them; against scuffing, ISO/TS 6336-22 as publicly quoted, of an ester (not there) mineral's.
@@ -118,6 +120,116 @@ def _split(par: Array, low: float, high: float, shared: float, borne: float) -> 
 
 
 @kernel
+def part_of(value: float) -> float:
+    """Return what of a number is behind its whole part."""
+    return value - math.floor(value)
+
+
+@kernel
+def shortest_lines(contact: float, overlap: float) -> float:
+    """Return the least length of all lines of contact together, of full ones across the face.
+
+    symbol   meaning                                                                     unit
+    contact  transverse contact ratio                                                    -
+    overlap  overlap ratio; with the contact ratio more than 1 together                  -
+
+    On the mean it is the contact ratio.
+    """
+    one, two = part_of(contact), part_of(overlap)
+    less = one * two if one + two <= 1.0 else (1.0 - one) * (1.0 - two)
+    return contact - less / overlap
+
+
+@kernel
+def lines_at(contact: float, overlap: float, phase: float) -> float:
+    """Return the length of all lines of contact together at a phase [base pitches along the face].
+
+    One line grows from 0 to the smaller of both ratios and shrinks again while it moves on by
+    their sum; the next one follows a pitch behind. What whole pitches of overlap bear is constant.
+    """
+    rest = part_of(overlap)
+    small, moved = min(contact, rest), part_of(phase)
+    total = (overlap - rest) * contact
+    for _ in range(2):
+        total += max(min(moved, small, contact + rest - moved), 0.0)
+        moved += 1.0
+    return total
+
+
+@kernel
+def gathered(contact: float, overlap: float, phase: float) -> float:
+    """Return the integral of 1/L from 0 to ``phase`` [base pitches], L as of ``lines_at``.
+
+    L is straight between the phases where a line begins, is full, shrinks or ends.
+    """
+    corners = (contact, part_of(overlap), part_of(contact + overlap), 1.0)
+    end, before = part_of(phase), lines_at(contact, overlap, 0.0)
+    low, found, period = 0.0, 0.0, 0.0
+    for _ in range(6):
+        high = 1.0
+        for k in range(4):
+            if low < corners[k] < high:
+                high = corners[k]
+        if low < end < high:
+            high = end
+        here = lines_at(contact, overlap, high)
+        rises = here / before - 1.0
+        if abs(rises) > 1e-6:
+            part = (high - low) / before * math.log1p(rises) / rises
+        else:
+            part = (high - low) / before * (1.0 - 0.5 * rises)
+        period += part
+        if high <= end:
+            found += part
+        low, before = high, here
+    return found + math.floor(phase) * period
+
+
+@kernel
+def lines_of_contact(par: Array) -> None:
+    """Fill positions, shares and losses where the contact ratio is below 1.
+
+    The load spreads evenly over all lines of contact there are at a time. What a position bears is
+    the most of that at any time and place along the face; the loss books the mean of it.
+    """
+    contact, overlap = par[L.D_CONTACT_RATIO], par[L.D_OVERLAP]
+    least, small = shortest_lines(contact, overlap) * overlap, min(contact, overlap)
+    middle = math.sqrt(least * small)
+    corners = (
+        part_of(overlap),
+        part_of(contact + overlap),
+        part_of(1.0 - overlap),
+        part_of(contact - overlap),
+        small,
+        contact - small,
+        middle,
+        contact - middle,
+        0.5 * contact,
+        par[L.D_APPROACH],  # the pitch point, where sliding turns round
+    )
+    low, n = 0.0, 0
+    for _ in range(11):
+        high = contact
+        for k in range(10):
+            if low + CLOSE < corners[k] < high - CLOSE:
+                high = corners[k]
+        for k in range(N_NODES):
+            at, length = low + (high - low) * NODES[k], (high - low) * WEIGHTS[k]
+            s = at - par[L.D_APPROACH]
+            mean = gathered(contact, overlap, at + overlap) - gathered(contact, overlap, at)
+            shortest = least
+            if overlap < 1.0:
+                shortest = max(least, min(at, contact - at, small))
+            par[L.D_POSITION + n + k] = s
+            par[L.D_PATH_SHARE + n + k] = overlap / shortest
+            par[L.D_PATH_LENGTH + n + k] = length
+            par[L.D_PATH_LOSS + n + k] = length * abs(s) * mean
+        n += N_NODES if high > low else 0  # else filled anew, or never read
+        low = high
+    par[L.D_PLACES] = float(n)
+
+
+@kernel
 def line_of_action(par: Array, approach: float, recess: float) -> None:
     """Fill positions, shares and losses from the start to the end of contact.
 
@@ -135,7 +247,10 @@ def line_of_action(par: Array, approach: float, recess: float) -> None:
         many, few = 1.0 / given, 1.0 / alone
     intervals = int(min(whole, 0.5 * MAX_PIECES - 1.0)) + 1
     par[L.D_PLACES] = 0.0
-    if par[L.D_OVERLAP] >= 1.0:
+    if whole < 1.0:
+        lines_of_contact(par)
+        intervals = 0
+    elif par[L.D_OVERLAP] >= 1.0:
         _split(par, -approach, recess, approach + recess, 1.0 / (approach + recess))
         intervals = 0
     for k in range(intervals):
@@ -148,6 +263,10 @@ def line_of_action(par: Array, approach: float, recess: float) -> None:
     total = 0.0
     for k in range(int(par[L.D_PLACES])):
         total += par[L.D_PATH_LOSS + k]
+    if whole < 1.0:  # a transverse section is not always in contact
+        ratio, teeth = par[L.P_GEAR_RATIO], par[L.P_PINION_TEETH]
+        around = 2.0 * math.pi * (ratio + par[L.D_SIDE]) / (teeth * ratio)
+        par[L.D_LOSS] = par[L.D_LOSS_SPUR] = around * total / par[L.D_COS_BASE]
     for k in range(int(par[L.D_PLACES])):  # shares of the loss for one coefficient of friction
         par[L.D_PATH_LOSS + k] /= total
 
@@ -178,7 +297,7 @@ def place_constants(par: Array, k: int) -> None:
     rise = EVEN_HEAT * blok_rise(1.0, share, v1, v2, width, first, second)
     par[np.uintp(L.D_PATH_FLASH + k)] = rise
     par[np.uintp(L.D_PATH_FILM + k)] = film_thickness(
-        1.0, 0.5 * (v1 + v2), share, radius, theta, par[L.P_PRESSURE_VISCOSITY]
+        1.0, 0.5 * (v1 + v2), share, radius, theta, par[L.D_ALPHA]
     )
     par[np.uintp(L.D_PATH_PRESSURE + k)] = share / width
 

@@ -79,7 +79,7 @@ def root_factors(
     base = radius * math.cos(angle)
     top = radius + tip / module - 0.5 * teeth / math.cos(helix)
     flank = math.sqrt(max(top * top - base * base, 0.0))
-    flank -= math.pi * math.cos(angle) * (contact / (cos_base * cos_base) - 1.0)
+    flank -= math.pi * math.cos(angle) * max(contact / (cos_base * cos_base) - 1.0, 0.0)
     load = math.sqrt(flank * flank + base * base)
     pressed = math.acos(base / load)
     half = (0.5 * math.pi + 2.0 * math.tan(angle) * shift) / virtual

@@ -13,6 +13,7 @@ from ...numerics.jit import Array, kernel
 from . import layout as L
 
 AGREE = 1e-6  # m between a distance of the axes given and that of two shifts, rounding aside
+SAME = 1e-12  # relative, of lengths that are the same but for rounding
 LEAST_LENGTH = 1e-3  # m of a distance or diameter that is given
 NEWTON = 60  # steps of Newton's method; about 6 are taken
 
@@ -37,11 +38,27 @@ def section(par: Array) -> tuple[float, float, float, float]:
 
 @kernel
 def is_standard(par: Array) -> bool:
-    """Tell if the pair has neither profile shift nor a distance of the axes or tips of its own."""
+    """Tell if the pair has neither profile shift nor a distance of the axes or tips of its own.
+
+    A distance or tip that is given as the standard pair has it is not its own.
+    """
     shifts = par[L.P_PROFILE_SHIFT_PINION] != 0.0 or par[L.P_PROFILE_SHIFT_GEAR] != 0.0
-    tips = par[L.P_TIP_DIAMETER_PINION] > 0.0 or par[L.P_TIP_DIAMETER_GEAR] > 0.0
-    tips = tips or par[L.P_TIP_SHORTENING] != 0.0
-    return not (shifts or tips or par[L.P_WORKING_CENTRE_DISTANCE] > 0.0)
+    if shifts or par[L.P_TIP_SHORTENING] != 0.0:
+        return False
+    distance = par[L.P_WORKING_CENTRE_DISTANCE]
+    first, second = par[L.P_TIP_DIAMETER_PINION], par[L.P_TIP_DIAMETER_GEAR]
+    if distance == 0.0 and first == 0.0 and second == 0.0:
+        return True
+    side, centre, _, _ = section(par)
+    radius = centre / (par[L.P_GEAR_RATIO] + side)
+    module = 2.0 * radius / par[L.P_PINION_TEETH] * math.cos(par[L.P_HELIX_ANGLE])
+    given, addendum = par[L.P_ADDENDUM_GEAR], par[L.P_ADDENDUM]
+    tip = 2.0 * (radius + addendum * module)
+    own = given if given > 0.0 else addendum
+    tip_gear = 2.0 * (radius * par[L.P_GEAR_RATIO] + side * own * module)
+    same = not distance > 0.0 or abs(distance - centre) <= SAME * centre
+    same = same and (not first > 0.0 or abs(first - tip) <= SAME * tip)
+    return bool(same and (not second > 0.0 or abs(second - tip_gear) <= SAME * tip_gear))
 
 
 @kernel

@@ -10,7 +10,7 @@ from ...cli.common import _options, _output
 from ...cli.common._options import option_name
 from ...cli.common._table import read_columns
 from ...errors import ParameterError, SolveError
-from ...model.registry import models_with_points
+from ...model.registry import find_model, models_with_points
 from ...model.spec import ModelSpec
 from ...settings import places, split_settings
 
@@ -109,7 +109,8 @@ def _held(arguments: argparse.Namespace, spec: ModelSpec) -> dict[str, str]:
         value = getattr(arguments, name)
         if value is not None:
             if name not in known or name in held:
-                why = "is given twice" if name in known else f"is no input of {spec.name}"
+                other = _options.other_way(name, find_model(spec.key))
+                why = "is given twice" if name in known else f"is no input of {spec.name}{other}"
                 raise ParameterError(f"{option_name(name)}: {why}")
             held[name] = value
     return held

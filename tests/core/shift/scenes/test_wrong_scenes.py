@@ -92,7 +92,7 @@ WRONG = [
     ("planetary", '[clutch]\ngroove_width = "30 mm"', "groove_width = 0.03 m, allowed: below"),
     ("planetary", '[transmission]\nhelix_angle = "45.5 deg"', "rad, allowed: 0 .. 0.785398 rad"),
     ("planetary", '[mesh]\nhelix_angle = "45.5 deg"', "rad, allowed: 0 .. 0.785398 rad"),
-    ("planetary", "[mesh]\naddendum = 0.3", "the contact ratio is 0.4984, allowed: 1 and more"),
+    ("planetary", "[mesh]\naddendum = 0.3\nhelix_angle = 0", "allowed: 1 and more"),
 ]
 
 

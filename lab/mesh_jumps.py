@@ -44,6 +44,7 @@ CAUSES = {
 UNRATED = ("spur, contact ratio about 2", "paper", "paper, law iso", "paper, literal")
 LEFT = {  # pair: causes of the jumps that are left; no other pair has any
     **{name: {NO_ROOT} for name in UNRATED},
+    "helical, contact ratio about 1": {QUADRATURE},
     "law mixed": {HOTTEST, QUADRATURE},
     "law li-seireg": {HOTTEST, NO_ROOT},
     "paper, every place": {HOTTEST, NO_ROOT},

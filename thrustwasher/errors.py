@@ -34,13 +34,19 @@ class Suggesting(dict[str, T]):
 
 
 def suggestion(
-    name: str, known: Iterable[str], words: str, otherwise: str = "", *, likeness: float = 0.6
+    name: str,
+    known: Iterable[str],
+    words: str,
+    otherwise: str = "",
+    *,
+    likeness: float = 0.6,
+    by_words: bool = True,
 ) -> str:
     """Return words with the known name in them that was probably meant, else the other ones.
 
     ``known``: names; of a ``Suggesting`` those it suggests, first one that ends with ``name``. Else
-    first what has all words of the name among its own, as pinion_teeth has teeth; of several that
-    are equally alike the first.
+    first, ``by_words``, what has all words of the name among its own, as pinion_teeth has teeth; of
+    several that are equally alike the first.
     """
     from difflib import SequenceMatcher  # late: it is for mistakes alone
 
@@ -57,7 +63,8 @@ def suggestion(
     def alike(other: str) -> float:
         return SequenceMatcher(None, other, name).ratio()
 
-    if longer := [other for other in names if parts(name) < parts(other) or other == name]:
+    longer = [other for other in names if parts(name) < parts(other) or other == name]
+    if by_words and longer:
         return words.format(max(longer, key=alike))
     near = [other for other in names if alike(other) >= likeness]
     return words.format(max(near, key=alike)) if near else otherwise

@@ -77,6 +77,6 @@ def test_what_stands_behind_a_zero_is_the_same_when_given(params, name, value):
 def test_the_clutchs_own_radius_given_is_the_same():
     plain = ClutchParams()
     given = replace(plain, effective_radius=plain.friction_radius)
-    point = {"load": 3000.0, "speed": 50.0}
+    point = {"load": 3000.0, "speed": 5.0}
     torques = [solve_clutch(p, **point).friction_torque for p in (plain, given)]
     assert torques[0] == pytest.approx(torques[1], rel=1e-12)

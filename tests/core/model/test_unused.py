@@ -40,7 +40,16 @@ def pushed(axial):
     """Return shafts of which one bearing takes all axial force, which counts much there."""
     takes = 1 if axial == "first" else 2
     found = {f"shaft_{i}_axial": axial for i in (1, 2, 3)}
+    found |= {f"shaft_{i}_bearing_{k}_induced_factor": 0.0 for i in (1, 2, 3) for k in (1, 2)}
     return found | {f"shaft_{i}_bearing_{takes}_y_factor": 5.0 for i in (1, 2, 3)}
+
+
+def back_to_back():
+    """Return shafts on pairs in O whose bearings induce axial forces, each below its own e."""
+    found = {f"shaft_{i}_axial": "O" for i in (1, 2, 3)}
+    own = {"induced_factor": 0.3, "e_factor": 0.3}
+    ends = [f"shaft_{i}_bearing_{k}" for i in (1, 2, 3) for k in (1, 2)]
+    return found | {f"{end}_{name}": x for end in ends for name, x in own.items()}
 
 
 def scene(name, **changes):
@@ -106,6 +115,7 @@ POINTS = {
         ({"meshes": 3}, between("train", *LOADED)),
         (pushed("first"), between("train", *LOADED)),
         (pushed("second"), between("train", *LOADED)),
+        (back_to_back(), between("train", *LOADED)),
         (meshes(**SPUR) | {"thermal_mode": "quasi_steady"}, between("train", *LOADED)),
     ],
 }

@@ -298,6 +298,7 @@ def test_plots_leave_matplotlib_as_it_was(record):
     before = dict(mpl.rcParams)
     overview_plot.overview_figure(record).canvas.draw()
     names = ("friction_coefficient", "friction_torque", "torque_capacity", "contact_torque")
+    names += ("temperature",)
     pack = SimpleNamespace(**dict.fromkeys(names, 1.0))
     clutch_figure([1.0, 2.0], [pack, pack], pack, POINT)
     assert dict(mpl.rcParams) == before

@@ -75,7 +75,11 @@ def _find(
         name = column.plain
         if name not in units:
             hint = suggestion(
-                name, set(units) - {*found}, "did you mean {}? ", likeness=0.6 if strict else 0.75
+                name,
+                set(units) - {*found},
+                "did you mean {}? ",
+                likeness=0.6 if strict else 0.75,
+                by_words=strict,  # else a column of its own may share a word with any
             )
             if column.name and not column.name.startswith("_"):
                 over_time = time_hint([column]) if strict else ""

@@ -76,7 +76,7 @@ def run_sweep(
     --------
     >>> table = run_sweep("clutch", {"load": "1 kN:3 kN:1 kN"}, at={"speed": 10.0})
     >>> table["friction_torque"].round(2).tolist(), table["status"].tolist()
-    ([36.26, 68.76, 98.05], ['OK', 'OK', 'OK'])
+    ([36.26, 68.8, 98.36], ['OK', 'OK', 'OK'])
     """
     refuse_import_by_worker()
     check_workers(workers, cluster)

@@ -188,7 +188,7 @@ UNGROOVED |= {"land_share": 1.0, "friction_law": "constant", "constant_friction"
 def test_an_opened_pack_holds_on_by_suction_and_an_on_off_element_lets_go():
     """The figures of docs/theory/clutch.md, docs/driveline.md, docs/start/host.md."""
     for changes, torque, load, cold, warm in (
-        (UNGROOVED, 40.0, 2650.0, 137, 13),
+        (UNGROOVED, 40.0, 2650.0, 81, 11),
         ({}, 20.0, 5000.0, 15, 2),
     ):
         times = [held_for(torque, t, load=load, **changes) for t in (297.15, 358.15)]

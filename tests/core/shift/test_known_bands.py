@@ -72,7 +72,7 @@ def test_profiles_are_tuned_for_the_scatter():
 
 @pytest.mark.slow
 def test_a_study_finds_the_known_bands_and_the_nominal_run_in_their_middle():
-    """Not so what washers take and how hot they get: thrust share and oil lie low in their ranges."""
+    """Not so what washers take and how hot they get: share and oil lie low in their ranges."""
     scene = load_scene("planetary")
     study = propagate(scene, runs=64, workers=1, indices=False)
     figures = study.figures

@@ -11,6 +11,13 @@ from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.shift import cosimulate, load_scene
 
 NO_DRAG = {"washer": None, "mesh": None, "transmission": {"washers": 0}}
+NOMINAL = """
+[engine]
+points = [[0.0, 253.0], [0.42, 253.0], [0.46, 188.0], [0.79, 188.0], [0.83, 250.0], [0.87, 253.0]]
+[pressure.clutch]
+points = [[0.1, 0.0], [0.11, "40 kPa"], [0.2, "40 kPa"], [0.4, "336 kPa"], [0.79, "355 kPa"],
+          [0.9, "420 kPa"], [0.97, "720 kPa"]]
+"""  # profiles of the default shift that suit its nominal values, not its scatter
 slow_without_jit = pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="minutes without JIT")
 
 

@@ -5,7 +5,7 @@ from bisect import bisect_right
 from pythonfmu import Fmi2Causality, Fmi2Slave, Real
 
 FULL_LOAD = ((100.0, 180.0), (200.0, 260.0), (400.0, 270.0), (600.0, 220.0))  # rad/s, N m
-DEMAND = ((0.0, 253.0), (0.42, 253.0), (0.46, 188.0), (0.79, 188.0), (0.83, 250.0), (0.87, 253.0))
+DEMAND = ((0.0, 253.0), (0.42, 253.0), (0.46, 155.0), (0.73, 170.0), (0.83, 200.0), (1.08, 253.0))
 
 
 def along(points, x):

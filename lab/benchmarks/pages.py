@@ -58,8 +58,8 @@ UPDATE = """async ([task, updates]) => {
 }"""
 
 # Other fill and kiss of the clutch than the scene's.
-TUNED = """() => page.change("clutch_pressure", [[0.1, 0], [0.11, 6e4], [0.2, 6e4], [0.4, 3.2e5],
-  [0.79, 3.41e5], [0.865, 3.46e5], [0.935, 7.2e5]])"""
+TUNED = """() => page.change("clutch_pressure", [[0.1, 0], [0.11, 6e4], [0.2, 6e4], [0.4, 3.45e5],
+  [0.7, 2.8e5], [0.86, 3.7e5], [1.2, 7.2e5]])"""
 
 # Height of the page, where its first picture begins, its words.
 LAID_OUT = """() => [document.documentElement.scrollHeight,

@@ -195,7 +195,7 @@ TABLE = [
     ("shift --master magic", "master = 'magic', allowed: 'gauss-seidel' or 'jacobi'"),
     ("shift --master-tolerance 0.1", "every run estimates the error of its step"),
     ("shift --step '10 s'", "did you mean 0.01 s (10 ms)?"),
-    ("shift --step 0.5", "up to 43.5 ms, a twentieth of the shift"),
+    ("shift --step 0.5", "up to 55 ms, a twentieth of the shift"),
     ("shift --fmu stone", "--fmu: invalid choice: 'stone'"),
     ("shift --platforms linux64", "--platforms: for a package only (--ssp FILE.ssp)"),
     ("shift --fmi 3", "--fmi: for a package only (--ssp FILE.ssp)"),

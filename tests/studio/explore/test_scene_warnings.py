@@ -12,10 +12,14 @@ from thrustwasher.shift import load_scene
 
 TIED = [[0.1, 0], [0.11, 4e4], [0.2, 4e4], [0.422, 5.61e5], [0.79, 3.41e5]]
 TIED = {"clutch_pressure": [*TIED, [0.865, 3.46e5], [0.935, 7.2e5]]}
+FULL = [[0, 253], [0.42, 253], [0.46, 188], [0.79, 188], [0.83, 250], [0.87, 253]]  # engine torque
 WEAK = [
     {"brake_pressure": [[0, 2e5], [0.16, 2e5], [0.2, 1.8e5], [0.36, 8e4], [0.38, 0]]},
     {"clutch_pressure": [[0.1, 0], [0.11, 4e4], [0.2, 4e4], [0.4, 2.3e5]]},
-    {"clutch_pressure": [[0.1, 0], [0.11, 4e4], [0.2, 4e4], [0.4, 1.3e5], [0.97, 1.7e5]]},
+    {
+        "clutch_pressure": [[0.1, 0], [0.11, 4e4], [0.2, 4e4], [0.4, 1.3e5], [0.97, 1.7e5]],
+        "engine_torque": FULL,
+    },
 ]
 OUTSIDE = ("judder", "chatter", "The brake is let go", "The clutch is let go")
 

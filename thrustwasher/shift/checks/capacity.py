@@ -87,8 +87,8 @@ def _weak(
         return None
     law, gear = holding(scene.parts["transmission"].params, pack), GEARS[pack]
     torque = law.engine * own("drive_torque") + law.output * own("shaft_torque")
-    keeps = float(np.median(torque[slips]))
-    need, left = abs(keeps), float(time[slips[-1]] - time[slips[0]])
+    keeps, need = float(np.mean(torque[slips])), float(np.abs(torque[slips]).max())
+    left = float(time[slips[-1]] - time[slips[0]])
     words = {"pack": pack, "gear": gear, "load": load.max(), "capacity": most, "need": need}
     first = float(slip[max(int(np.searchsorted(time, start, side="right")) - 1, 0)])
     if engages and handed and left > 0.0:
@@ -97,7 +97,7 @@ def _weak(
             what = gear if need > most else "the inertia phase"
             text = warning("weak", what=what, **words)
             text += warning("weak_phase", most=ends, slip=abs(first), left=left)
-            return text + warning("weak_cure", times=RESERVE * ends / most)
+            return text + warning("weak_cure", times=RESERVE * max(ends, need) / most)
     if need <= most:
         return None
     return warning("weak", what=gear, **words) + warning("weak_cure", times=RESERVE * need / most)

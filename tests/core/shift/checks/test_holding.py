@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from scene_runs import changed, instances, slow_without_jit
+from scene_runs import NOMINAL, changed, instances, slow_without_jit
 
 from thrustwasher.errors import SolveError
 from thrustwasher.shift import cosimulate, load_scene
@@ -42,7 +42,7 @@ def test_lock_up_is_the_last_lock_after_which_the_pack_holds(times, lock):
 
 @slow_without_jit
 def test_figures_and_phases_follow_the_lock_up_that_holds(tmp_path):
-    result = run(tmp_path, '[engine]\nspeed = "-1000 rpm"\n')
+    result = run(tmp_path, NOMINAL.replace("[engine]", '[engine]\nspeed = "-1000 rpm"'))
     locks = [e.time for e in result.events if e.kind == "clutch_locked"]
     f = result.figures
     assert len(locks) > 1 and f["lock_time"] == locks[-1]
@@ -74,8 +74,7 @@ def test_a_pack_let_go_at_the_end_held_until_then(tmp_path):
 
 @slow_without_jit
 def test_a_late_clutch_leaves_the_engine_free_and_says_so(tmp_path):
-    text = '[pressure.clutch]\nfill_volume = 1e-4\nfill_flow = "10 l/min"\n'
-    result = run(tmp_path, text)
+    result = run(tmp_path, NOMINAL + 'fill_volume = 1e-4\nfill_flow = "10 l/min"\n')
     [line] = [w for w in result.warnings if "neither pack is pressed" in w]
     assert "flares by 287.9" in line
 

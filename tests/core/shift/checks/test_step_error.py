@@ -49,7 +49,7 @@ def test_a_step_that_is_too_long_is_told_with_one_that_does():
 
 
 def test_the_longest_step_is_a_twentieth_of_the_shift_or_of_what_follows_its_ramp():
-    assert load_scene("planetary").longest_step == pytest.approx(0.87 / 20.0)
+    assert load_scene("planetary").longest_step == pytest.approx(1.1 / 20.0)
     scene = load_scene("brake-test")
     assert scene.longest_step == pytest.approx((1.6 - 0.1) / 20.0)
     jump = replace(load_scene("msl"), shift_duration=0.0)

@@ -198,8 +198,9 @@ function weakPack({ about, shift, time, signals, until, handed }, pack) {
     if (full && other[i] <= 0 && Math.abs(slip[i]) > standstill) slips.push(i);
   }
   if (!slips.length || grip === null) return null;
-  const keeps = median(slips.map((i) => engine * own("drive_torque")[i] + output * own("shaft_torque")[i])),
-    [need, gear] = [Math.abs(keeps), gears[pack]],
+  const torque = slips.map((i) => engine * own("drive_torque")[i] + output * own("shaft_torque")[i]),
+    keeps = torque.reduce((sum, x) => sum + x, 0) / torque.length,
+    [need, gear] = [Math.max(...torque.map(Math.abs)), gears[pack]],
     left = time[slips[slips.length - 1]] - time[slips[0]],
     words = { pack, gear, load: greatest, capacity, need };
   if (engages && handed && left > 0) {
@@ -210,7 +211,7 @@ function weakPack({ about, shift, time, signals, until, handed }, pack) {
       return [
         ["weak", { what, ...words }],
         ["weak_phase", { most, slip: Math.abs(begins), left }],
-        ["weak_cure", { times: (reserve * most) / capacity }],
+        ["weak_cure", { times: (reserve * Math.max(most, need)) / capacity }],
       ];
     }
   }

@@ -73,7 +73,7 @@ EVEN = {f"table_friction_{n}": 0.1 for n in range(6)}
     "law", [{"friction_law": "constant", "constant_friction": 0.1}, EVEN], ids=["constant", "table"]
 )
 def test_a_coefficient_that_was_given_is_that_of_any_temperature(law, fidelity):
-    """mu n F (ro + ri)/2 = 0.1 x 8 x 2650.72 N x 56.25 mm; 0.22.0 had 107.35 hot, 128.35 cold."""
+    """mu n F (ro + ri)/2 = 0.1 x 8 x 2650.72 N x 56.25 mm; before 107.35 hot, 128.35 cold."""
     pack = ClutchParams(**TEXTBOOK, **law, **({"constant_friction": 0.1} if law is EVEN else {}))
     for oil, slip in ((253.15, 0.0), (297.15, 0.0), (353.15, 3.0), (453.15, 0.0)):
         r = solve_clutch(pack, load=2650.72, speed=slip, oil_temperature=oil, fidelity=fidelity)

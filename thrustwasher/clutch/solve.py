@@ -465,6 +465,7 @@ SWEEP = Sweep(
         "oil_energy",
         "advised_step",
         "plant_inertia",
+        "slip_bound",
     ),
     least={"film_ratio": (k.LEAST_RATIO, BEYOND_LAW)},
 )

@@ -10,7 +10,6 @@ from ...tribology.holding import memory as M
 from ...tribology.holding.drag import hold_drag
 from ...tribology.holding.memory import Coupling
 from ...tribology.holding.reversals import chatters
-from ...tribology.holding.torque import knows
 from . import layout as L
 from .constants import broken_rule as broken_rule
 from .constants import derive as derive
@@ -122,13 +121,12 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
     else:
         _changes(par, torque, speed, oil, work, seed, dout)
     mem, own = state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY], work[L.F_TORQUE]
-    if knows(coupling_of(par), mem, mem[M.STEP]) and speed != mem[M.SLIP]:
-        given, holds, slope = hold_drag(coupling_of(par), mem, speed, 0.0, own, capacity_of(work))
-        if holds:
-            less = dout[L.F_POWER]
-            dout[L.F_TORQUE] = slope * seed[L.I_SPEED]
-            dout[L.F_POWER] = dout[L.F_TORQUE] * speed + given * seed[L.I_SPEED]
-            dout[L.F_OIL_HEAT] += dout[L.F_POWER] - less
+    given, less, slope = hold_drag(coupling_of(par), mem, speed, 0.0, own, capacity_of(work))
+    if less and own != 0.0:
+        rise, before = given / own * dout[L.F_TORQUE] + slope * seed[L.I_SPEED], dout[L.F_POWER]
+        dout[L.F_TORQUE] = rise
+        dout[L.F_POWER] = rise * speed + given * seed[L.I_SPEED]
+        dout[L.F_OIL_HEAT] += dout[L.F_POWER] - before
     return OK if are_finite(dout) else NOT_FINITE
 
 

@@ -70,5 +70,13 @@ class Unit:
         return self.scale * float(self.out[L.O_PLANT_INERTIA])
 
     @property
+    def bound(self):
+        return float(self.out[L.O_SLIP_BOUND])
+
+    @property
+    def status(self):
+        return Status(self.iout[L.IO_STATUS])
+
+    @property
     def age(self):
         return int(self.iout[L.IO_PLANT_AGE])

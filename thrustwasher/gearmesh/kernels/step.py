@@ -7,7 +7,7 @@ from ...numerics.jit import Array, Ints, kernel
 from ...numerics.smoothing import floored, floored_slope, soft_size, soft_size_slope
 from ...numerics.status import BAD_INPUT, CHATTER, NOT_FINITE, OK
 from ...tribology.holding import memory as M
-from ...tribology.holding.drag import hold_drag
+from ...tribology.holding.drag import hold_drag, slope_of_share
 from ...tribology.holding.memory import Coupling
 from ...tribology.holding.reversals import chatters
 from . import layout as L
@@ -88,9 +88,7 @@ def step(
         status = NOT_FINITE
     mem = state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY]
     if status < 10:
-        given, _, _ = hold_drag(
-            coupling_of(par), mem, speed, dt, work[L.F_TORQUE], capacity_of(work)
-        )
+        given, _ = hold_drag(coupling_of(par), mem, speed, dt, work[L.F_TORQUE], capacity_of(work))
         less = (given - work[L.F_TORQUE]) * speed  # of heat than sliding would make
         out[L.F_TORQUE], out[L.F_POWER] = given, given * speed
         out[L.F_OIL_HEAT] += less
@@ -121,9 +119,11 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
     else:
         _changes(par, torque, speed, oil, work, seed, dout)
     mem, own = state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY], work[L.F_TORQUE]
-    given, less, slope = hold_drag(coupling_of(par), mem, speed, 0.0, own, capacity_of(work))
-    if less and own != 0.0:
-        rise, before = given / own * dout[L.F_TORQUE] + slope * seed[L.I_SPEED], dout[L.F_POWER]
+    way, capacity = coupling_of(par), capacity_of(work)
+    given, share = hold_drag(way, mem, speed, 0.0, own, capacity)
+    if share != 1.0:
+        slope = slope_of_share(way, mem, speed, 0.0, capacity)
+        rise, before = share * dout[L.F_TORQUE] + own * slope * seed[L.I_SPEED], dout[L.F_POWER]
         dout[L.F_TORQUE] = rise
         dout[L.F_POWER] = rise * speed + given * seed[L.I_SPEED]
         dout[L.F_OIL_HEAT] += dout[L.F_POWER] - before

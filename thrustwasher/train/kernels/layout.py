@@ -1,6 +1,7 @@
 """Where each number of the gear train lies in its arrays."""
 
 from ...gearmesh.kernels import layout as G
+from ...tribology.holding.memory import N_MEMORY
 
 MESHES, SHAFTS, ENDS = 3, 4, 2  # at most; bearings of a shaft
 PUSHES = 2  # at most: forces from outside on a shaft
@@ -79,9 +80,10 @@ D_NU_40 = D_STARVED + SHAFTS * ENDS
 D_PAIR = D_NU_40 + 1
 NPAR = D_PAIR + MESHES * G.NPAR
 I_TORQUE, I_SPEED, I_OIL, NINP = range(4)
-# Memory: the pairs' own, heat into the oil [J].
+# Memory: the pairs' own, heat into the oil [J], what the drag remembers of the first shaft.
 S_ENERGY = MESHES * G.NSTATE
-NSTATE = S_ENERGY + 1
+S_MEMORY = S_ENERGY + 1
+NSTATE = S_MEMORY + N_MEMORY
 (
     O_LOSS_TORQUE,
     O_OUTPUT_TORQUE,

@@ -1,71 +1,51 @@
 # mypy: disable-error-code="no-any-return"
 """Friction that drags on a shaft: of a washer, of teeth, of bearings.
 
-It is small beside what else holds the shaft, and asks nothing. Near rest its torque rises over a
-speed w in which it cannot chatter: C/w <= 1/(4 b H), b the largest 1/J that the speed's answers do
-not exclude. All of the torque counts for that: it is good enough for a bound, though it proves no
-plant. Before there are enough answers w doubles where the torque reverses, and narrows after a
-while without. A shaft that is held by nothing else creeps: by less than w.
+It is small beside what else holds the shaft, and asks nothing. Near rest its torque C rises over a
+speed w wide enough not to chatter: C/w <= J/(4 H). With the inertia J given that is w; else w
+doubles where the speed and the torque reverse, again within some steps, and narrows once the shaft
+has left rest. A shaft that nothing else holds creeps under a load: by about w times its share of C.
 """
 
 import math
 
-import numpy as np
-
 from ...numerics.jit import Array, kernel
+from ...numerics.smoothing import sign_of
 from . import memory as M
 from .memory import Coupling
-from .plant import ENOUGH, EXCITED, KEPT, N_AGES, ROUNDING, SEEN, largest_answer
 from .reversals import watch
 from .torque import note
 
-FLAT = 0.25  # of 1/(b H): the steepest rise of the torque
-LEAST = 1e-4  # of the largest speed: w before anything is known
+FLAT = 0.25  # of J/H: the steepest rise of the torque
+LEAST = 1e-4  # of the largest speed: w where nothing has reversed and there is no own one
+SWUNG = 0.1  # of the capacity: a torque that differs less from its mean has not swung
+FOLLOWS = 0.05  # of the mean, in a step
 WIDER, NARROWER = 2.0, 0.9
-LONG = 20.0  # steps without a reversal
+AGAIN = 20.0  # steps within which a reversal follows another one
+LEFT = 3.0  # times w: a shaft that is faster for so long has left rest
 
 
 @kernel
-def _learn(mem: Array, speed: float) -> None:
-    """Take in the speed [rad/s] at the start of a step: what it may answer to the torque."""
-    if mem[M.COUNT] < SEEN + 1.0:
-        return
-    rate_1 = (mem[M.SLIP] - mem[M.SLIP + 1]) / mem[M.STEP + 1]
-    rate_2 = (mem[M.SLIP + 1] - mem[M.SLIP + 2]) / mem[M.STEP + 2]
-    y = (speed - mem[M.SLIP]) / mem[M.STEP] - 2.0 * rate_1 + rate_2
-    if abs(y) * mem[M.STEP] < ROUNDING * mem[M.MOST_SLIP]:
-        y = 0.0
-    most = 0.0
-    for d in range(N_AGES):
-        at = M.TORQUE + d
-        x = mem[np.uintp(at)] - 2.0 * mem[np.uintp(at + 1)] + mem[np.uintp(at + 2)]
-        most = max(most, abs(x))
-    if not most > EXCITED * mem[M.MOST_CAPACITY]:
-        return
-    for d in range(N_AGES):
-        at = M.TORQUE + d
-        x = mem[np.uintp(at)] - 2.0 * mem[np.uintp(at + 1)] + mem[np.uintp(at + 2)]
-        mem[np.uintp(M.ZZ + d)] = KEPT * mem[np.uintp(M.ZZ + d)] + x * x
-        mem[np.uintp(M.ZY + d)] = KEPT * mem[np.uintp(M.ZY + d)] - x * y
-    mem[M.YY] = KEPT * mem[M.YY] + y * y
-    mem[M.WEIGHT] = KEPT * mem[M.WEIGHT] + 1.0
-
-
-@kernel
-def _notice(mem: Array, speed: float, capacity: float) -> None:
-    """Take in the speed at the start of a step, and widen or narrow w."""
+def _notice(mem: Array, speed: float, capacity: float, own: float) -> None:
+    """Take in the speed [rad/s] at the start of a step, and widen or narrow w."""
     mem[M.MOST_SLIP] = max(mem[M.MOST_SLIP], abs(speed))
     watch(mem, speed, capacity, True)
-    _learn(mem, speed)
-    least = LEAST * mem[M.MOST_SLIP]
-    mem[M.CALM] += 1.0
-    if mem[M.REVERSES] > 0.0:
+    swing, turned = mem[M.TORQUE] - mem[M.MEAN], False
+    mem[M.MEAN] += FOLLOWS * swing
+    if abs(swing) > SWUNG * capacity:
+        turned = swing * mem[M.LEANS] < 0.0
+        mem[M.LEANS] = sign_of(swing)
+    if turned:
+        if mem[M.CALM] <= AGAIN and mem[M.COUNT] > AGAIN:
+            mem[M.WIDTH] *= WIDER
         mem[M.CALM] = 0.0
-        if mem[M.WEIGHT] < ENOUGH:
-            mem[M.WIDTH] = WIDER * max(mem[M.WIDTH], least)
-    elif mem[M.CALM] > LONG or mem[M.WEIGHT] >= ENOUGH:
-        mem[M.WIDTH] *= NARROWER
-    mem[M.WIDTH] = max(mem[M.WIDTH], least)
+    elif abs(speed) < LEFT * mem[M.WIDTH]:
+        mem[M.CALM] = min(mem[M.CALM] + 1.0, AGAIN + 1.0)
+    else:
+        mem[M.CALM] += 1.0
+        if mem[M.CALM] > 2.0 * AGAIN:
+            mem[M.WIDTH] *= NARROWER
+    mem[M.WIDTH] = max(mem[M.WIDTH], own if own > 0.0 else LEAST * mem[M.MOST_SLIP])
 
 
 @kernel
@@ -74,22 +54,49 @@ def width_of(coupling: Coupling, mem: Array, h: float, capacity: float) -> float
     mode, inertia, _, own, _ = coupling
     if mode == M.OFF:
         return own
-    answer, width = largest_answer(mem), mem[M.WIDTH]
     if mode == M.GIVEN:
-        answer, width = 1.0 / inertia, 0.0
-    return max(max(own, width), answer * max(h, mem[M.STEP]) * capacity / FLAT)
+        return max(own, max(h, mem[M.STEP]) * capacity / (inertia * FLAT))
+    return max(own, mem[M.WIDTH])
+
+
+@kernel
+def share_of(coupling: Coupling, mem: Array, speed: float, h: float, capacity: float) -> float:
+    """Return the torque over that of sliding, which has risen over its own width."""
+    own, width = coupling[3], width_of(coupling, mem, h, capacity)
+    if not width > own:
+        return 1.0
+    if speed == 0.0:
+        return own / width
+    full = math.tanh(abs(speed) / own) if own > 0.0 else 1.0
+    return math.tanh(abs(speed) / width) / full
+
+
+@kernel
+def slope_of_share(
+    coupling: Coupling, mem: Array, speed: float, h: float, capacity: float
+) -> float:
+    """Return the slope of that share over the speed [s/rad]."""
+    own, width = coupling[3], width_of(coupling, mem, h, capacity)
+    if not width > own or speed == 0.0:
+        return 0.0
+    full, by_own = 1.0, 0.0
+    if own > 0.0:
+        full = math.tanh(abs(speed) / own)
+        by_own = (1.0 - full) * (1.0 + full) / own
+    risen = math.tanh(abs(speed) / width)
+    by_width = (1.0 - risen) * (1.0 + risen) / width
+    return sign_of(speed) * (by_width - risen / full * by_own) / full
 
 
 @kernel
 def hold_drag(
     coupling: Coupling, mem: Array, speed: float, dt: float, torque: float, capacity: float
-) -> tuple[float, bool, float]:
-    """Return the torque to apply [N m], if it is less than that of sliding, its further slope.
+) -> tuple[float, float]:
+    """Return the torque to apply [N m], and its share of that of sliding.
 
-    ``torque`` is that of sliding at this speed [rad/s], risen over the own width, ``capacity`` its
-    size once it has risen, 0 at rest: there that of the last step counts. The share of the torque
-    grows with the speed; torque times this slope is the third number. With ``dt`` > 0 [s] all goes
-    to the memory.
+    ``torque`` is that of sliding at this speed [rad/s], risen over its own width, ``capacity`` its
+    size once it has risen, 0 at rest: there that of the last step counts. With ``dt`` > 0 [s] all
+    goes to the memory.
     """
     mode, _, _, own, _ = coupling
     if speed == 0.0:
@@ -99,18 +106,9 @@ def hold_drag(
             watch(mem, speed, capacity, False)
             mem[M.MOST_SLIP] = max(mem[M.MOST_SLIP], abs(speed))
         else:
-            _notice(mem, speed, capacity)
-    given, less, slope = torque, False, 0.0
-    width = width_of(coupling, mem, dt, capacity)
-    if width > own and speed != 0.0:
-        size, full, by_own = abs(speed), 1.0, 0.0
-        if own > 0.0:
-            full = math.tanh(size / own)
-            by_own = (1.0 - full) * (1.0 + full) / own
-        risen = math.tanh(size / width)
-        by_width = (1.0 - risen) * (1.0 + risen) / width
-        given, less = torque * risen / full, True
-        slope = torque * math.copysign(1.0, speed) * (by_width - risen / full * by_own) / full
+            _notice(mem, speed, capacity, own)
+    share = share_of(coupling, mem, speed, dt, capacity)
+    given = torque if share == 1.0 else share * torque
     if dt > 0.0:
         note(coupling, mem, speed, dt, given, 0.0, capacity, False)
-    return given, less, slope
+    return given, share

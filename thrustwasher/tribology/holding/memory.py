@@ -41,26 +41,12 @@ torque there are sums of the least squares, and the work of the torques.
     SWING,  # largest change of the torque in a step since the slip last reversed [N m]
     REVERSALS,  # of late
     REVERSES,  # it does so in this step
-    REVERSES,  # it does so in this step
-    REVERSES,  # it does so in this step
-    REVERSES,  # it does so in this step
-    REVERSES,  # it does so in this step
     REVERSED,  # times of the last four [s]
     CHATTER,  # until this step
     WIDTH,  # slip over which the torque of a unit that never asks rises [rad/s]
-    CALM,  # steps since its torque last reversed
-    CHATTER,  # until this step
-    WIDTH,  # slip over which the torque of a unit that never asks rises [rad/s]
-    CALM,  # steps since its torque last reversed
-    CHATTER,  # until this step
-    WIDTH,  # slip over which the torque of a unit that never asks rises [rad/s]
-    CALM,  # steps since its torque last reversed
-    CHATTER,  # until this step
-    WIDTH,  # slip over which the torque of a unit that never asks rises [rad/s]
-    CALM,  # steps since its torque last reversed
-    CHATTER,  # until this step
-    WIDTH,  # slip over which the torque of a unit that never asks rises [rad/s]
-    CALM,  # steps since its torque last reversed
+    CALM,  # steps since its torque last swung to the other side
+    MEAN,  # of its torque, fading [N m]
+    LEANS,  # sign of its last swing from that
     AMPLITUDE,  # largest slip of the last three half swings, fading
     CLOCK,  # s
     REPEATED,  # steps over which the slip was the same to the bit, now, then at last
@@ -83,9 +69,8 @@ torque there are sums of the least squares, and the work of the torques.
     N_MEMORY,
 ) = (
     *(0, 1, 6, 11, 16, 21, 24, 27, 30, 33, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46),
-    *(47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 70),
-    *(71, 72, 73, 74, 75, 76, 77, 78, 79, 80, 81, 82, 83, 84, 85, 88, 89, 91, 92, 93, 94),
-    *(95, 96, 97, 98, 99, 104, 105, 106, 107, 108, 109, 110, 118),
+    *(47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 66, 67, 68, 69, 70),
+    *(71, 74, 75, 77, 78, 79, 80, 81, 82, 83, 84, 85, 90, 91, 92, 93, 94, 95, 96, 104),
 )
 
 IDENTIFIED, GIVEN, OFF = 1, 2, 3  # how it holds

@@ -5,15 +5,43 @@ While nobody knows when a torque acts, the power counts that it had where it was
 rule), in the first steps the least that any age would have made. The work of each age is kept
 beside it. Once the age is known the difference is owed, and paid by heat to come: heat never
 falls. Negative work is a debt that positive work pays first.
+
+The torque of the initialization may have acted over the first steps, or not: their slip tells.
 """
 
 import numpy as np
 
 from ...numerics.jit import Array, kernel
+from ...numerics.smoothing import sign_of
 from . import memory as M
 from .plant import N_AGES
 
 PENDING = 12.0  # steps from the start, in which the age is likely to be found
+
+
+@kernel
+def _note_first(mem: Array, slip: float) -> None:
+    """Note rates and turns of the first three steps; the torque that was given before them."""
+    n = int(mem[M.COUNT])
+    if n == 1:
+        mem[M.FIRST] = sign_of(mem[M.SLIP]) * mem[M.CAPACITY]
+        mem[M.FIRST + 1] = mem[M.TORQUE]
+    mem[np.uintp(M.FIRST + 1 + n)] = (slip - mem[M.SLIP]) / mem[M.STEP]
+    mem[np.uintp(M.FIRST + 4 + n)] = 0.5 * (mem[M.SLIP] + slip) * mem[M.STEP]
+
+
+@kernel
+def _before_the_start(mem: Array, age: int, inertia: float) -> None:
+    """Count the torque of the initialization where the slip of the first steps says it acted."""
+    first = mem[M.FIRST]
+    mem[M.FIRST] = 0.0
+    for k in range(age):  # step k, over which the torque of step k - age acts
+        rates = mem[np.uintp(M.FIRST + 2 + k)] - mem[np.uintp(M.FIRST + 2 + age)]
+        acted = mem[M.FIRST + 1] - inertia * rates
+        if abs(acted - first) < abs(acted):
+            made = first * mem[np.uintp(M.FIRST + 5 + k)]
+            mem[np.uintp(M.WORK + age)] += made
+            mem[M.OWED] -= made
 
 
 @kernel
@@ -35,6 +63,10 @@ def book(mem: Array, slip: float, age: int, inertia: float) -> None:
     turned = 0.5 * (mem[M.SLIP] + slip) * mem[M.STEP]
     for k in range(N_AGES):
         mem[np.uintp(M.WORK + k)] += mem[np.uintp(M.TORQUE + k)] * turned
+    if mem[M.COUNT] <= 3.0:
+        _note_first(mem, slip)
+    elif age > 0 and mem[M.FIRST] != 0.0:
+        _before_the_start(mem, age, inertia)
     if age < 0:
         made = 0.5 * (mem[M.STEP] + mem[M.STEP + 1]) * abs(mem[M.TORQUE] * mem[M.SLIP])
         mem[M.WORK + N_AGES] += made

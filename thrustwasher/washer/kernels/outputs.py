@@ -6,7 +6,7 @@ from ...numerics.arrays import are_finite
 from ...numerics.jit import Array, Ints, inlined, kernel
 from ...numerics.smoothing import sign_of
 from ...numerics.status import CHATTER, NOT_FINITE, OK
-from ...tribology.holding.drag import hold_drag
+from ...tribology.holding.drag import hold_drag, slope_of_share
 from ...tribology.holding.memory import Coupling
 from ...tribology.holding.reversals import chatters
 from . import layout as L
@@ -293,7 +293,7 @@ def hold_outputs(
     holds.
     """
     torque = out[L.O_TORQUE]
-    given, _, _ = hold_drag(way, mem, speed, dt, torque, abs(torque))
+    given, _ = hold_drag(way, mem, speed, dt, torque, abs(torque))
     if given != torque:
         if torque != 0.0:
             share = abs(given / torque)
@@ -336,9 +336,10 @@ def hold_slopes(
     ``change`` of the speed; ``own``: outputs of sliding.
     """
     torque = own[L.O_TORQUE]
-    given, less, slope = hold_drag(way, mem, speed, 0.0, torque, abs(torque))
-    if less and torque != 0.0:
-        rise, before = given / torque * dout[L.O_TORQUE] + slope * change, dout[L.O_POWER]
+    given, share = hold_drag(way, mem, speed, 0.0, torque, abs(torque))
+    if share != 1.0 and torque != 0.0:
+        slope = slope_of_share(way, mem, speed, 0.0, abs(torque))
+        rise, before = share * dout[L.O_TORQUE] + torque * slope * change, dout[L.O_POWER]
         _hold_changes(own, given, rise, dout)
         dout[L.O_TORQUE] = rise
         dout[L.O_POWER] = rise * speed + given * change

@@ -153,3 +153,22 @@ def test_a_state_from_the_middle_of_asking_goes_on_to_the_same_bits():
             assert other.step(slip, case.host, case.loads[n]) == torque
             assert other.state.tobytes() == one.state.tobytes()
         slip -= case.host * torque / case.inertia
+
+
+@pytest.mark.parametrize("delay", [0, 1, 2])
+@pytest.mark.parametrize("passed", [True, False])
+def test_the_torque_of_the_initialization_counts_where_it_acted(passed, delay):
+    """Two shafts and no outside torque: all that they lose, J s^2/2, is heat."""
+    inertia, torque, slip, h = 0.1, 50.0, 200.0, 1e-3
+
+    class Case:
+        gain, loads = torque, (1.0,)
+
+    unit = Unit(Case())
+    first = torque if passed else 0.0  # what a host has before the first step
+    waiting, whole = [first] * delay, 0.5 * inertia * slip**2
+    for _ in range(600):
+        waiting.append(unit.step(slip, h, 1.0))
+        slip -= h * waiting.pop(0) / inertia
+    assert abs(slip) < 1e-9 and unit.locked
+    assert unit.energy == pytest.approx(whole, rel=1e-12)

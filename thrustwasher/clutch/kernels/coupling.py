@@ -20,10 +20,10 @@ from ...tribology.holding.torque import (
     bound_of,
     decide,
     expected,
-    inertia_of,
     is_locked,
     note,
     notice,
+    shown_inertia,
     slope_of_bound,
 )
 from ...tribology.holding.work import foreseen
@@ -158,7 +158,7 @@ def answer(
         locked = is_locked(way, mem)
     else:
         locked = holds and abs(slip) <= bound and is_locked(way, last)
-    out[L.O_PLANT_INERTIA], out[L.O_SLIP_BOUND] = inertia_of(way, mem), bound
+    out[L.O_PLANT_INERTIA], out[L.O_SLIP_BOUND] = shown_inertia(way, mem), bound
     iout[L.IO_PLANT_AGE], iout[L.IO_LOCKED] = age_of(way, mem), 1 if locked else 0
     iout[L.IO_LOCK_BASIS] = basis_of(way, locked)
 

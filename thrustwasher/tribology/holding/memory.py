@@ -27,6 +27,7 @@ torque there are sums of the least squares, and the work of the torques.
     TURN,  # place in the code
     REGISTER,  # its shift register
     ASKED,  # steps near zero with a code in this engagement
+    TOLD,  # step in which it asked for the last time that costs nothing
     CLOSED,  # steps of this engagement
     SPENT,  # heat that was not made for asking [J]
     AWAY,  # steps since the slip was near zero
@@ -35,7 +36,7 @@ torque there are sums of the least squares, and the work of the torques.
     OUTSIDE,  # acceleration of the slip by all other torques [rad/s2]
     DOUBT,
     REFUSED,  # 1: the values that were given are refuted in this engagement
-    CAREFUL,  # 1: what was given ends the slip in part
+    CAREFUL,  # 1: what was given ends the slip in part; 2: an answer refuted it
     STUCK,  # the pack was stuck at the start
     SIGN,  # of the slip
     SWING,  # largest change of the torque in a step since the slip last reversed [N m]
@@ -69,12 +70,13 @@ torque there are sums of the least squares, and the work of the torques.
     N_MEMORY,
 ) = (
     *(0, 1, 6, 11, 16, 21, 24, 27, 30, 33, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46),
-    *(47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 66, 67, 68, 69, 70),
-    *(71, 74, 75, 77, 78, 79, 80, 81, 82, 83, 84, 85, 90, 91, 92, 93, 94, 95, 96, 104),
+    *(47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, 67, 68, 69, 70),
+    *(71, 72, 75, 76, 78, 79, 80, 81, 82, 83, 84, 85, 86, 91, 92, 93, 94, 95, 96, 97),
+    105,
 )
 
 IDENTIFIED, GIVEN, OFF = 1, 2, 3  # how it holds
-NOT_LOCKED, ASKED_FOR, TOLD, TRUSTED = range(4)  # what a lock rests on
+NOT_LOCKED, BY_ASKING, BY_GIVEN, BY_TRUST = range(4)  # what a lock rests on
 
 # How a unit holds: one of these; inertia [kg m2] and age, if given; the slip [rad/s] over which its
 # torque rises where nothing is held; if it may ask.

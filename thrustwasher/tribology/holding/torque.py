@@ -24,9 +24,10 @@ import numpy as np
 
 from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import sign_of
-from ...numerics.status import CHATTER, REFUTED, SPEED_REPEATS, UNANSWERED
+from ...numerics.status import CHATTER, OK, REFUTED, SPEED_REPEATS, UNANSWERED
 from . import memory as M
 from .asking import (
+    DEEPEST,
     FIRST_STEPS,
     FREE,
     NEAR,
@@ -49,7 +50,8 @@ LASTS = 0.995  # of the longest step, at each step
 SMOOTH = 1e-3  # of the largest slip: over which the torque of an unknown plant rises, at least
 FEW, ALL = 0.03, 1.0  # of the last swings: at most; where the plant is nearly proved
 NEARLY = 7.0  # standard deviations of an answer
-START = 0.02  # of the capacity: what a pack that is stuck at the start gives more in each step
+START = 0.01  # of the capacity: what a pack that is stuck at the start gives more in each step
+BACK = 0.5  # of the last torque: what it gives at most when the slip reverses
 FULL = 0.5  # of the capacity: one that gives it is stuck no more
 VAGUE, BADLY = 0.03, 0.15  # relative error of the inertia: above it the slip is ended in part
 STEADY, CAREFUL, SLOWEST = 1.0, 0.5, 0.3  # share of the slip that is ended in a step
@@ -58,6 +60,8 @@ REACH = 4.0  # steps of the last kind in which a slip that is to be ended must b
 STRANGE = 0.05  # of the slip that capacity makes in a step: what outside torques may leave
 LARGE = 0.05  # of the largest slip: more is not held
 SMALL = 1e-3  # of the largest slip: a pack that slips by less is locked
+ANSWERS, SAID = 4.0, 34.0  # steps after the last question: an answer may come, it is told
+ANSWERED = 2.0  # what was given is refuted by an answer: the driveline is another one
 OFTEN = 5.0  # times that the slip came to the bit again, over the same number of steps: it is held
 MANY = 3.5  # reversals of late
 
@@ -92,6 +96,14 @@ def inertia_of(coupling: Coupling, mem: Array) -> float:
 
 
 @kernel
+def shown_inertia(coupling: Coupling, mem: Array) -> float:
+    """Return the same; where the one given was refuted, the one that was seen then."""
+    if coupling[0] == M.GIVEN and mem[M.REFUSED] > 0.0:
+        return mem[M.INERTIA]
+    return inertia_of(coupling, mem)
+
+
+@kernel
 def bound_of(coupling: Coupling, mem: Array, capacity: float, h: float) -> float:
     """Return the slip [rad/s] within which a pack is called locked."""
     inertia, bound = inertia_of(coupling, mem), SMALL * mem[M.MOST_SLIP]
@@ -122,8 +134,8 @@ def basis_of(coupling: Coupling, locked: bool) -> int:
     if not locked:
         return M.NOT_LOCKED
     if mode == M.GIVEN:
-        return M.TOLD if probing else M.TRUSTED
-    return M.ASKED_FOR
+        return M.BY_GIVEN if probing else M.BY_TRUST
+    return M.BY_ASKING
 
 
 @kernel
@@ -158,10 +170,11 @@ def book_heat(coupling: Coupling, mem: Array, slip: float) -> None:
 @kernel
 def refuse(coupling: Coupling, mem: Array) -> None:
     """Forget the plant, or refuse the one that was given until the pack was open."""
-    forget(mem)
     if coupling[0] == M.GIVEN:
-        mem[M.REFUSED] = 1.0
+        mem[M.REFUSED], mem[M.CAREFUL] = 1.0, ANSWERED if mem[M.KNOWN] > 0.0 else 0.0
+        mem[M.KNOWN] = mem[M.DOUBT] = mem[M.HELD] = 0.0
     else:
+        forget(mem)
         mem[M.TURN] = 0.0
     mem[M.HEAT_AGE] = 0.0
     for k in range(N_AGES + 2):
@@ -269,10 +282,17 @@ def _of_unknown(
     swing = max(mem[M.AMPLITUDE], max(mem[M.AMPLITUDE + 1], mem[M.AMPLITUDE + 2]))
     wide = ALL if mem[M.PROOF] > NEARLY and mem[M.REVERSALS] > 1.0 else FEW
     broad = 4.0 * (1.0 + mem[M.REVERSALS]) * largest_answer(mem) * capacity * h
+    if mem[M.REFUSED] > 0.0 and mem[M.CAREFUL] == ANSWERED:
+        width = max(width, broad)
     width = max(max(width, min(wide * swing, broad)), 1e-300)
     share = math.tanh(slip / width)
     if mem[M.STUCK] > 0.0 and mem[M.COUNT] > 0.0 and capacity > 0.0:
-        most = 2.0 * abs(mem[M.TORQUE]) / capacity + START
+        last = abs(mem[M.TORQUE]) / capacity
+        most = 2.0 * last + START
+        if share * mem[M.TORQUE] < 0.0:
+            most = BACK * last + BACK * START
+        elif abs(slip) < abs(mem[M.SLIP]):
+            most = last + BACK * START
         if abs(share) > most:
             return math.copysign(most, share), 0.0
         if abs(share) > FULL:
@@ -335,15 +355,19 @@ def _slide(
     if near and from_afar and not given:
         forget(mem)  # it may be another plant by now
     mem[M.AWAY] = 0.0 if near else mem[M.AWAY] + 1.0
-    if not probing or mem[M.REFUSED] > 0.0 or mem[M.STUCK] > 0.0 or (given and not near):
+    if not probing or mem[M.REFUSED] > 0.0 or (given and not near):
         return share, slope, 0.0
     proved = mem[M.KNOWN] > 0.0 and mem[M.ERROR] <= SURE
     depth = share_asked(mem, slip, near, proved, given)
+    if mem[M.STUCK] > 0.0 and depth > 0.0:
+        depth = DEEPEST  # of a torque that is small yet
     if depth == 0.0:
         return share, slope, 0.0
     bit = next_bit(mem)
     if near:
         mem[M.ASKED] += 1.0
+        if mem[M.ASKED] == FREE:
+            mem[M.TOLD], mem[M.STUCK] = mem[M.COUNT], 0.0
     if mem[M.ASKED] > FREE:
         mem[M.SPENT] += depth * bit * abs(share * capacity * slip) * h
     rest = 1.0 - depth * bit
@@ -388,5 +412,6 @@ def told_of(coupling: Coupling, mem: Array, advice: int) -> int:
     if mem[M.REPEATS] >= OFTEN:
         return SPEED_REPEATS
     if coupling[0] == M.IDENTIFIED and is_deaf(mem):
-        return UNANSWERED
+        since = mem[M.COUNT] - mem[M.TOLD]
+        return UNANSWERED if advice == OK and ANSWERS < since < SAID else advice
     return CHATTER if chatters(mem) else advice

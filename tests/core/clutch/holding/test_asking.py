@@ -125,7 +125,7 @@ def test_a_pack_says_why_it_does_not_hold():
     for n in range(400):
         deaf.step(20.0 * np.cos(0.1 * n), 1e-3, LOAD)
         held.step(20.0 * np.cos(0.1 * (n // 10 * 10) ** 1.01) + 30.0, 1e-3, LOAD)
-    assert deaf.status == Status.UNANSWERED
+    assert deaf.told == {Status.OK, Status.UNANSWERED} and deaf.status == Status.OK
     assert held.status == Status.SPEED_REPEATS
     assert held.out[L.O_ADVISED] == pytest.approx(1e-2)
 

@@ -7,7 +7,7 @@ from ...numerics.jit import Array, Ints, kernel
 from ...numerics.smoothing import floored, floored_slope, soft_size, soft_size_slope
 from ...numerics.status import BAD_INPUT, CHATTER, NOT_FINITE, OK
 from ...tribology.holding import memory as M
-from ...tribology.holding.drag import hold_drag, slope_of_share
+from ...tribology.holding.drag import hold_drag, slope_of_share, slope_over_capacity
 from ...tribology.holding.memory import Coupling
 from ...tribology.holding.reversals import chatters
 from . import layout as L
@@ -122,8 +122,14 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
     way, capacity = coupling_of(par), capacity_of(work)
     given, share = hold_drag(way, mem, speed, 0.0, own, capacity)
     if share != 1.0:
-        slope = slope_of_share(way, mem, speed, 0.0, capacity)
-        rise, before = share * dout[L.F_TORQUE] + own * slope * seed[L.I_SPEED], dout[L.F_POWER]
+        by_speed = slope_of_share(way, mem, speed, 0.0, capacity)
+        by_size = slope_over_capacity(way, mem, speed, 0.0, capacity)
+        smooth = work[L.F_SMOOTH_SIGN]
+        if by_size != 0.0:
+            faster = (1.0 - smooth) * (1.0 + smooth) / (smooth * par[L.P_SPEED_SMOOTHING])
+            by_speed -= by_size * faster
+        slope = by_speed * seed[L.I_SPEED]
+        rise, before = (share + by_size) * dout[L.F_TORQUE] + own * slope, dout[L.F_POWER]
         dout[L.F_TORQUE] = rise
         dout[L.F_POWER] = rise * speed + given * seed[L.I_SPEED]
         dout[L.F_OIL_HEAT] += dout[L.F_POWER] - before

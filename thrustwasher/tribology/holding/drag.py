@@ -2,9 +2,10 @@
 """Friction that drags on a shaft: of a washer, of teeth, of bearings.
 
 It is small beside what else holds the shaft, and asks nothing. Near rest its torque C rises over a
-speed w wide enough not to chatter: C/w <= J/(4 H). With the inertia J given that is w; else w
-doubles where the speed and the torque reverse, again within some steps, and narrows once the shaft
-has left rest. A shaft that nothing else holds creeps under a load: by about w times its share of C.
+speed w wide enough not to chatter: C/w <= J/(2 (1 + d) H), d the age of the torque. With J and d
+given that is w; else w doubles where the torque swings to the other side again within some steps,
+and narrows once the shaft has left rest. A shaft that nothing else holds creeps under a load: by
+about w times its share of C.
 """
 
 import math
@@ -16,7 +17,7 @@ from .memory import Coupling
 from .reversals import watch
 from .torque import note
 
-FLAT = 0.25  # of J/H: the steepest rise of the torque
+FLAT = 0.5  # of J/((1 + d) H): the steepest rise of the torque
 LEAST = 1e-4  # of the largest speed: w where nothing has reversed and there is no own one
 SWUNG = 0.1  # of the capacity: a torque that differs less from its mean has not swung
 FOLLOWS = 0.05  # of the mean, in a step
@@ -51,11 +52,11 @@ def _notice(mem: Array, speed: float, capacity: float, own: float) -> None:
 @kernel
 def width_of(coupling: Coupling, mem: Array, h: float, capacity: float) -> float:
     """Return the speed [rad/s] over which the torque rises in a step of ``h`` [s]."""
-    mode, inertia, _, own, _ = coupling
+    mode, inertia, age, own, _ = coupling
     if mode == M.OFF:
         return own
     if mode == M.GIVEN:
-        return max(own, max(h, mem[M.STEP]) * capacity / (inertia * FLAT))
+        return max(own, (1.0 + age) * max(h, mem[M.STEP]) * capacity / (inertia * FLAT))
     return max(own, mem[M.WIDTH])
 
 
@@ -86,6 +87,19 @@ def slope_of_share(
     risen = math.tanh(abs(speed) / width)
     by_width = (1.0 - risen) * (1.0 + risen) / width
     return sign_of(speed) * (by_width - risen / full * by_own) / full
+
+
+@kernel
+def slope_over_capacity(
+    coupling: Coupling, mem: Array, speed: float, h: float, capacity: float
+) -> float:
+    """Return the slope of that share over the logarithm of the capacity."""
+    own, width = coupling[3], width_of(coupling, mem, h, capacity)
+    if coupling[0] != M.GIVEN or not width > own or speed == 0.0:
+        return 0.0
+    full = math.tanh(abs(speed) / own) if own > 0.0 else 1.0
+    risen = math.tanh(abs(speed) / width)
+    return -abs(speed) / width * (1.0 - risen) * (1.0 + risen) / full
 
 
 @kernel

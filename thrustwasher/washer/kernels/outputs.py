@@ -6,7 +6,7 @@ from ...numerics.arrays import are_finite
 from ...numerics.jit import Array, Ints, inlined, kernel
 from ...numerics.smoothing import sign_of
 from ...numerics.status import CHATTER, NOT_FINITE, OK
-from ...tribology.holding.drag import hold_drag, slope_of_share
+from ...tribology.holding.drag import hold_drag, slope_of_share, slope_over_capacity
 from ...tribology.holding.memory import Coupling
 from ...tribology.holding.reversals import chatters
 from . import layout as L
@@ -339,6 +339,7 @@ def hold_slopes(
     given, share = hold_drag(way, mem, speed, 0.0, torque, abs(torque))
     if share != 1.0 and torque != 0.0:
         slope = slope_of_share(way, mem, speed, 0.0, abs(torque))
+        share += slope_over_capacity(way, mem, speed, 0.0, abs(torque))
         rise, before = share * dout[L.O_TORQUE] + torque * slope * change, dout[L.O_POWER]
         _hold_changes(own, given, rise, dout)
         dout[L.O_TORQUE] = rise

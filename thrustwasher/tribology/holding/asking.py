@@ -66,6 +66,12 @@ def is_near(mem: Array, slip: float, steps: float) -> bool:
 
 
 @kernel
+def is_clean(mem: Array, slip: float) -> bool:
+    """Tell if the speeds are so smooth that an answer to the faintest question stands out."""
+    return CLEAR * math.sqrt(mem[M.ROUGH]) <= FAINT * rate_of(mem, slip)
+
+
+@kernel
 def share_asked(mem: Array, slip: float, near: bool, proved: bool, faint: bool) -> float:
     """Return the share of the torque that a bit takes away now, 0 where nothing is to be asked.
 

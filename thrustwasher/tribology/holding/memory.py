@@ -38,6 +38,7 @@ torque there are sums of the least squares, and the work of the torques.
     REFUSED,  # 1: the values that were given are refuted in this engagement
     CAREFUL,  # 1: what was given ends the slip in part; 2: an answer refuted it
     STUCK,  # the pack was stuck at the start
+    FELT,  # steps of slip since then
     SIGN,  # of the slip
     SWING,  # largest change of the torque in a step since the slip last reversed [N m]
     REVERSALS,  # of late
@@ -70,9 +71,9 @@ torque there are sums of the least squares, and the work of the torques.
     N_MEMORY,
 ) = (
     *(0, 1, 6, 11, 16, 21, 24, 27, 30, 33, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46),
-    *(47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, 67, 68, 69, 70),
-    *(71, 72, 75, 76, 78, 79, 80, 81, 82, 83, 84, 85, 86, 91, 92, 93, 94, 95, 96, 97),
-    105,
+    *(47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 68, 69, 70),
+    *(71, 72, 73, 76, 77, 79, 80, 81, 82, 83, 84, 85, 86, 87, 92, 93, 94, 95, 96, 97, 98),
+    106,
 )
 
 IDENTIFIED, GIVEN, OFF = 1, 2, 3  # how it holds

@@ -31,6 +31,7 @@ BADLY = 0.3  # relative error of the answer: nothing is known
 LEVER = 0.1  # of the coded part's squares: from there on the other part is judged too
 ALIKE_LEAST, ALIKE_MOST = 0.5, 2.0  # its slope over that of the coded part
 SEEN = 4.0  # steps that a sample is made of
+CERTAIN = 4.0  # standard deviations, neighbouring samples going together
 LESS, MORE = 0.5, 1.4  # times the answer that was given: it is refuted
 ENOUGH = 8.0  # weight of samples from which on they bound the answer
 FADED = 0.9  # of the mean square of the slip's third difference, at each new one
@@ -175,8 +176,7 @@ def _judge(mem: Array) -> None:
 def excludes(mem: Array, inertia: float, age: int) -> bool:
     """Tell if the samples exclude that the slip answers as one of ``inertia`` [kg m2] does.
 
-    They do where its answer is less than half or more than 1.4 times of that, with three standard
-    deviations to spare.
+    They do where its answer is less than half or more than 1.4 times of that, for certain.
     """
     n = mem[M.WEIGHT]
     if n < ENOUGH:
@@ -184,5 +184,5 @@ def excludes(mem: Array, inertia: float, age: int) -> bool:
     _, left, answer, _, own = fit(mem, age)
     if own == 0.0:
         return False
-    error = math.sqrt(left / max(n - 2.0, 1.0) / own)
-    return answer + 3.0 * error < LESS / inertia or answer - 3.0 * error > MORE / inertia
+    error = CERTAIN * math.sqrt(ALIKE * left / max(n - 2.0, 1.0) / own)
+    return answer + error < LESS / inertia or answer - error > MORE / inertia

@@ -33,6 +33,7 @@ from .asking import (
     NEAR,
     NEAR_GIVEN,
     SURE,
+    is_clean,
     is_near,
     largest_move,
     next_bit,
@@ -51,6 +52,7 @@ SMOOTH = 1e-3  # of the largest slip: over which the torque of an unknown plant 
 FEW, ALL = 0.03, 1.0  # of the last swings: at most; where the plant is nearly proved
 NEARLY = 7.0  # standard deviations of an answer
 START = 0.01  # of the capacity: what a pack that is stuck at the start gives more in each step
+FEELS = 12.0  # steps of slip after which it is stuck no more
 BACK = 0.5  # of the last torque: what it gives at most when the slip reverses
 FULL = 0.5  # of the capacity: one that gives it is stuck no more
 VAGUE, BADLY = 0.03, 0.15  # relative error of the inertia: above it the slip is ended in part
@@ -287,6 +289,9 @@ def _of_unknown(
     width = max(max(width, min(wide * swing, broad)), 1e-300)
     share = math.tanh(slip / width)
     if mem[M.STUCK] > 0.0 and mem[M.COUNT] > 0.0 and capacity > 0.0:
+        mem[M.FELT] += 1.0 if slip != 0.0 else 0.0
+        if mem[M.FELT] > FEELS:
+            mem[M.STUCK] = 0.0
         last = abs(mem[M.TORQUE]) / capacity
         most = 2.0 * last + START
         if share * mem[M.TORQUE] < 0.0:
@@ -351,7 +356,8 @@ def _slide(
         share, slope = _of_unknown(coupling, mem, slip, h, capacity)
     given = is_given(coupling, mem)
     near = is_near(mem, slip, NEAR_GIVEN if given else NEAR)
-    from_afar = mem[M.AWAY] > FIRST_STEPS and (mem[M.KNOWN] > 0.0 or mem[M.ASKED] == 0.0)
+    unclear = mem[M.ASKED] == 0.0 and is_clean(mem, slip)  # what was asked from afar
+    from_afar = mem[M.AWAY] > FIRST_STEPS and (mem[M.KNOWN] > 0.0 or unclear)
     if near and from_afar and not given:
         forget(mem)  # it may be another plant by now
     mem[M.AWAY] = 0.0 if near else mem[M.AWAY] + 1.0

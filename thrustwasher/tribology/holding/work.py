@@ -1,10 +1,10 @@
 # mypy: disable-error-code="no-any-return"
 """The heat of a unit between two shafts: the work that they do to it.
 
-While nobody knows when a torque acts, the power counts that it had where it was given (trapezoidal
-rule), in the first steps the least that any age would have made. The work of each age is kept
-beside it. Once the age is known the difference is owed, and paid by heat to come: heat never
-falls. Negative work is a debt that positive work pays first.
+While nobody knows when a torque acts the least counts that any age would have made; once the slip
+has not answered, or after many steps, the power that the torque had where it was given (trapezoidal
+rule). Once the age is known the difference is owed, and paid by heat to come: heat never falls.
+Negative work is a debt that positive work pays first.
 
 The torque of the initialization may have acted over the first steps, or not: their slip tells.
 """
@@ -14,9 +14,16 @@ import numpy as np
 from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import sign_of
 from . import memory as M
+from .asking import FREE
 from .plant import N_AGES
 
-PENDING = 12.0  # steps from the start, in which the age is likely to be found
+MANY = 400.0  # steps: an age, at most two steps, makes a difference of half a per cent
+
+
+@kernel
+def _is_open(mem: Array) -> bool:
+    """Tell if the age may still be found soon enough to matter."""
+    return mem[M.ASKED] < 1.5 * FREE and mem[M.COUNT] < MANY
 
 
 @kernel
@@ -71,7 +78,7 @@ def book(mem: Array, slip: float, age: int, inertia: float) -> None:
         made = 0.5 * (mem[M.STEP] + mem[M.STEP + 1]) * abs(mem[M.TORQUE] * mem[M.SLIP])
         mem[M.WORK + N_AGES] += made
         due = mem[M.WORK + N_AGES]
-        if mem[M.COUNT] <= PENDING:
+        if _is_open(mem):
             for k in range(N_AGES):
                 if mem[np.uintp(M.WORK + k)] < due:
                     due, mem[M.RISES] = mem[np.uintp(M.WORK + k)], mem[np.uintp(M.TORQUE + k)]
@@ -103,7 +110,7 @@ def foreseen(mem: Array, slip: float, h: float, torque: float) -> float:
             change -= (acting - mem[np.uintp(M.TORQUE + age)]) / inertia * h
     change = min(abs(slip), max(-abs(slip), change))  # a short step says little of a long one
     made = max(acting * (slip + 0.5 * change) * h, 0.0)
-    if age < 0 and mem[M.COUNT] <= PENDING:
+    if age < 0 and _is_open(mem):
         return 0.0
     if age < 0:  # half of the last step is not booked yet
         return made + 0.5 * mem[M.STEP] * abs(torque * slip)

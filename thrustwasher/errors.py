@@ -119,16 +119,29 @@ class Status(IntEnum):
     )
     CHATTER = (
         5,
-        "the slip reverses every few steps: the torque answers too late for this step and "
-        "driveline; set holding = given with coupling_inertia and coupling_age, or a shorter step",
+        "the slip reverses again and again, the torque with it, or is the same to the bit over "
+        "several steps: the speed is noisy, late or held for this step and driveline; step the unit "
+        "where its speeds are new (held ones: each advised_step), take a shorter step, "
+        "set holding = given with coupling_inertia and coupling_age, or let the host hold "
+        "(torque_capacity)",
     )
     OUTSIDE_MAP = (
         6,
         "an input is outside the map's box: answered by `field` or at the box's nearest edge, as "
         "outside_map says",
     )
-    EXTRAPOLATED = (
+    UNANSWERED = (
         7,
+        "the slip does not answer the torque: the pack slides with its capacity, right for a "
+        "prescribed slip; else connect friction_torque, or the speed is too coarse for the step",
+    )
+    REFUTED = (
+        8,
+        "coupling_inertia and coupling_age do not explain the slip: the pack slides until it was "
+        "open; of packs in parallel each takes the inertia times its share of the capacity",
+    )
+    EXTRAPOLATED = (
+        9,
         "the contact is above 600 degC: the numbers are no more than an extrapolation; lower load, "
         "speed or time",
     )

@@ -356,7 +356,12 @@ class ClutchParams:
         1000.0, "W/(m2.K)", 0.0, 1e5, "cooling by the oil of an open face, or without grooves"
     )
     speed_smoothing: float = quantity(
-        0.1, "rad/s", 1e-6, 100.0, "slip over which friction_torque passes through zero"
+        0.1,
+        "rad/s",
+        1e-6,
+        100.0,
+        "slip over which friction_torque passes through zero where nothing is held",
+        read_by=(("holding", "off"),),
     )
     input_profile: str = choice(
         "held",
@@ -371,8 +376,9 @@ class ClutchParams:
     coupling_age: int = coupling_age()
     probing: bool = flag(
         True,
-        "torque dips by up to 2 % while the pack slips and the driveline is not known",
-        read_by=(("holding", "identified"),),
+        "the pack asks: its torque is lower by 2 to 50 % in a dozen steps of an engagement (False: "
+        "holding = given is trusted, identified never holds)",
+        read_by=(("holding", "identified"), ("holding", "given")),
         of_a_run=True,
     )
 

@@ -516,6 +516,7 @@ SWEEP = Sweep(
         "plant_inertia",
         "locked",
         "plant_age",
+        "slip_bound",
     ),
     least={"film_ratio": (k.LEAST_RATIO, BEYOND_LAW)},
 )

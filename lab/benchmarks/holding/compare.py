@@ -276,13 +276,14 @@ class KernelLaw:
     def step(self, slip: float, h: float, load: float) -> float:
         """Return the torque for a step."""
         memory, coupling, capacity = self.memory, self.coupling, self.gain * load
-        law.notice.py_func(coupling, memory, slip, capacity)
-        made = law.hold.py_func(coupling, memory, slip, h, capacity, Counted(0.0))
-        torque, holds, outside = made[0], made[1], made[-1]
-        dips = law.dip_of.py_func(coupling, memory, torque, capacity)
-        if dips > 0.0:
-            torque *= 1.0 - dips
-        law.note.py_func(memory, slip, h, torque, holds, outside, dips >= 0.0)
+        memory[M.CAPACITY] = capacity
+        law.notice.py_func(coupling, memory, slip)
+        law.book_heat.py_func(coupling, memory, slip)
+        slides, number, _, coded = law.decide.py_func(coupling, memory, slip, h, capacity)
+        torque = number * capacity if slides else min(capacity, max(-capacity, number))
+        holds = not slides and abs(number) < capacity
+        asked = coded * capacity if slides else Counted(0.0)
+        law.note.py_func(coupling, memory, slip, h, torque, asked, capacity, holds)
         return torque
 
 

@@ -118,7 +118,7 @@ def directional_derivative(
     scratch = work[L.W_VARIED : L.W_VARIED + L.NOUT]
     change = (seed[L.I_LOAD], seed[L.I_SPEED], film, seed[L.I_DRUM])
     ring_outputs(par, point, change, work, scratch, dout)
-    dout[L.O_PLANT_INERTIA] = 0.0
+    dout[L.O_PLANT_INERTIA] = dout[L.O_SLIP_BOUND] = 0.0
     if par[L.P_HOLDING] != M.OFF:
         answer_slopes(par, inp, work, seed, scratch, dout)
     dout[L.O_TEMPERATURE] = heat

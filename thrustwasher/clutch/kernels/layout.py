@@ -147,7 +147,12 @@ W_SURFACE = W_VARIED_STAGES + N_STAGES * NY
 # bend of a substep's unknown for the film (rosenbrock), and its change.
 W_GIVEN_POWER, W_GIVEN_SLOPE, W_BEND, W_BEND_CHANGE = (W_GIVEN + i for i in range(1, 5))
 W_MEMORY = W_GIVEN + 5
-NWORK = W_MEMORY + N_MEMORY
+# The torque that was decided on, its slopes over slip and capacity; that of the bound of a lock
+# over the capacity.
+W_GIVEN_TORQUE, W_BY_SLIP, W_BY_CAPACITY, W_BOUND_SLOPE = (
+    W_MEMORY + N_MEMORY + i for i in range(4)
+)
+NWORK = W_MEMORY + N_MEMORY + 4
 
 (
     O_TORQUE,
@@ -168,9 +173,10 @@ NWORK = W_MEMORY + N_MEMORY
     O_ADVISED,
     O_OIL_ENERGY,
     O_PLANT_INERTIA,
+    O_SLIP_BOUND,
     NOUT,
-) = range(19)
-IO_REGIME, IO_STATUS, IO_LOCKED, IO_PLANT_AGE, NIOUT = range(5)
+) = range(20)
+IO_REGIME, IO_STATUS, IO_LOCKED, IO_PLANT_AGE, IO_LOCK_BASIS, NIOUT = range(6)
 
 CLOSED, STRIBECK, FIELD, FINE = 1, 3, 4, 5  # fidelity; 2 had no heat and runs as STRIBECK
 CONSTANT_LAW, TABLE_LAW = 2, 3  # friction_law

@@ -11,8 +11,7 @@ With rates behind the inputs a step with held ones follows them: they run straig
 to those at the step's end, which the outputs belong to. A linear profile takes no rates.
 
 A pack that holds (``holding``) answers the slip given at a step's start with the torque to apply
-over the step in which it will act. Its heat is the work of the torques that acted: foreseen while a
-step is made, corrected in the next one, which knows where the slip went.
+over the step in which it will act. Its heat is the work of the torques that acted (``coupling``).
 """
 
 import math
@@ -34,7 +33,7 @@ from ...numerics.status import (
 from ...numerics.step_size import advised_step
 from ...tribology.holding import memory as M
 from ...tribology.holding.reversals import chatters
-from ...tribology.holding.torque import age_of
+from ...tribology.holding.torque import OFTEN, told_of
 from . import layout as L
 from .advance import (
     advance,
@@ -107,7 +106,7 @@ def step(
     if status == OK:
         status = settle_film(par, load, work)
     fill_outputs(par, load, slip, drum, work, out)
-    iout[L.IO_LOCKED] = answer(par, before[1], dt, work, out)
+    answer(par, state, before[1], dt, work, out, iout)
     power = out[L.O_POWER] / par[L.P_FACES]
     if holds and dt > 0.0:
         power = foreseen / (dt * par[L.P_FACES])
@@ -124,7 +123,7 @@ def step(
         energy, temperature = state[L.S_SHOWN_ENERGY], state[L.S_SHOWN_TEMPERATURE]
         if par[L.P_FIDELITY] != L.FINE:
             hottest = temperature
-    if not holds and energy < state[L.S_SHOWN_ENERGY]:
+    if energy < state[L.S_SHOWN_ENERGY]:
         energy = state[L.S_SHOWN_ENERGY]  # heat does not come back: a too large advance waits
     out[L.O_TEMPERATURE], out[L.O_ENERGY] = temperature, energy
     first = state[L.S_FIRST] if started else before[2]
@@ -138,7 +137,9 @@ def step(
     if dt > 0.0:
         span = state[L.S_DURATION] if linear and started else dt
         out[L.O_ADVISED] = advise(par, state, span, straight, out[L.O_CAPACITY])
-        if chatters(work[L.W_MEMORY :]):
+        if work[L.W_MEMORY + M.REPEATS] >= OFTEN:
+            out[L.O_ADVISED] = (work[L.W_MEMORY + M.REPEATED + 1] + 1.0) * dt
+        elif chatters(work[L.W_MEMORY :]):
             out[L.O_ADVISED] = min(out[L.O_ADVISED], LESS * dt)
         elif work[L.W_MEMORY + M.REVERSES] != 0.0 and state[L.S_ADVISED] > 0.0:
             out[L.O_ADVISED] = min(out[L.O_ADVISED], state[L.S_ADVISED])
@@ -155,16 +156,15 @@ def step(
         state[L.S_SHOWN_STORED] = out[L.O_STORED_HEAT]
         note_capacity(state, span if started else 0.0, out)
         copy(work[L.W_MEMORY :], state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY])
-    iout[L.IO_PLANT_AGE] = -1
-    if holds:
-        iout[L.IO_PLANT_AGE] = age_of(coupling_of(par), work[L.W_MEMORY :])
     iout[L.IO_REGIME] = regime_of(par, out[L.O_RATIO], slip)
     advice = OK
     if out[L.O_RATIO] < L.LEAST_RATIO:
         advice = OUTSIDE_VERIFIED
     if hottest > L.HOT_LIMIT:
         advice = HOT
-    if chatters(work[L.W_MEMORY :]):
+    if holds:
+        advice = told_of(coupling_of(par), work[L.W_MEMORY :], advice)
+    elif chatters(work[L.W_MEMORY :]):
         advice = CHATTER
     if hottest > L.EXTRAPOLATED_LIMIT:
         advice = EXTRAPOLATED

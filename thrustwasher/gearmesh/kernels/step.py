@@ -7,10 +7,9 @@ from ...numerics.jit import Array, Ints, kernel
 from ...numerics.smoothing import floored, floored_slope, soft_size, soft_size_slope
 from ...numerics.status import BAD_INPUT, CHATTER, NOT_FINITE, OK
 from ...tribology.holding import memory as M
-from ...tribology.holding.drag import hold_drag
+from ...tribology.holding.drag import hold_drag, slope_of_share, slope_over_capacity
 from ...tribology.holding.memory import Coupling
 from ...tribology.holding.reversals import chatters
-from ...tribology.holding.torque import knows
 from . import layout as L
 from .constants import broken_rule as broken_rule
 from .constants import derive as derive
@@ -89,9 +88,7 @@ def step(
         status = NOT_FINITE
     mem = state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY]
     if status < 10:
-        given, _, _ = hold_drag(
-            coupling_of(par), mem, speed, dt, work[L.F_TORQUE], capacity_of(work)
-        )
+        given, _ = hold_drag(coupling_of(par), mem, speed, dt, work[L.F_TORQUE], capacity_of(work))
         less = (given - work[L.F_TORQUE]) * speed  # of heat than sliding would make
         out[L.F_TORQUE], out[L.F_POWER] = given, given * speed
         out[L.F_OIL_HEAT] += less
@@ -122,13 +119,20 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
     else:
         _changes(par, torque, speed, oil, work, seed, dout)
     mem, own = state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY], work[L.F_TORQUE]
-    if knows(coupling_of(par), mem, mem[M.STEP]) and speed != mem[M.SLIP]:
-        given, holds, slope = hold_drag(coupling_of(par), mem, speed, 0.0, own, capacity_of(work))
-        if holds:
-            less = dout[L.F_POWER]
-            dout[L.F_TORQUE] = slope * seed[L.I_SPEED]
-            dout[L.F_POWER] = dout[L.F_TORQUE] * speed + given * seed[L.I_SPEED]
-            dout[L.F_OIL_HEAT] += dout[L.F_POWER] - less
+    way, capacity = coupling_of(par), capacity_of(work)
+    given, share = hold_drag(way, mem, speed, 0.0, own, capacity)
+    if share != 1.0:
+        by_speed = slope_of_share(way, mem, speed, 0.0, capacity)
+        by_size = slope_over_capacity(way, mem, speed, 0.0, capacity)
+        smooth = work[L.F_SMOOTH_SIGN]
+        if by_size != 0.0:
+            faster = (1.0 - smooth) * (1.0 + smooth) / (smooth * par[L.P_SPEED_SMOOTHING])
+            by_speed -= by_size * faster
+        slope = by_speed * seed[L.I_SPEED]
+        rise, before = (share + by_size) * dout[L.F_TORQUE] + own * slope, dout[L.F_POWER]
+        dout[L.F_TORQUE] = rise
+        dout[L.F_POWER] = rise * speed + given * seed[L.I_SPEED]
+        dout[L.F_OIL_HEAT] += dout[L.F_POWER] - before
     return OK if are_finite(dout) else NOT_FINITE
 
 

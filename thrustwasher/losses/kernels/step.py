@@ -12,6 +12,8 @@ from ...numerics.arrays import are_finite, clear
 from ...numerics.jit import Array, Ints, kernel
 from ...numerics.smoothing import soft_size, soft_size_slope
 from ...numerics.status import BAD_INPUT, NOT_FINITE, OK, OUTSIDE_VERIFIED
+from ...tribology.holding import memory as M
+from ...tribology.holding.drag import hold_drag, slope_of_share
 from ...tribology.viscosity import viscosity
 from .loss_laws import bearing_drag as bearing_drag
 from .loss_laws import (
@@ -54,7 +56,8 @@ D_NU_40 = D_PUMP + 1
 D_SERIES = D_NU_40 + 1  # type and constants of the main bearings' series
 NPAR = D_SERIES + SERIES_ROW
 I_FORCE, I_OIL, NINP = SPEEDS, SPEEDS + 1, SPEEDS + 2
-NSTATE = 1  # the heat since the start [J]
+S_MEMORY = 1  # behind the heat since the start [J]: of each speed what its drag remembers
+NSTATE = S_MEMORY + SPEEDS * M.N_MEMORY
 (
     O_INPUT,
     O_OUTPUT,
@@ -183,6 +186,33 @@ def resist(par: Array, inp: Array, work: Array) -> None:
 
 
 @kernel
+def ease(par: Array, inp: Array, state: Array, work: Array, dt: float) -> None:
+    """Let the torques at each speed rise so near rest that their shaft does not chatter."""
+    own = par[P_SPEED_SMOOTHING]
+    way = (M.IDENTIFIED, 0.0, 0, own, False)
+    for i in range(SPEEDS):
+        speed, torque, at = inp[np.uintp(i)], 0.0, i * SOURCES
+        for k in range(SOURCES):
+            torque += work[np.uintp(W_TORQUE + at + k)]
+        risen = math.tanh(abs(speed) / own)
+        capacity = abs(torque) / risen if risen > 0.0 else 0.0
+        place = S_MEMORY + i * M.N_MEMORY
+        mem = state[place : place + M.N_MEMORY]
+        _, share = hold_drag(way, mem, speed, dt, torque, capacity)
+        if share == 1.0:
+            continue
+        slope = slope_of_share(way, mem, speed, dt, capacity)
+        for k in range(SOURCES):
+            bend = slope * work[np.uintp(W_TORQUE + at + k)]
+            work[np.uintp(W_TORQUE + at + k)] *= share
+            work[np.uintp(W_BY_OIL + at + k)] *= share
+            by_speed = share * work[np.uintp(W_BY_SPEED + at + k)]
+            work[np.uintp(W_BY_SPEED + at + k)] = by_speed + bend
+        if i == PLANET:
+            work[W_BY_FORCE] *= share
+
+
+@kernel
 def classed(par: Array, inp: Array, iout: Ints) -> bool:
     """Fill in the regime of each shaft's gear; tell if one churns outside the range of the laws."""
     nu, _ = oil_viscosity(par, inp[I_OIL])
@@ -209,6 +239,8 @@ def step(
         iout[SHAFTS] = BAD_INPUT
         return BAD_INPUT
     resist(par, inp, work)
+    if are_finite(work):
+        ease(par, inp, state, work, dt)
     clear(out)
     for i in range(SPEEDS):
         speed = inp[np.uintp(i)]

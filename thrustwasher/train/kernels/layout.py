@@ -2,6 +2,7 @@
 
 from ...gearmesh.kernels import layout as G
 from ...losses.kernels import skf_series
+from ...tribology.holding.memory import N_MEMORY
 
 MESHES, SHAFTS, ENDS = 3, 4, 2  # at most; bearings of a shaft
 SERIES_ROW = skf_series.ROW  # type and constants of a bearing's series
@@ -84,9 +85,10 @@ D_NU_40 = D_SERIES + SHAFTS * ENDS * SERIES_ROW
 D_PAIR = D_NU_40 + 1
 NPAR = D_PAIR + MESHES * G.NPAR
 I_TORQUE, I_SPEED, I_OIL, NINP = range(4)
-# Memory: the pairs' own, heat into the oil [J].
+# Memory: the pairs' own, heat into the oil [J], what the drag remembers of the first shaft.
 S_ENERGY = MESHES * G.NSTATE
-NSTATE = S_ENERGY + 1
+S_MEMORY = S_ENERGY + 1
+NSTATE = S_MEMORY + N_MEMORY
 (
     O_LOSS_TORQUE,
     O_OUTPUT_TORQUE,

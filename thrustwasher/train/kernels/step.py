@@ -16,6 +16,8 @@ from ...losses.kernels.skf_series import NUMBERS
 from ...numerics.arrays import are_finite
 from ...numerics.jit import Array, Ints, kernel
 from ...numerics.status import BAD_INPUT, NOT_FINITE, OK, OUTSIDE_VERIFIED
+from ...tribology.holding import memory as M
+from ...tribology.holding.drag import hold_drag
 from . import layout as L
 from .bearing_life import equivalent_load, rating_life
 from .chain import solve_chain
@@ -199,6 +201,28 @@ def fill_bearings(par: Array, work: Array, out: Array) -> None:
 
 
 @kernel
+def ease(par: Array, inp: Array, state: Array, work: Array, dt: float, ratio: float) -> float:
+    """Let all losses rise so near rest that the shaft does not chatter; return their share.
+
+    ``ratio``: speed of the input over that of the output, with its sign.
+    """
+    speed, loss = inp[L.I_SPEED], inp[L.I_TORQUE] - work[L.W_END] / ratio
+    own = par[L.D_PAIR + G.P_SPEED_SMOOTHING]
+    risen = math.tanh(abs(speed) / own)
+    capacity = abs(loss) / risen if risen > 0.0 else 0.0
+    mem = state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY]
+    way = (M.IDENTIFIED, 0.0, 0, own, False)
+    given, share = hold_drag(way, mem, speed, dt, loss, capacity)
+    if share != 1.0:
+        for k in range(L.MESHES):
+            work[np.uintp(L.W_FRICTION + k)] *= share
+        for k in range(L.SHAFTS * L.LOSSES):
+            work[np.uintp(L.W_LOSS + k)] *= share
+        work[L.W_END] = (inp[L.I_TORQUE] - given) * ratio
+    return share
+
+
+@kernel
 def efficiency(given: float, left: float) -> float:
     """Return what comes out over what goes in, of powers [W] in and out; -1 if nothing does."""
     if given > 0.0 and left > 0.0:
@@ -228,12 +252,15 @@ def step(
         out[np.uintp(k)] = 0.0
     out[L.O_PITTING] = out[L.O_ROOT] = out[L.O_SCUFFING] = G.NO_LIMIT
     out[L.O_LIFE] = 1e12
-    fill_meshes(par, work, out)
-    fill_bearings(par, work, out)
-    left, speed = work[L.W_END], work[np.uintp(L.W_SPEED + meshes)]
-    ratio = 1.0
+    ratio, share = 1.0, 1.0
     for i in range(meshes):
         ratio *= -par[np.uintp(L.D_MESH + i * L.E_ROW + L.E_RATIO)]
+    if status < 10 and math.isfinite(work[L.W_END]):
+        share = ease(par, inp, state, work, dt, ratio)
+    fill_meshes(par, work, out)
+    fill_bearings(par, work, out)
+    out[L.O_HEAT] -= (1.0 / share - 1.0) * out[L.O_MESH_LOSS]
+    left, speed = work[L.W_END], work[np.uintp(L.W_SPEED + meshes)]
     out[L.O_LOSS_TORQUE] = inp[L.I_TORQUE] - left / ratio
     out[L.O_OUTPUT_TORQUE], out[L.O_OUTPUT_SPEED] = left, speed
     rest = out[L.O_BEARING_LOSS] + out[L.O_SEAL_LOSS] + out[L.O_CHURNING_LOSS]

@@ -2,11 +2,12 @@
 
 ==============  ================================================================================
 ``memory``      what a unit remembers: places of slips, steps, torques, sums
-``plant``       inertia and delay of the driveline, identified from the slip that answers the torque
+``asking``      the code by which a pack asks: it lowers its torque
+``plant``       inertia and delay of the driveline, proved by the slip that answers the code
 ``reversals``   reversals of the slip, and which of them are chatter
 ``torque``      the torque that ends the slip with the step
-``work``        the work that the shafts do to the unit
-``drag``        friction that holds only where its shaft could stand
+``work``        the heat: the work that the shafts do to the unit
+``drag``        friction that asks nothing and holds nothing, but comes to rest without chatter
 ``parameters``  the parameters that say how a unit holds
 ==============  ================================================================================
 """

@@ -1,7 +1,7 @@
 """What a unit remembers of the driveline it sits in: places in its memory.
 
-Of slips seen, steps and torques given the newest come first. For each age of the torque there are
-sums of the least squares, and the work of the torques.
+Of slips seen, steps, torques given and coded parts the newest come first. For each age of the
+torque there are sums of the least squares, and the work of the torques.
 """
 
 (
@@ -9,40 +9,76 @@ sums of the least squares, and the work of the torques.
     SLIP,
     STEP,
     TORQUE,
-    XX,
-    XY,
+    CODED,  # part of the torque that follows the code
+    ZZ,  # sums: coded part, what else the torque did, answer
+    ZF,
+    FF,
+    ZY,
+    FY,
     YY,
     WEIGHT,  # of the samples
-    AGE,  # identified, and one more; 0: not yet
+    KNOWN,  # 1: the coded part was answered
     INERTIA,  # kg m2
-    ERROR,  # of it: relative standard deviation
-    OUTSIDE,  # acceleration of the slip by all other torques [rad/s2]
-    FOLLOWS,  # it may be filtered
+    AGE,
+    ERROR,  # of the inertia: relative standard deviation
+    NOISE,  # of the slip: standard deviation [rad/s]
+    ROUGH,  # mean square of the third difference of the slip where nothing is coded
+    PROOF,  # largest ratio of an answer to its standard deviation
+    TURN,  # place in the code
+    REGISTER,  # its shift register
+    ASKED,  # steps near zero with a code in this engagement
+    TOLD,  # step in which it asked for the last time that costs nothing
+    CLOSED,  # steps of this engagement
+    SPENT,  # heat that was not made for asking [J]
+    AWAY,  # steps since the slip was near zero
     HELD,  # steps since the pack last slid
-    DIPS,  # steps with dips in this engagement, short ones in part
+    QUIET,  # steps since the slip last was beyond the bound of a lock
+    OUTSIDE,  # acceleration of the slip by all other torques [rad/s2]
+    DOUBT,
+    REFUSED,  # 1: the values that were given are refuted in this engagement
+    CAREFUL,  # 1: what was given ends the slip in part; 2: an answer refuted it
     STUCK,  # the pack was stuck at the start
-    NARROWED,  # 1 - share of the width over which the torque of an unknown plant rises
+    FELT,  # steps of slip since then
     SIGN,  # of the slip
     SWING,  # largest change of the torque in a step since the slip last reversed [N m]
+    REVERSALS,  # of late
     REVERSES,  # it does so in this step
-    REVERSED,  # the steps of the last two reversals
+    REVERSED,  # times of the last four [s]
     CHATTER,  # until this step
-    CAUTION,  # 1 - largest share of the slip that is ended in a step
+    WIDTH,  # slip over which the torque of a unit that never asks rises [rad/s]
+    CALM,  # steps since its torque last swung to the other side
+    MEAN,  # of its torque, fading [N m]
+    LEANS,  # sign of its last swing from that
+    AMPLITUDE,  # largest slip of the last three half swings, fading
+    CLOCK,  # s
+    REPEATED,  # steps over which the slip was the same to the bit, now, then at last
+    REPEATS,  # how often it was so
+    JUMP,  # of the slip when it last changed [rad/s]
+    LEAST,  # capacity at the start of this engagement [N m]
     MOST_CAPACITY,
     MOST_SLIP,
-    CAPACITY,  # of asperities, then of oil [N m], after the last step
-    WORK,  # of the torques since the start [J], were they of each age
     LONGEST,  # step [s], of late
-    CLOSED,  # steps since the start, or since the unit was open
-    BOOKED,  # heat that film and temperatures have had of it [J]
+    CAPACITY,  # after the last step [N m]
+    DEBT,  # negative work that is not paid back [J]
+    WORK,  # of the torques [J], were they of each age; of none; what was booked without one
+    HEAT_AGE,  # the age that heat is booked with, and one more; 0: not yet
+    HEAT_INERTIA,  # kg m2, the one it is foreseen with
+    OWED,  # heat that was booked and is not due [J]
+    RISES,  # torque with which it grows with the turn of the slip in the step that ended [N m]
+    HEAT,  # since the start [J]
+    BOOKED,  # of it, what film and temperatures have had, and what is foreseen
+    FIRST,  # torque at initialization, then rates and slips of the first three steps
     N_MEMORY,
 ) = (
-    *(0, 1, 4, 7, 12, 15, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32),
-    *(34, 35, 36, 37, 38, 40, 43, 44, 45, 46),
+    *(0, 1, 6, 11, 16, 21, 24, 27, 30, 33, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46),
+    *(47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 68, 69, 70),
+    *(71, 72, 73, 76, 77, 79, 80, 81, 82, 83, 84, 85, 86, 87, 92, 93, 94, 95, 96, 97, 98),
+    106,
 )
 
 IDENTIFIED, GIVEN, OFF = 1, 2, 3  # how it holds
+NOT_LOCKED, BY_ASKING, BY_GIVEN, BY_TRUST = range(4)  # what a lock rests on
 
 # How a unit holds: one of these; inertia [kg m2] and age, if given; the slip [rad/s] over which its
-# torque rises where nothing is held; if it may dip.
+# torque rises where nothing is held; if it may ask.
 Coupling = tuple[int, float, int, float, bool]

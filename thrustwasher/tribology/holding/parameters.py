@@ -5,8 +5,9 @@ from typing import Any
 from ...model.parameters import choice, count, quantity
 
 HOLDING = {
-    "identified": "finds inertia and delay of the driveline from what its torque does, then holds",
-    "given": "holds with coupling_inertia and coupling_age",
+    "identified": "a pack asks for inertia and delay of the driveline, then holds; others come to "
+    "rest without chatter",
+    "given": "the same with coupling_inertia and coupling_age",
     "off": "nothing is held: friction passes through zero as it does without a driveline",
 }
 OF_GIVEN = (("holding", "given"),)
@@ -20,7 +21,10 @@ def holding_choice(unit: str) -> Any:
 
 def coupling_inertia() -> Any:
     """Return the field of the inertia that the slip sees [kg m2]."""
-    text = "inertia that the slip sees: J1 J2/(J1 + J2) of two shafts, J of one"
+    text = (
+        "inertia that the slip sees: J1 J2/(J1 + J2) of two shafts, J of one; the hub's, not that "
+        "of a vehicle behind a shaft"
+    )
     more = {"tunable": True, "read_by": OF_GIVEN, "of_a_run": True}
     return quantity(0.1, "kg.m2", 1e-6, 1e6, text, **more)
 

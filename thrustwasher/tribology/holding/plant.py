@@ -1,17 +1,16 @@
 # mypy: disable-error-code="no-any-return"
-"""What driveline a unit sits in, found from the slip that answers its torque.
+"""What driveline a unit sits in, proved by the slip that answers what the unit asks.
 
 The slip of a unit between two shafts obeys ds/dt = a - T/J: J is the inertia that the slip sees,
 J1 J2/(J1 + J2) of two shafts, a what all other torques do to it. The torque given in step n acts d
-steps later: at once where a host passes fresh values, a step late where it passes old ones. Both
-are told by second differences, which smooth outside torques hardly touch:
+steps later: at once where a host passes fresh values, a step late where it passes old ones. Second
+differences hardly feel smooth outside torques:
 
     y = D2[(s_n - s_(n-1))/H_(n-1)],  x_d = -D2[T_(n-1-d)],  y = x_d/J for the true d.
 
-1/J comes by least squares for d = 0, 1, 2 side by side. A sample counts where the torque moves at
-all, and is forgotten only by others. No sample counts more than one of a tenth of the capacity: a
-larger jump of the torque tends to come with one of the outside torque. Derived in
-docs/theory/holding.md.
+Most of T is made of the slip itself: y = x_d/J may then hold for any slip, also one that is
+prescribed. Only the coded part z of x owes nothing to the slip. An F-test of z, with the rest
+f = x - z fitted beside it, tells a plant from chance. Derived in docs/theory/holding.md.
 """
 
 import math
@@ -22,19 +21,20 @@ from ...numerics.jit import Array, kernel
 from . import memory as M
 
 N_AGES = 3
-EXCITED = 0.004  # of the largest capacity: smaller changes of the torque say nothing
-LEVER = 0.1  # of the largest capacity: larger changes count as this
-KEPT = 0.97  # of what was known, at each new sample
-ENOUGH, MANY = 2.5, 20.0  # weight of the samples to judge by; from which on less contrast will do
-CONTRAST, CONTRAST_OF_MANY = 0.25, 0.5  # squares left at the best age over those at the next one
-EXPLAINED = 0.5  # squares left at the best age over all
-FAINT = 1e-6  # of the largest slip: a step that moves it by less is not that of a plant
+EXCITED = 0.002  # of the largest capacity: smaller changes of the coded part say nothing
 ROUNDING = 1e-12  # of the largest slip: a host that takes it from two speeds rounds it by less
-UNSURE = 0.03  # relative standard deviation of the inertia
+KEPT = 0.995  # of what was known, at each new sample
+RISK = 1e-5  # of taking chance for an answer, at each look and age
+ALIKE = 2.1  # samples that count as one: neighbouring differences go together
+LIKELIER = 14.0  # 2 ln of the likelihood of the best age over that of the next, 1000
+BADLY = 0.3  # relative error of the answer: nothing is known
+LEVER = 0.1  # of the coded part's squares: from there on the other part is judged too
+ALIKE_LEAST, ALIKE_MOST = 0.5, 2.0  # its slope over that of the coded part
 SEEN = 4.0  # steps that a sample is made of
-STRANGE = 0.2  # of what the capacity does to the slip: more that is not explained is a new plant
-CHANGED = 0.05  # of what was known stays where the plant may be another one
-DEAF = 0.1  # squares explained over all: below it the slip does not answer
+CERTAIN = 4.0  # standard deviations, neighbouring samples going together
+LESS, MORE = 0.5, 1.4  # times the answer that was given: it is refuted
+ENOUGH = 8.0  # weight of samples from which on they bound the answer
+FADED = 0.9  # of the mean square of the slip's third difference, at each new one
 
 
 @kernel
@@ -44,108 +44,145 @@ def _second_difference(mem: Array, at: int) -> float:
 
 
 @kernel
-def _left(mem: Array, d: int) -> float:
-    """Return the squares that the age ``d`` does not explain."""
-    xx, xy = mem[np.uintp(M.XX + d)], mem[np.uintp(M.XY + d)]
-    left = mem[M.YY]
-    if xx > 0.0 and xy > 0.0:
-        left -= xy * xy / xx
-    return max(left, 1e-13 * mem[M.YY])
-
-
-@kernel
-def doubt(mem: Array) -> None:
-    """Forget most of what was identified: the plant may be another one. It holds until then."""
-    for i in range(2 * N_AGES + 1):
-        mem[np.uintp(M.XX + i)] *= CHANGED
-    mem[M.WEIGHT] *= 0.5
-    if mem[M.AGE] > 0.0:
-        mem[M.ERROR] = max(mem[M.ERROR], 1.3 * UNSURE)
-
-
-@kernel
 def forget(mem: Array) -> None:
-    """Forget the samples: a new engagement follows, perhaps in another driveline."""
-    doubt(mem)
-    for i in range(2 * N_AGES + 1):
-        mem[np.uintp(M.XX + i)] = 0.0
-    mem[M.WEIGHT] = mem[M.CLOSED] = 0.0
-
-
-@kernel
-def is_deaf(mem: Array) -> bool:
-    """Tell if the slip does not answer the torque at any age, as one that is prescribed."""
-    for d in range(N_AGES):
-        xx, xy = mem[np.uintp(M.XX + d)], mem[np.uintp(M.XY + d)]
-        if xx > 0.0 and xy > 0.0 and xy * xy > DEAF * mem[M.YY] * xx:
-            return False
-    return True
+    """Forget the plant and the samples that proved it."""
+    for i in range(M.ZZ, M.WEIGHT + 1):
+        mem[np.uintp(i)] = 0.0
+    mem[M.KNOWN] = mem[M.DOUBT] = mem[M.HELD] = 0.0
 
 
 @kernel
 def largest_answer(mem: Array) -> float:
-    """Return the largest 1/J [1/(kg m2)] that the samples do not exclude."""
-    most = 0.0
+    """Return the largest 1/J [1/(kg m2)] that the samples do not exclude, 0 if there are few."""
+    most, n = 0.0, mem[M.WEIGHT]
+    if n < ENOUGH:
+        return most
     for d in range(N_AGES):
-        xx = mem[np.uintp(M.XX + d)]
-        if xx > 0.0:
-            spread = math.sqrt(mem[M.YY] / xx / mem[M.WEIGHT])
-            most = max(most, mem[np.uintp(M.XY + d)] / xx + 2.0 * spread)
+        zz = mem[np.uintp(M.ZZ + d)]
+        if zz > 0.0:
+            spread = math.sqrt(zz * mem[M.YY] / n)
+            most = max(most, (mem[np.uintp(M.ZY + d)] + 3.0 * spread) / zz)
     return most
 
 
 @kernel
-def identify(mem: Array, slip: float) -> None:
-    """Learn from the slip [rad/s] at the start of a step; age, inertia and error go to ``mem``."""
-    if mem[M.CLOSED] < SEEN:
+def learn(mem: Array, slip: float, answer: float, age: int) -> None:
+    """Take in the slip [rad/s] at the start of a step; what it proves goes to ``mem``.
+
+    ``answer`` [1/(kg m2)]: the one that is given, of a torque of that ``age``; 0: none is.
+    """
+    if mem[M.COUNT] < SEEN + 1.0 or mem[M.CLOSED] < SEEN:
         return
     rate_1 = (mem[M.SLIP] - mem[M.SLIP + 1]) / mem[M.STEP + 1]
     rate_2 = (mem[M.SLIP + 1] - mem[M.SLIP + 2]) / mem[M.STEP + 2]
     y = (slip - mem[M.SLIP]) / mem[M.STEP] - 2.0 * rate_1 + rate_2
-    most, unit = 0.0, mem[M.MOST_CAPACITY]
-    for d in range(N_AGES):
-        most = max(most, abs(_second_difference(mem, M.TORQUE + d)))
-    if mem[M.AGE] > 0.0 and mem[M.ERROR] < UNSURE:
-        known = _second_difference(mem, M.TORQUE + int(mem[M.AGE]) - 1)
-        strange = abs(y + known / mem[M.INERTIA])
-        if strange > STRANGE * unit / mem[M.INERTIA] and strange > 0.3 * abs(y):
-            doubt(mem)
-            mem[M.DIPS] = 0.0
-            return
-    if not most > EXCITED * unit:
-        return
-    scale = min(1.0, LEVER * unit / most)
     if abs(y) * mem[M.STEP] < ROUNDING * mem[M.MOST_SLIP]:  # rounding answers no torque
         y = 0.0
-    y *= scale
+    most = 0.0
     for d in range(N_AGES):
-        x = -scale * _second_difference(mem, M.TORQUE + d)
-        mem[np.uintp(M.XX + d)] = KEPT * mem[np.uintp(M.XX + d)] + x * x
-        mem[np.uintp(M.XY + d)] = KEPT * mem[np.uintp(M.XY + d)] + x * y
+        most = max(most, abs(_second_difference(mem, M.CODED + d)))
+    asked = most > EXCITED * mem[M.MOST_CAPACITY]
+    if answer > 0.0 or not asked:
+        third = (y + answer * _second_difference(mem, M.TORQUE + age)) * mem[M.STEP]
+        mem[M.ROUGH] = FADED * mem[M.ROUGH] + (1.0 - FADED) * third * third
+    if not asked:
+        return
+    for d in range(N_AGES):
+        z = -_second_difference(mem, M.CODED + d)
+        f = -_second_difference(mem, M.TORQUE + d) - z
+        mem[np.uintp(M.ZZ + d)] = KEPT * mem[np.uintp(M.ZZ + d)] + z * z
+        mem[np.uintp(M.ZF + d)] = KEPT * mem[np.uintp(M.ZF + d)] + z * f
+        mem[np.uintp(M.FF + d)] = KEPT * mem[np.uintp(M.FF + d)] + f * f
+        mem[np.uintp(M.ZY + d)] = KEPT * mem[np.uintp(M.ZY + d)] + z * y
+        mem[np.uintp(M.FY + d)] = KEPT * mem[np.uintp(M.FY + d)] + f * y
     mem[M.YY] = KEPT * mem[M.YY] + y * y
     mem[M.WEIGHT] = KEPT * mem[M.WEIGHT] + 1.0
-    if mem[M.WEIGHT] >= ENOUGH:
-        _decide(mem)
+    _judge(mem)
 
 
 @kernel
-def _decide(mem: Array) -> None:
-    """Take over the age that explains the slip best, if it does so clearly, and its inertia."""
-    best, second, age = 1e300, 1e300, 0
+def fit(mem: Array, d: int) -> tuple[float, float, float, float, float]:
+    """Return how an age explains the answer.
+
+    Squares left without and with the coded part; slopes over it and over the rest [1/(kg m2)];
+    squares of the coded part that the rest does not have.
+    """
+    zz, zf, ff = mem[np.uintp(M.ZZ + d)], mem[np.uintp(M.ZF + d)], mem[np.uintp(M.FF + d)]
+    zy, fy, yy = mem[np.uintp(M.ZY + d)], mem[np.uintp(M.FY + d)], mem[M.YY]
+    alone, own, answer, by_rest = yy, zz, zy, 0.0
+    if ff > 1e-9 * zz:
+        alone -= fy * fy / ff
+        own -= zf * zf / ff
+        answer -= zf * fy / ff
+    if not own > 1e-6 * zz or zz == 0.0:
+        return yy, yy, 0.0, 0.0, 0.0
+    answer /= own
+    if ff > 1e-9 * zz:
+        by_rest = (fy - answer * zf) / ff
+    left = alone
+    if answer > 0.0:
+        left = max(alone - answer * answer * own, 1e-13 * yy)
+    return alone, left, answer, by_rest, own
+
+
+@kernel
+def _judge(mem: Array) -> None:
+    """Take over the age whose coded part is answered beyond chance, and its inertia."""
+    n = mem[M.WEIGHT]
+    if n < 3.9:
+        return
+    best, second, age = 1e300, 1e300, -1
+    mem[M.PROOF] = 0.0
     for d in range(N_AGES):
-        left = _left(mem, d)
+        alone, left, answer, _, own = fit(mem, d)
+        if own == 0.0:
+            continue
+        if answer > 0.0 and left > 0.0:
+            ratio = answer * answer * own / left * (n - 2.0)
+            mem[M.PROOF] = max(mem[M.PROOF], math.sqrt(ratio))
         if left < best:
-            best, second, age = left, best, d
+            second, best, age = best, left, d
         elif left < second:
             second = left
-    xx, xy = mem[np.uintp(M.XX + age)], mem[np.uintp(M.XY + age)]
-    contrast = CONTRAST if mem[M.WEIGHT] < MANY else CONTRAST_OF_MANY
-    if not (xy > 0.0 and best < contrast * second and best < EXPLAINED * mem[M.YY]):
+    if age < 0:
         return
-    answer = xy / xx
-    if not answer * mem[M.MOST_CAPACITY] * mem[M.STEP] > FAINT * mem[M.MOST_SLIP]:
+    alone, left, answer, by_rest, own = fit(mem, age)
+    chance = RISK ** (2.0 * ALIKE / max(n - 2.0 * ALIKE, 1.5))
+    if not (answer > 0.0 and left < chance * alone):
         return
+    if not left < math.exp(-LIKELIER / n) * second:
+        return
+    zz, ff = mem[np.uintp(M.ZZ + age)], mem[np.uintp(M.FF + age)]
+    if ff > LEVER * zz and not ALIKE_LEAST * answer < by_rest < ALIKE_MOST * answer:
+        return  # a plant answers both alike
+    error = math.sqrt(left / max(n - 2.0, 1.0) / own) / answer
+    if error > BADLY:
+        return
+    if ff > zz:  # the rest is the better lever, where it says the same
+        both = mem[np.uintp(M.ZY + age)] + mem[np.uintp(M.FY + age)]
+        both /= zz + 2.0 * mem[np.uintp(M.ZF + age)] + ff
+        if abs(both - answer) < 2.0 * error * answer and both > 0.0:
+            error *= answer / both * math.sqrt(zz / ff)
+            answer = both
     if not 0.0 < 1.0 / answer < 1e300:
         return
-    mem[M.AGE], mem[M.INERTIA] = float(age + 1), 1.0 / answer
-    mem[M.ERROR] = math.sqrt(best / max(mem[M.WEIGHT] - 1.0, 0.5) / xx) / answer
+    if mem[M.KNOWN] == 0.0:
+        mem[M.REVERSALS] = mem[M.DOUBT] = 0.0
+    mem[M.KNOWN], mem[M.INERTIA], mem[M.AGE] = 1.0, 1.0 / answer, float(age)
+    mem[M.ERROR], mem[M.NOISE] = error, math.sqrt(left / (n - 1.0) / 20.0) * mem[M.STEP]
+
+
+@kernel
+def excludes(mem: Array, inertia: float, age: int) -> bool:
+    """Tell if the samples exclude that the slip answers as one of ``inertia`` [kg m2] does.
+
+    They do where its answer is less than half or more than 1.4 times of that, for certain.
+    """
+    n = mem[M.WEIGHT]
+    if n < ENOUGH:
+        return False
+    _, left, answer, _, own = fit(mem, age)
+    if own == 0.0:
+        return False
+    error = CERTAIN * math.sqrt(ALIKE * left / max(n - 2.0, 1.0) / own)
+    return answer + error < LESS / inertia or answer - error > MORE / inertia

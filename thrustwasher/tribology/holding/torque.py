@@ -1,8 +1,9 @@
 # mypy: disable-error-code="no-any-return"
-"""The torque that holds a unit between two shafts of a driveline that it does not know.
+"""The torque of a pack between two shafts of a driveline that it does not know: ask, then hold.
 
-A unit that sticks gives the torque which ends the slip with the step: with
-inertia J and age d of the torque (``plant``), a the outside acceleration of the last step,
+A pack slides with its capacity until a coded part of its torque has proved the driveline
+(``plant``). Then it gives the torque which ends the slip with the step: with inertia J and age d
+of the torque, a the outside acceleration of the last step,
 
     a = (s_n - s_(n-1))/H_(n-1) + T_(n-1-d)/J,
     s_p = s_n + sum over the d torques still to act of H (a - T/J),
@@ -10,11 +11,11 @@ inertia J and age d of the torque (``plant``), a the outside acceleration of the
 
 with H the longest of the last four steps where d > 0: which one the torque will act over is not
 known yet. A host that judges its steps by the outputs may shorten them at will: H is not less than
-a tenth of the longest step, so that the torque does not jump with the step.
+a tenth of the longest step.
 
-While the driveline is known badly, or the slip reverses again and again, a is filtered and the slip
-ended in part (g < 1). A unit whose slip is out of a few steps' reach slides, whatever the law says:
-false knowledge never drives it. Derived in docs/theory/holding.md.
+A torque other than that of sliding is given only within the slip that the capacity makes in a few
+steps. While the pack holds, the slip must stay small, and the work of its torque is limited by
+a purse; else it slides and asks again. Derived in docs/theory/holding.md.
 """
 
 import math
@@ -23,134 +24,190 @@ import numpy as np
 
 from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import sign_of
+from ...numerics.status import CHATTER, OK, REFUTED, UNANSWERED
 from . import memory as M
+from .asking import (
+    DEEPEST,
+    FIRST_STEPS,
+    FREE,
+    NEAR,
+    NEAR_GIVEN,
+    SURE,
+    is_clean,
+    is_near,
+    largest_move,
+    next_bit,
+    share_asked,
+)
 from .memory import Coupling
-from .plant import UNSURE, forget, identify, is_deaf, largest_answer
-from .reversals import COUNTED, SLOWEST, watch
+from .plant import N_AGES, SEEN, excludes, forget, largest_answer, learn
+from .reversals import calm, chatters, count_repeats, watch
+from .work import book
 
-DIP = 0.02  # of the torque, at most
+OPEN = 0.02  # of the largest capacity: below it the pack is open, and a new engagement follows
+CLOSED = 50.0  # times the capacity at the start of an engagement: it was open until then
 LEAST_STEP = 0.1  # of the longest step: over less no slip is ended
 LASTS = 0.995  # of the longest step, at each step
-ROUND = 10.0  # steps after which the dips begin again
-SLOW_WAVE, FAST_WAVE, SLOW_SHARE = 1.0, 3.0, 0.3  # waves in a round, what the slow one makes up
-FIRST_DIPS, DEAF_DIPS, MOST_DIPS = 20.0, 100.0, 400.0  # steps with dips: at least, at most
-SURE = 0.02  # relative standard deviation of the inertia: no more dips
-VAGUE = 0.15  # ... above it the slip is ended slowest
-STEADY, CAREFUL = 1.0, 0.5  # share of the slip that is ended in a step
-REACH = 4.0  # steps of the last slips' kind in which a slip that is to be ended must be gone
-LARGE = 0.1  # of the largest slip: too much for a pack that sticks
-OPEN = 0.02  # of the largest capacity: below it the pack is open, and a new engagement follows
-BROAD = 0.02  # of the largest slip: the slip over which an unknown plant's torque rises
-NARROWED = 0.95  # of it after each step that stays within
+SMOOTH = 1e-3  # of the largest slip: over which the torque of an unknown plant rises, at least
+FEW, ALL = 0.03, 1.0  # of the last swings: at most; where the plant is nearly proved
+NEARLY = 7.0  # standard deviations of an answer
+START = 0.01  # of the capacity: what a pack that is stuck at the start gives more in each step
+FEELS = 12.0  # steps of slip after which it is stuck no more
+BACK = 0.5  # of the last torque: what it gives at most when the slip reverses
+FULL = 0.5  # of the capacity: one that gives it is stuck no more
+VAGUE, BADLY = 0.03, 0.15  # relative error of the inertia: above it the slip is ended in part
+STEADY, CAREFUL, SLOWEST = 1.0, 0.5, 0.3  # share of the slip that is ended in a step
+LOUD, LOUDER = 0.03, 0.1  # torque by noise over capacity: above it the same
+REACH = 4.0  # steps of the last kind in which a slip that is to be ended must be gone
+STRANGE = 0.05  # of the slip that capacity makes in a step: what outside torques may leave
+LARGE = 0.05  # of the largest slip: more is not held
+SMALL = 1e-3  # of the largest slip: a pack that slips by less is locked
+ANSWERS, SAID = 4.0, 34.0  # steps after the last question: an answer may come, it is told
+ANSWERED = 2.0  # what was given is refuted by an answer: the driveline is another one
+OFTEN = 5.0  # times that the slip came to the bit again, over the same number of steps: it is held
+MANY = 3.5  # reversals of late
+
+
+@kernel
+def is_given(coupling: Coupling, mem: Array) -> bool:
+    """Tell if inertia and age are those of the host, and not refuted."""
+    mode, _, _, _, _ = coupling
+    return mode == M.GIVEN and mem[M.REFUSED] == 0.0
+
+
+@kernel
+def knows(coupling: Coupling, mem: Array) -> bool:
+    """Tell if the driveline is known."""
+    return is_given(coupling, mem) or (mem[M.KNOWN] > 0.0 and coupling[0] == M.IDENTIFIED)
 
 
 @kernel
 def age_of(coupling: Coupling, mem: Array) -> int:
     """Return how many steps late the torque acts, -1 while nobody knows."""
-    mode, _, age, _, _ = coupling
-    return age if mode == M.GIVEN else int(mem[M.AGE]) - 1
-
-
-@kernel
-def knows(coupling: Coupling, mem: Array, h: float) -> bool:
-    """Tell if the driveline is known, and the step [s] that the torque is for."""
-    return age_of(coupling, mem) >= 0 and h > 0.0
+    if not knows(coupling, mem):
+        return -1
+    return coupling[2] if coupling[0] == M.GIVEN else int(mem[M.AGE])
 
 
 @kernel
 def inertia_of(coupling: Coupling, mem: Array) -> float:
     """Return the inertia that the slip sees [kg m2], 0 while nobody knows."""
-    mode, inertia, _, _, _ = coupling
-    return inertia if mode == M.GIVEN else mem[M.INERTIA]
+    if not knows(coupling, mem):
+        return 0.0
+    return coupling[1] if coupling[0] == M.GIVEN else mem[M.INERTIA]
 
 
 @kernel
-def notice(coupling: Coupling, mem: Array, slip: float, capacity: float) -> None:
-    """Take in the slip [rad/s] at the start of a step: reversals, a new engagement, the plant."""
-    mode, _, _, smoothing, _ = coupling
-    mem[M.MOST_CAPACITY] = max(mem[M.MOST_CAPACITY], capacity)
+def shown_inertia(coupling: Coupling, mem: Array) -> float:
+    """Return the same; where the one given was refuted, the one that was seen then."""
+    if coupling[0] == M.GIVEN and mem[M.REFUSED] > 0.0:
+        return mem[M.INERTIA]
+    return inertia_of(coupling, mem)
+
+
+@kernel
+def bound_of(coupling: Coupling, mem: Array, capacity: float, h: float) -> float:
+    """Return the slip [rad/s] within which a pack is called locked."""
+    inertia, bound = inertia_of(coupling, mem), SMALL * mem[M.MOST_SLIP]
+    if inertia > 0.0:
+        bound = max(bound, STRANGE * capacity * h / inertia)
+    return bound + 4.0 * mem[M.NOISE]
+
+
+@kernel
+def slope_of_bound(coupling: Coupling, mem: Array, capacity: float, h: float) -> float:
+    """Return how that slip grows with the capacity [rad/s/(N m)]."""
+    inertia = inertia_of(coupling, mem)
+    if inertia > 0.0 and STRANGE * capacity * h / inertia > SMALL * mem[M.MOST_SLIP]:
+        return STRANGE * h / inertia
+    return 0.0
+
+
+@kernel
+def is_deaf(mem: Array) -> bool:
+    """Tell if the slip has not answered what was asked of it."""
+    return mem[M.KNOWN] == 0.0 and mem[M.ASKED] >= FREE
+
+
+@kernel
+def basis_of(coupling: Coupling, locked: bool) -> int:
+    """Return what a lock rests on: nothing, what was asked, what was given, what was trusted."""
+    mode, _, _, _, probing = coupling
+    if not locked:
+        return M.NOT_LOCKED
+    if mode == M.GIVEN:
+        return M.BY_GIVEN if probing else M.BY_TRUST
+    return M.BY_ASKING
+
+
+@kernel
+def notice(coupling: Coupling, mem: Array, slip: float) -> None:
+    """Take in the slip [rad/s] at the start of a step: reversals, the plant."""
+    mode, _, age, _, probing = coupling
     mem[M.MOST_SLIP] = max(mem[M.MOST_SLIP], abs(slip))
-    watch(mem, slip, capacity)
+    watch(mem, slip, mem[M.CAPACITY], mode != M.OFF)
     if mode == M.OFF:
         return
-    if mem[M.COUNT] == 0.0 and abs(slip) <= smoothing:
-        mem[M.STUCK] = 1.0
-    if capacity < OPEN * mem[M.MOST_CAPACITY]:
+    count_repeats(mem, slip)
+    if mem[M.COUNT] == 0.0:
+        mem[M.STUCK] = 1.0 if slip == 0.0 else 0.0
+        mem[M.LEAST] = mem[M.CAPACITY]
+    given = is_given(coupling, mem)
+    learn(mem, slip, 1.0 / coupling[1] if given else 0.0, age if given else 0)
+    if given:
+        mem[M.NOISE] = math.sqrt(mem[M.ROUGH] / 20.0)
+        if probing and excludes(mem, coupling[1], age):
+            refuse(coupling, mem)
+
+
+@kernel
+def book_heat(coupling: Coupling, mem: Array, slip: float) -> None:
+    """Book the heat of the step that ended at ``slip`` [rad/s]."""
+    age, inertia = age_of(coupling, mem), inertia_of(coupling, mem)
+    if age < 0 and coupling[0] == M.IDENTIFIED:  # that which was known last
+        age, inertia = int(mem[M.HEAT_AGE]) - 1, mem[M.HEAT_INERTIA]
+    book(mem, slip, age, inertia)
+
+
+@kernel
+def refuse(coupling: Coupling, mem: Array) -> None:
+    """Forget the plant, or refuse the one that was given until the pack was open."""
+    if coupling[0] == M.GIVEN:
+        mem[M.REFUSED], mem[M.CAREFUL] = 1.0, ANSWERED if mem[M.KNOWN] > 0.0 else 0.0
+        mem[M.KNOWN] = mem[M.DOUBT] = mem[M.HELD] = 0.0
+    else:
         forget(mem)
-        mem[M.DIPS] = mem[M.CAUTION] = 0.0
-    if mode == M.IDENTIFIED:
-        unsure = mem[M.AGE] == 0.0 or mem[M.ERROR] > UNSURE or mem[M.CAUTION] > 0.0
-        if unsure or mem[M.HELD] <= 3.0 + mem[M.AGE]:  # what held says nothing of the plant
-            identify(mem, slip)
-        if mem[M.AGE] == 0.0 and abs(slip) < 3.0 * _broad(coupling, mem):
-            mem[M.NARROWED] = 1.0 - NARROWED * (1.0 - mem[M.NARROWED])
+        mem[M.TURN] = 0.0
+    mem[M.HEAT_AGE] = 0.0
+    for k in range(N_AGES + 2):
+        mem[np.uintp(M.WORK + k)] = 0.0
 
 
 @kernel
-def _broad(coupling: Coupling, mem: Array) -> float:
-    """Return the slip [rad/s] over which the torque of a pack in an unknown plant rises."""
-    _, _, _, smoothing, _ = coupling
-    broad = BROAD * mem[M.MOST_SLIP] * (1.0 - mem[M.NARROWED])
-    return max(smoothing, broad)
+def gain_of(coupling: Coupling, mem: Array, made: float) -> float:
+    """Return the share of the slip that is ended in a step.
 
-
-@kernel
-def _width(coupling: Coupling, mem: Array, h: float) -> float:
-    """Return the same, narrower where the slip is known to answer little."""
-    _, _, _, smoothing, _ = coupling
-    width = _broad(coupling, mem)
-    if mem[M.WEIGHT] > 10.0:
-        move = 4.0 * largest_answer(mem) * mem[M.MOST_CAPACITY] * h
-        width = min(width, max(smoothing, move))
-    return width
-
-
-@kernel
-def _in_unknown_plant(
-    coupling: Coupling, mem: Array, slip: float, h: float, dry: float, wet: float
-) -> tuple[float, float, float, float]:
-    """Return torque [N m], its slopes over slip, dry and wet: smooth through zero."""
-    width = _width(coupling, mem, h)
-    smooth, side = math.tanh(slip / width), sign_of(slip)
-    torque = dry * smooth + side * wet
-    if mem[M.STUCK] > 0.0 and mem[M.COUNT] > 0.0:
-        most = 2.0 * abs(mem[M.TORQUE]) + DIP * (dry + wet)
-        if abs(torque) > most:
-            side = sign_of(torque)
-            return side * most, 0.0, side * DIP, side * DIP
-    return torque, dry * (1.0 - smooth) * (1.0 + smooth) / width, smooth, side
-
-
-@kernel
-def gain_of(coupling: Coupling, mem: Array) -> float:
-    """Return the share of the slip that is ended in a step."""
-    mode, _, _, _, _ = coupling
-    if mode == M.GIVEN:
-        return STEADY
-    gain = STEADY
-    if mem[M.ERROR] > UNSURE:
-        gain = CAREFUL if mem[M.ERROR] <= VAGUE else SLOWEST
-    return min(gain, 1.0 - mem[M.CAUTION])
-
-
-@kernel
-def hold(
-    coupling: Coupling, mem: Array, slip: float, h: float, dry: float, wet: float
-) -> tuple[float, bool, float, float, float, float]:
-    """Return the torque [N m] for a step of ``h`` [s]; if it holds; slopes; outside acceleration.
-
-    ``dry``, ``wet``: what asperities and oil can give [N m >= 0]. The slopes are those of the
-    torque over slip, dry and wet; the last number [rad/s2] is to be kept.
+    ``made``: slip that the capacity makes in a step [rad/s].
     """
-    age, inertia, capacity = age_of(coupling, mem), inertia_of(coupling, mem), dry + wet
-    if not knows(coupling, mem, h):
-        torque, by_slip, by_dry, by_wet = _in_unknown_plant(coupling, mem, slip, h, dry, wet)
-        return torque, False, by_slip, by_dry, by_wet, mem[M.OUTSIDE]
-    gain, outside, by_rate = gain_of(coupling, mem), 0.0, 0.0
+    gain = STEADY
+    if not is_given(coupling, mem) and mem[M.ERROR] > VAGUE:
+        gain = CAREFUL if mem[M.ERROR] <= BADLY else SLOWEST
+    loud = 2.3 * mem[M.NOISE] / max(made, 1e-300)
+    if mem[M.CAREFUL] > 0.0 or loud > LOUDER:
+        return min(gain, SLOWEST)
+    return min(gain, CAREFUL) if loud > LOUD else gain
+
+
+@kernel
+def _wanted(
+    coupling: Coupling, mem: Array, slip: float, h: float, gain: float
+) -> tuple[float, float, float]:
+    """Return the torque that ends the slip, its slope over the slip, the outside acceleration."""
+    age, inertia, outside, by_rate = age_of(coupling, mem), inertia_of(coupling, mem), 0.0, 0.0
     if mem[M.COUNT] > 0.0:
         acting = mem[np.uintp(M.TORQUE + age)]
         outside, by_rate = (slip - mem[M.SLIP]) / mem[M.STEP] + acting / inertia, 1.0
-        if gain < STEADY and mem[M.FOLLOWS] > 0.0:
+        if gain < STEADY and mem[M.HELD] > 0.0:
             outside, by_rate = mem[M.OUTSIDE] + gain * (outside - mem[M.OUTSIDE]), gain
         by_rate /= mem[M.STEP]
     ahead, by_ahead, longest = slip, 1.0, max(h, LEAST_STEP * mem[M.LONGEST])
@@ -161,82 +218,206 @@ def hold(
         for k in range(3):
             longest = max(longest, mem[np.uintp(M.STEP + k)])
     torque = inertia * (outside + gain * ahead / longest)
-    most = mem[M.MOST_SLIP]
-    drives = torque * slip < 0.0 and abs(slip) > LARGE * most
-    reach = REACH * (1.0 + age) * _nearest(mem, slip) + COUNTED * most
-    if (mem[M.HELD] == 0.0 or drives) and abs(slip) > reach:
-        side = sign_of(slip)
-        return side * capacity, False, 0.0, side, side, outside
-    if abs(torque) < capacity:
-        return torque, True, inertia * (by_rate + gain * by_ahead / longest), 0.0, 0.0, outside
-    side = sign_of(torque)
-    return side * capacity, False, 0.0, side, side, outside
+    return torque, inertia * (by_rate + gain * by_ahead / longest), outside
 
 
 @kernel
-def _nearest(mem: Array, slip: float) -> float:
-    """Return the largest change of the slip over one of the last three steps [rad/s]."""
-    change = max(abs(slip - mem[M.SLIP]), abs(mem[M.SLIP] - mem[M.SLIP + 1]))
-    return max(change, abs(mem[M.SLIP + 1] - mem[M.SLIP + 2]))
+def _reach(coupling: Coupling, mem: Array, slip: float, made: float) -> float:
+    """Return the slip [rad/s] up to which a torque other than that of sliding is given."""
+    late = 1.0 + age_of(coupling, mem)
+    reach = 2.0 * late * made + 4.0 * mem[M.NOISE]
+    if mem[M.HELD] == 0.0 and mem[M.COUNT] > 0.0:
+        move = REACH * late * largest_move(mem, slip)
+        reach = min(reach, move + SMALL * mem[M.MOST_SLIP])
+    return reach
 
 
 @kernel
-def dip_of(coupling: Coupling, mem: Array, torque: float, capacity: float) -> float:
-    """Return the share of the torque that is left out in this step, -1 where none is asked for.
+def expected(coupling: Coupling, mem: Array, slip: float, h: float) -> float:
+    """Return about the torque of a step of ``h`` [s], for the capacity of the last one [N m]."""
+    capacity = mem[M.CAPACITY]
+    if not (knows(coupling, mem) and h > 0.0):
+        return sign_of(slip) * capacity
+    made = capacity * h / inertia_of(coupling, mem)
+    if abs(slip) > _reach(coupling, mem, slip, made):
+        return sign_of(slip) * capacity
+    wanted, _, _ = _wanted(coupling, mem, slip, h, gain_of(coupling, mem, made))
+    return min(capacity, max(-capacity, wanted))
 
-    A pack that slides in a driveline which is not known gives a little less, in two waves. They
-    run on with the steps' length, a step of the longest seen being one: a host that judges its
-    steps by the outputs finds no jump.
+
+@kernel
+def _verify(coupling: Coupling, mem: Array, slip: float, made: float) -> None:
+    """Doubt what is known while the slip of a pack that holds is not small."""
+    age = age_of(coupling, mem)
+    if not mem[M.HELD] > 3.0 + age:
+        return
+    slid = max(
+        mem[M.MOST_SLIP], 4.0 * (1.0 + age) * made
+    )  # a pack may have been stuck from the start
+    most = min(STRANGE * (1.0 + age) * (2.0 + age) * made, LARGE * slid)
+    if abs(slip) > most + 4.0 * mem[M.NOISE]:
+        mem[M.DOUBT] += 1.0
+    else:
+        mem[M.DOUBT] = max(0.0, mem[M.DOUBT] - 0.5)
+    if mem[M.DOUBT] > 6.0 + 2.0 * age:
+        refuse(coupling, mem)
+
+
+@kernel
+def _count_reversals(coupling: Coupling, mem: Array) -> None:
+    """Forget what is known, or be careful first with what was given, where the slip reverses."""
+    if not (mem[M.REVERSALS] > MANY and knows(coupling, mem)):
+        return
+    if is_given(coupling, mem) and mem[M.CAREFUL] == 0.0:
+        mem[M.CAREFUL], mem[M.REVERSALS] = 1.0, 0.0
+        return
+    refuse(coupling, mem)
+    mem[M.REVERSALS] = 1.5
+
+
+@kernel
+def _of_unknown(
+    coupling: Coupling, mem: Array, slip: float, h: float, capacity: float
+) -> tuple[float, float]:
+    """Return the share of the capacity in an unknown plant, and its slope over the slip."""
+    width = SMOOTH * mem[M.MOST_SLIP]
+    swing = max(mem[M.AMPLITUDE], max(mem[M.AMPLITUDE + 1], mem[M.AMPLITUDE + 2]))
+    wide = ALL if mem[M.PROOF] > NEARLY and mem[M.REVERSALS] > 1.0 else FEW
+    broad = 4.0 * (1.0 + mem[M.REVERSALS]) * largest_answer(mem) * capacity * h
+    if mem[M.REFUSED] > 0.0 and mem[M.CAREFUL] == ANSWERED:
+        width = max(width, broad)
+    width = max(max(width, min(wide * swing, broad)), 1e-300)
+    share = math.tanh(slip / width)
+    if mem[M.STUCK] > 0.0 and mem[M.COUNT] > 0.0 and capacity > 0.0:
+        mem[M.FELT] += 1.0 if slip != 0.0 else 0.0
+        if mem[M.FELT] > FEELS:
+            mem[M.STUCK] = 0.0
+        last = abs(mem[M.TORQUE]) / capacity
+        most = 2.0 * last + START
+        if share * mem[M.TORQUE] < 0.0:
+            most = BACK * last + BACK * START
+        elif abs(slip) < abs(mem[M.SLIP]):
+            most = last + BACK * START
+        if abs(share) > most:
+            return math.copysign(most, share), 0.0
+        if abs(share) > FULL:
+            mem[M.STUCK] = 0.0
+    return share, (1.0 - share) * (1.0 + share) / width
+
+
+@kernel
+def decide(
+    coupling: Coupling, mem: Array, slip: float, h: float, capacity: float
+) -> tuple[bool, float, float, float]:
+    """Decide on the torque of a step of ``h`` [s] with this ``capacity`` [N m].
+
+    Returns if the pack slides; then the share of the capacity, else the torque [N m] that ends the
+    slip; its slope over the slip; the share of the capacity that is coded.
     """
-    mode, _, _, _, probing = coupling
-    if mode != M.IDENTIFIED or not probing:
-        return -1.0
-    if abs(torque) < (1.0 - DIP) * capacity or capacity == 0.0:
-        return -1.0
-    if mem[M.DIPS] % ROUND == 0.0 and not _wants_dips(mem):
-        return -1.0
-    turn = 2.0 * math.pi / ROUND * mem[M.DIPS]
-    slow, fast = 1.0 - math.cos(SLOW_WAVE * turn), 1.0 - math.cos(FAST_WAVE * turn)
-    return 0.5 * DIP * (SLOW_SHARE * slow + (1.0 - SLOW_SHARE) * fast)
+    if capacity < OPEN * mem[M.MOST_CAPACITY]:
+        forget(mem)
+        calm(mem)
+        mem[M.ASKED] = mem[M.CLOSED] = mem[M.TURN] = 0.0
+        mem[M.REFUSED] = mem[M.CAREFUL] = mem[M.REPEATS] = 0.0
+        mem[M.LEAST] = capacity
+    elif capacity > CLOSED * mem[M.LEAST]:
+        mem[M.ASKED], mem[M.CLOSED] = 0.0, min(mem[M.CLOSED], SEEN)
+        mem[M.LEAST] = capacity
+    slides, number, slope, coded, made = True, 0.0, 0.0, 0.0, 0.0
+    if knows(coupling, mem) and h > 0.0:
+        made = capacity * h / inertia_of(coupling, mem)
+        gain = gain_of(coupling, mem, made)
+        number, slope, mem[M.OUTSIDE] = _wanted(coupling, mem, slip, h, gain)
+        slides = abs(slip) > _reach(coupling, mem, slip, made)
+        if not slides and abs(number) < capacity:
+            _verify(coupling, mem, slip, made)
+        _count_reversals(coupling, mem)
+        slides = slides or not knows(coupling, mem)
+    lent = capacity * h * largest_move(mem, slip)
+    if knows(coupling, mem):
+        late = 1.0 + age_of(coupling, mem)
+        lent = capacity * h * (late * late * made + 4.0 * mem[M.NOISE])
+    if slides:
+        number, slope, coded = _slide(coupling, mem, slip, h, capacity)
+    if number * slip < 0.0 and mem[M.DEBT] > lent:
+        number = slope = coded = 0.0
+        mem[M.DOUBT] += 1.0
+    return slides, number, slope, coded
 
 
 @kernel
-def _wants_dips(mem: Array) -> bool:
-    """Tell if dips are to go on: at first, while the driveline is not known, or not well."""
-    if mem[M.DIPS] < FIRST_DIPS:
-        return True
-    if mem[M.AGE] == 0.0:
-        return mem[M.DIPS] < (DEAF_DIPS if is_deaf(mem) else MOST_DIPS)
-    return mem[M.ERROR] > SURE
-
-
-@kernel
-def _go_on(mem: Array, h: float) -> None:
-    """Count a step with dips, a short one in part; a round ends where none are wanted."""
-    now = mem[M.DIPS]
-    after = now + min(1.0, h / mem[M.LONGEST])
-    end = ROUND * (math.floor(now / ROUND) + 1.0)
-    mem[M.DIPS] = after
-    if after >= end - 1e-9 and not (_wants_dips(mem) and after > end):
-        mem[M.DIPS] = end
+def _slide(
+    coupling: Coupling, mem: Array, slip: float, h: float, capacity: float
+) -> tuple[float, float, float]:
+    """Return the share of the capacity of a pack that slides, its slope, its coded part."""
+    _, _, _, _, probing = coupling
+    share, slope, known = sign_of(slip), 0.0, knows(coupling, mem) and h > 0.0
+    if not known:
+        share, slope = _of_unknown(coupling, mem, slip, h, capacity)
+    given = is_given(coupling, mem)
+    near = is_near(mem, slip, NEAR_GIVEN if given else NEAR)
+    unclear = mem[M.ASKED] == 0.0 and is_clean(mem, slip)  # what was asked from afar
+    from_afar = mem[M.AWAY] > FIRST_STEPS and (mem[M.KNOWN] > 0.0 or unclear)
+    if near and from_afar and not given:
+        forget(mem)  # it may be another plant by now
+    mem[M.AWAY] = 0.0 if near else mem[M.AWAY] + 1.0
+    if not probing or mem[M.REFUSED] > 0.0 or (given and not near):
+        return share, slope, 0.0
+    proved = mem[M.KNOWN] > 0.0 and mem[M.ERROR] <= SURE
+    depth = share_asked(mem, slip, near, proved, given)
+    if mem[M.STUCK] > 0.0 and depth > 0.0:
+        depth = DEEPEST  # of a torque that is small yet
+    if depth == 0.0:
+        return share, slope, 0.0
+    bit = next_bit(mem)
+    if near:
+        mem[M.ASKED] += 1.0
+        if mem[M.ASKED] == FREE:
+            mem[M.TOLD], mem[M.STUCK] = mem[M.COUNT], 0.0
+    if mem[M.ASKED] > FREE:
+        mem[M.SPENT] += depth * bit * abs(share * capacity * slip) * h
+    rest = 1.0 - depth * bit
+    return rest * share, rest * slope, -share * depth * (bit - 0.5)
 
 
 @kernel
 def note(
-    mem: Array, slip: float, h: float, torque: float, holds: bool, outside: float, dips: bool
-) -> None:
+    coupling: Coupling, mem: Array, slip: float, h: float, torque: float, coded: float,
+    capacity: float, holds: bool,
+) -> None:  # fmt: skip
     """Keep what was seen and given in a step."""
     for k in range(4, 0, -1):
         mem[np.uintp(M.TORQUE + k)] = mem[np.uintp(M.TORQUE + k - 1)]
-    for k in range(2, 0, -1):
+        mem[np.uintp(M.CODED + k)] = mem[np.uintp(M.CODED + k - 1)]
         mem[np.uintp(M.SLIP + k)] = mem[np.uintp(M.SLIP + k - 1)]
         mem[np.uintp(M.STEP + k)] = mem[np.uintp(M.STEP + k - 1)]
-    mem[M.TORQUE], mem[M.SLIP], mem[M.STEP] = torque, slip, h
+    mem[M.TORQUE], mem[M.CODED], mem[M.SLIP], mem[M.STEP] = torque, coded, slip, h
     mem[M.COUNT] += 1.0
     mem[M.CLOSED] += 1.0
+    mem[M.CLOCK] += h
     mem[M.HELD] = mem[M.HELD] + 1.0 if holds else 0.0
-    mem[M.OUTSIDE] = outside
-    mem[M.FOLLOWS] = 1.0 if mem[M.AGE] > 0.0 else 0.0
+    mem[M.CAPACITY] = capacity
+    mem[M.MOST_CAPACITY] = max(mem[M.MOST_CAPACITY], capacity)
     mem[M.LONGEST] = max(LASTS * mem[M.LONGEST], h)
-    if dips:
-        _go_on(mem, h)
+    quiet = abs(slip) <= bound_of(coupling, mem, capacity, h)
+    mem[M.QUIET] = mem[M.QUIET] + 1.0 if quiet else 0.0
+
+
+@kernel
+def is_locked(coupling: Coupling, mem: Array) -> bool:
+    """Tell if the pack holds, and has lately slipped by no more than the bound of a lock."""
+    late = 1.0 + age_of(coupling, mem)
+    return mem[M.HELD] > late and mem[M.QUIET] > late
+
+
+@kernel
+def told_of(coupling: Coupling, mem: Array, advice: int) -> int:
+    """Return the status of a pack that could hold: why it does not, else ``advice``."""
+    if coupling[0] == M.GIVEN and mem[M.REFUSED] > 0.0:
+        return REFUTED
+    if mem[M.REPEATS] >= OFTEN:
+        return CHATTER
+    if coupling[0] == M.IDENTIFIED and is_deaf(mem):
+        since = mem[M.COUNT] - mem[M.TOLD]
+        return UNANSWERED if advice == OK and ANSWERS < since < SAID else advice
+    return CHATTER if chatters(mem) else advice

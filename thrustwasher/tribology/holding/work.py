@@ -1,38 +1,117 @@
 # mypy: disable-error-code="no-any-return"
-"""The work that the shafts do to a unit between them."""
+"""The heat of a unit between two shafts: the work that they do to it.
+
+While nobody knows when a torque acts the least counts that any age would have made; once the slip
+has not answered, or after many steps, the power that the torque had where it was given (trapezoidal
+rule). Once the age is known the difference is owed, and paid by heat to come: heat never falls.
+Negative work is a debt that positive work pays first.
+
+The torque of the initialization may have acted over the first steps, or not: their slip tells.
+"""
 
 import numpy as np
 
 from ...numerics.jit import Array, kernel
+from ...numerics.smoothing import sign_of
 from . import memory as M
-from .memory import Coupling
+from .asking import FREE
 from .plant import N_AGES
-from .torque import age_of, inertia_of
+
+MANY = 400.0  # steps: an age, at most two steps, makes a difference of half a per cent
 
 
 @kernel
-def work_done(coupling: Coupling, mem: Array, slip: float) -> float:
-    """Return what the shafts did to the pack since the start [J], now that the slip is known.
+def _is_open(mem: Array) -> bool:
+    """Tell if the age may still be found soon enough to matter."""
+    return mem[M.ASKED] < 1.5 * FREE and mem[M.COUNT] < MANY
 
-    It is kept for all ages side by side, for the one that turns out to be true.
+
+@kernel
+def _note_first(mem: Array, slip: float) -> None:
+    """Note rates and turns of the first three steps; the torque that was given before them."""
+    n = int(mem[M.COUNT])
+    if n == 1:
+        mem[M.FIRST] = sign_of(mem[M.SLIP]) * mem[M.CAPACITY]
+        mem[M.FIRST + 1] = mem[M.TORQUE]
+    mem[np.uintp(M.FIRST + 1 + n)] = (slip - mem[M.SLIP]) / mem[M.STEP]
+    mem[np.uintp(M.FIRST + 4 + n)] = 0.5 * (mem[M.SLIP] + slip) * mem[M.STEP]
+
+
+@kernel
+def _before_the_start(mem: Array, age: int, inertia: float) -> None:
+    """Count the torque of the initialization where the slip of the first steps says it acted."""
+    first = mem[M.FIRST]
+    mem[M.FIRST] = 0.0
+    for k in range(age):  # step k, over which the torque of step k - age acts
+        rates = mem[np.uintp(M.FIRST + 2 + k)] - mem[np.uintp(M.FIRST + 2 + age)]
+        acted = mem[M.FIRST + 1] - inertia * rates
+        if abs(acted - first) < abs(acted):
+            made = first * mem[np.uintp(M.FIRST + 5 + k)]
+            mem[np.uintp(M.WORK + age)] += made
+            mem[M.OWED] -= made
+
+
+@kernel
+def book(mem: Array, slip: float, age: int, inertia: float) -> None:
+    """Book the step that ended at ``slip`` [rad/s]; ``age`` of the torque, -1 if not known.
+
+    ``inertia`` [kg m2]: the one that was known last, 0 if none was.
     """
-    turned = 0.0
-    if mem[M.COUNT] > 0.0:
-        turned = 0.5 * (mem[M.SLIP] + slip) * mem[M.STEP]
-    for d in range(N_AGES):
-        mem[np.uintp(M.WORK + d)] += mem[np.uintp(M.TORQUE + d)] * turned
-    return mem[np.uintp(M.WORK + max(age_of(coupling, mem), 0))]
+    mem[M.HEAT_INERTIA], mem[M.RISES] = inertia, 0.0
+    if mem[M.COUNT] == 0.0:
+        return
+    basis = int(mem[M.HEAT_AGE]) - 1
+    if age != basis:
+        if basis >= 0 and age >= 0:
+            mem[M.OWED] += mem[np.uintp(M.WORK + basis)] - mem[np.uintp(M.WORK + age)]
+        elif age >= 0:
+            mem[M.OWED] += mem[M.WORK + N_AGES + 1] - mem[np.uintp(M.WORK + age)]
+        mem[M.HEAT_AGE] = float(age + 1)
+    turned = 0.5 * (mem[M.SLIP] + slip) * mem[M.STEP]
+    for k in range(N_AGES):
+        mem[np.uintp(M.WORK + k)] += mem[np.uintp(M.TORQUE + k)] * turned
+    if mem[M.COUNT] <= 3.0:
+        _note_first(mem, slip)
+    elif age > 0 and mem[M.FIRST] != 0.0:
+        _before_the_start(mem, age, inertia)
+    if age < 0:
+        made = 0.5 * (mem[M.STEP] + mem[M.STEP + 1]) * abs(mem[M.TORQUE] * mem[M.SLIP])
+        mem[M.WORK + N_AGES] += made
+        due = mem[M.WORK + N_AGES]
+        if _is_open(mem):
+            for k in range(N_AGES):
+                if mem[np.uintp(M.WORK + k)] < due:
+                    due, mem[M.RISES] = mem[np.uintp(M.WORK + k)], mem[np.uintp(M.TORQUE + k)]
+        if due <= mem[M.WORK + N_AGES + 1]:
+            mem[M.RISES] = 0.0
+        made = max(0.0, due - mem[M.WORK + N_AGES + 1])
+        mem[M.WORK + N_AGES + 1] += made
+        mem[M.HEAT] += made
+        return
+    made = mem[np.uintp(M.TORQUE + age)] * turned
+    paid = min(max(made, 0.0), mem[M.DEBT])
+    mem[M.DEBT] += max(-made, 0.0) - paid
+    rest = max(made, 0.0) - paid - mem[M.OWED]
+    mem[M.HEAT] += max(rest, 0.0)
+    if rest > 0.0:
+        mem[M.RISES] = mem[np.uintp(M.TORQUE + age)]
+    mem[M.OWED] = max(-rest, 0.0)
 
 
 @kernel
-def work_foreseen(coupling: Coupling, mem: Array, slip: float, h: float, torque: float) -> float:
-    """Return what they will do over a step of ``h`` [s] in which ``torque`` is given [J]."""
-    age, inertia = age_of(coupling, mem), inertia_of(coupling, mem)
+def foreseen(mem: Array, slip: float, h: float, torque: float) -> float:
+    """Return the heat of a step of ``h`` [s] in which ``torque`` is given [J >= 0]."""
+    age, inertia = int(mem[M.HEAT_AGE]) - 1, mem[M.HEAT_INERTIA]
     acting = torque if age <= 0 else mem[np.uintp(M.TORQUE + age - 1)]
     change = 0.0
     if mem[M.COUNT] > 0.0:
         change = (slip - mem[M.SLIP]) / mem[M.STEP] * h
-        if inertia > 0.0:
-            change -= (acting - mem[np.uintp(M.TORQUE + max(age, 0))]) / inertia * h
+        if inertia > 0.0 and age >= 0:
+            change -= (acting - mem[np.uintp(M.TORQUE + age)]) / inertia * h
     change = min(abs(slip), max(-abs(slip), change))  # a short step says little of a long one
-    return acting * (slip + 0.5 * change) * h
+    made = max(acting * (slip + 0.5 * change) * h, 0.0)
+    if age < 0 and _is_open(mem):
+        return 0.0
+    if age < 0:  # half of the last step is not booked yet
+        return made + 0.5 * mem[M.STEP] * abs(torque * slip)
+    return max(made - mem[M.DEBT] - mem[M.OWED], 0.0)

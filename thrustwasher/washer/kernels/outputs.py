@@ -6,11 +6,9 @@ from ...numerics.arrays import are_finite
 from ...numerics.jit import Array, Ints, inlined, kernel
 from ...numerics.smoothing import sign_of
 from ...numerics.status import CHATTER, NOT_FINITE, OK
-from ...tribology.holding import memory as M
-from ...tribology.holding.drag import hold_drag
+from ...tribology.holding.drag import hold_drag, slope_of_share, slope_over_capacity
 from ...tribology.holding.memory import Coupling
 from ...tribology.holding.reversals import chatters
-from ...tribology.holding.torque import knows
 from . import layout as L
 from .constants import WasherModel
 from .gap import dry_friction, film_change
@@ -289,13 +287,13 @@ def keep_book(out: Array, state: Array) -> None:
 def hold_outputs(
     way: Coupling, mem: Array, speed: float, dt: float, out: Array, iout: Ints
 ) -> None:
-    """Let what hangs on the torque of sliding belong to that of a washer that holds its shaft.
+    """Let what hangs on the torque of sliding belong to that of a washer near rest.
 
     What a torque below that of sliding makes less of heat reaches the oil less; gap 2 holds what it
     holds.
     """
     torque = out[L.O_TORQUE]
-    given, _, _ = hold_drag(way, mem, speed, dt, torque, abs(torque))
+    given, _ = hold_drag(way, mem, speed, dt, torque, abs(torque))
     if given != torque:
         if torque != 0.0:
             share = abs(given / torque)
@@ -333,16 +331,17 @@ def _hold_changes(own: Array, given: float, rise: float, dout: Array) -> None:
 def hold_slopes(
     way: Coupling, mem: Array, speed: float, change: float, own: Array, dout: Array
 ) -> None:
-    """Turn the slopes of the outputs to the law's where it ends the speed with the step.
+    """Turn the slopes of the outputs to those of a torque that rises over a wider speed.
 
     ``change`` of the speed; ``own``: outputs of sliding.
     """
     torque = own[L.O_TORQUE]
-    if knows(way, mem, mem[M.STEP]) and speed != mem[M.SLIP]:
-        given, holds, slope = hold_drag(way, mem, speed, 0.0, torque, abs(torque))
-        if holds:
-            _hold_changes(own, given, slope * change, dout)
-            less = dout[L.O_POWER]
-            dout[L.O_TORQUE] = slope * change
-            dout[L.O_POWER] = slope * change * speed + given * change
-            dout[L.O_OIL_HEAT] += dout[L.O_POWER] - less
+    given, share = hold_drag(way, mem, speed, 0.0, torque, abs(torque))
+    if share != 1.0 and torque != 0.0:
+        slope = slope_of_share(way, mem, speed, 0.0, abs(torque))
+        share += slope_over_capacity(way, mem, speed, 0.0, abs(torque))
+        rise, before = share * dout[L.O_TORQUE] + torque * slope * change, dout[L.O_POWER]
+        _hold_changes(own, given, rise, dout)
+        dout[L.O_TORQUE] = rise
+        dout[L.O_POWER] = rise * speed + given * change
+        dout[L.O_OIL_HEAT] += dout[L.O_POWER] - before

@@ -42,7 +42,7 @@ class Unit:
         self.out, self.iout = np.zeros(L.NOUT), np.zeros(L.NIOUT, np.int32)
         arrays = {"par": self.par, "inp": self.inp, "state": self.state, "work": self.work}
         self._step = bound(kernel.step, **arrays, out=self.out, iout=self.iout)
-        self.time, self.warned = 0.0, False
+        self.time, self.warned, self.told = 0.0, False, set()
 
     def step(self, slip, h, load):
         """Return the torque [N m] to apply."""
@@ -50,6 +50,7 @@ class Unit:
         self.inp[L.I_SPEED] = slip
         assert self._step(self.time, h) == Status.OK
         self.time += h
+        self.told.add(self.status)
         self.warned |= self.iout[L.IO_STATUS] == Status.CHATTER
         return self.scale * float(self.out[L.O_TORQUE])
 
@@ -68,6 +69,14 @@ class Unit:
     @property
     def inertia(self):
         return self.scale * float(self.out[L.O_PLANT_INERTIA])
+
+    @property
+    def bound(self):
+        return float(self.out[L.O_SLIP_BOUND])
+
+    @property
+    def status(self):
+        return Status(self.iout[L.IO_STATUS])
 
     @property
     def age(self):

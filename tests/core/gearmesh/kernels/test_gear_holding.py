@@ -1,4 +1,4 @@
-"""Teeth that hold their shaft: heat and slopes are those of the torque that they give."""
+"""Teeth near rest: heat and slopes are those of the torque that they give; the shaft creeps."""
 
 import numpy as np
 import pytest
@@ -28,15 +28,16 @@ def braked(steps):
 
 
 def test_energy_is_the_work_of_the_torque_that_acted():
-    _, (speed, torque, heat, energy) = braked(80)
-    assert torque[-1] == pytest.approx(OUTSIDE, rel=1e-6) and abs(speed[-1]) < 1e-12
+    _, (speed, torque, heat, energy) = braked(160)
+    assert torque[-1] == pytest.approx(OUTSIDE, rel=1e-5)
+    assert (speed > 0.0).all() and speed[-1] < 2.5 * H * OUTSIDE / INERTIA  # the creep of J/(2 H)
     np.testing.assert_allclose(heat, torque * speed, rtol=1e-9, atol=1e-14)
     np.testing.assert_allclose(energy, np.cumsum(torque * speed * H), rtol=1e-9)
 
 
 def test_the_slope_of_the_heat_is_that_of_the_output():
     mesh, _ = braked(80)
-    near, step, found = 1e-5, 1e-8, []
+    near, step, found = 0.02, 1e-5, []
     for v in (near - step, near + step, near):
         mesh.step(at(v))
         found.append(mesh["oil_heat"])

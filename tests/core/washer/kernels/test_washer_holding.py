@@ -1,4 +1,7 @@
-"""A washer that holds its shaft: heat, margin and slopes are those of the torque that it gives."""
+"""A washer near rest: heat, margin and slopes are those of the torque that it gives.
+
+It holds nothing, for beside a pack that holds the same shaft it would chatter: it creeps.
+"""
 
 import numpy as np
 import pytest
@@ -11,8 +14,8 @@ from thrustwasher.washer.kernels import layout as L
 H, INERTIA, OUTSIDE = 1e-3, 1e-3, 0.05  # s, kg m2, N m
 
 
-def holding():
-    """Return a washer that knows its shaft; a part by itself holds nothing."""
+def told():
+    """Return a washer that knows its shaft; a part by itself passes through zero as it does."""
     washer = Part("washer", "map")
     washer.par[L.P_HOLDING : L.P_COUPLING_AGE + 1] = M.GIVEN, INERTIA, 0.0
     return washer
@@ -25,7 +28,7 @@ def at(speed):
 @pytest.fixture(scope="module")
 def braked():
     """A shaft from 5 rad/s to rest: (speed, torque, energy, oil energy, margin) of each step."""
-    washer, speed, rows = holding(), 5.0, []
+    washer, speed, rows = told(), 5.0, []
     for _ in range(160):
         assert washer.step(at(speed), H) == Status.OK
         names = ("friction_torque", "energy", "oil_energy", "stick_margin", "oil_heat")
@@ -36,7 +39,8 @@ def braked():
 
 def test_energy_is_the_work_of_the_torque_that_acted(braked):
     speed, torque, energy, oil_energy, _, oil_heat = braked
-    assert torque[-1] == pytest.approx(OUTSIDE, rel=1e-6) and abs(speed[-1]) < 1e-12
+    assert torque[-1] == pytest.approx(OUTSIDE, rel=1e-6)
+    assert (speed > 0.0).all() and speed[-1] < 2.5 * H * OUTSIDE / INERTIA  # the creep of J/(2 H)
     work = np.cumsum(torque * speed * H)
     np.testing.assert_allclose(energy, work, rtol=1e-12)
     np.testing.assert_allclose(oil_energy, work, rtol=1e-12)
@@ -45,9 +49,9 @@ def test_energy_is_the_work_of_the_torque_that_acted(braked):
 
 def test_gap_2_holds_what_it_holds_however_small_the_torque():
     """The margin is that of the torque which is given: the same hold over a smaller torque."""
-    held = holding()
+    held = told()
     speed = 5.0
-    while held.state[L.S_MEMORY + M.HELD] == 0.0:
+    for _ in range(60):
         assert held.step(at(speed), H) == Status.OK
         last, speed = speed, speed + H * (OUTSIDE - held["friction_torque"]) / INERTIA
     sliding = Part("washer", "map")
@@ -58,13 +62,12 @@ def test_gap_2_holds_what_it_holds_however_small_the_torque():
 
 
 @pytest.mark.parametrize("name", ["friction_torque", "stick_margin", "friction_coefficient"])
-def test_slopes_of_a_washer_that_holds_are_those_of_its_outputs(name):
-    washer, speed = holding(), 5.0
+def test_slopes_of_a_washer_near_rest_are_those_of_its_outputs(name):
+    washer, speed = told(), 5.0
     for _ in range(60):
         washer.step(at(speed), H)
         speed += H * (OUTSIDE - washer["friction_torque"]) / INERTIA
-    assert washer.state[L.S_MEMORY + M.HELD] > 0.0
-    near, step, found = 1e-5, 1e-8, []
+    near, step, found = 0.1, 1e-4, []
     for v in (near - step, near + step, near):
         washer.step(at(v))
         found.append(washer[name])

@@ -120,8 +120,8 @@ class Status(IntEnum):
     CHATTER = (
         5,
         "the slip reverses again and again, the torque with it, or is the same to the bit over "
-        "several steps: the speed is noisy, late or held for this step and driveline; step the unit "
-        "where its speeds are new (held ones: each advised_step), take a shorter step, "
+        "several steps: the speed is noisy, late or held for this step and driveline; step the "
+        "unit where its speeds are new (held ones: each advised_step), take a shorter step, "
         "set holding = given with coupling_inertia and coupling_age, or let the host hold "
         "(torque_capacity)",
     )

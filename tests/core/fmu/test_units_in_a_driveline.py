@@ -164,3 +164,51 @@ def test_teeth_that_chatter_say_so():
     outside, fixed, _ = DRAGS["gearmesh"]
     *_, status = dragged("gearmesh", 1e-3, 1, outside, fixed, holding="off")
     assert status[-1] == Status.CHATTER
+
+
+@pytest.mark.parametrize("delay", [0, 1])
+@pytest.mark.parametrize(
+    ("model", "speed", "torque", "inertia"),
+    [("losses", "input_speed", "input_torque", 5e-3), ("train", "speed", "loss_torque", 1e-3)],
+)
+def test_losses_bring_their_shaft_to_rest_and_leave_it_there(model, speed, torque, inertia, delay):
+    unit, w, waiting, rows = DirectInstance(find_spec(model)), 20.0, [0.0] * delay, []
+    unit.initialize(0.0, {"oil_temperature": 313.15, speed: w})
+    for n in range(1000):
+        given = {"oil_temperature": 313.15, speed: w}
+        unit.set_inputs([given.get(name, 0.0) for name in unit.input_names])
+        unit.step(n * H, H)
+        waiting.append(unit.get([torque])[0])
+        w -= H * waiting.pop(0) / inertia
+        rows.append(w)
+    assert np.abs(rows[-300:]).max() < 1e-9
+
+
+@pytest.mark.parametrize("delay", [0, 1])
+@pytest.mark.parametrize("holding", ["identified", "given"])
+def test_teeth_beside_a_locked_pack_on_one_shaft_stand_still(holding, delay):
+    """A pack that holds a shaft against 5 N m, a mesh whose friction acts on it too."""
+    inertia, outside, slip, old, rows = 0.03, -5.0, 0.0, (0.0, 0.0), []
+    told = {"holding": holding, "coupling_inertia": inertia, "coupling_age": delay}
+    pack = {"friction_law": "constant", "fidelity": "stribeck"}
+    pack, teeth = (
+        DirectInstance(find_spec("clutch"), parameters={**told, **pack}),
+        DirectInstance(find_spec("gearmesh"), parameters=told),
+    )
+    loads = {"clutch": 6000.0, "gearmesh": 100.0}
+    units = {"clutch": pack, "gearmesh": teeth}
+    for name, unit in units.items():
+        unit.initialize(0.0, {"load": loads[name], "speed": 0.0, "oil_temperature": 353.15})
+    for n in range(400):
+        new = []
+        for name, unit in units.items():
+            given = {"load": loads[name], "speed": slip, "oil_temperature": 353.15}
+            unit.set_inputs([given.get(key, 0.0) for key in unit.input_names])
+            unit.step(n * H, H)
+            new += unit.get(["friction_torque"])
+        acting, old = (old if delay else new), new
+        slip += H * (outside - acting[0] - acting[1]) / inertia
+        rows.append((slip, *new))
+    late = np.array(rows[300:])
+    assert np.abs(late[:, 0]).max() < 1e-7 and np.ptp(late[:, 1]) < 1e-4
+    assert late[-1, 1] == pytest.approx(outside, rel=1e-6)

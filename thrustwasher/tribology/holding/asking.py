@@ -15,6 +15,7 @@ from . import memory as M
 
 FIRST_BITS, N_FIRST = 0b10011100000111011011000111, 26  # the first bit is the highest
 SEED = 0xACE1
+N_AGES = 3  # of the torque: it acts up to two steps late
 FAINT, DEEPEST = 0.02, 0.5  # of the torque
 CLEAR = 8.0  # times the third difference of the slip: how far an answer is to stand out
 NEAR, NEAR_GIVEN = 14.0, 30.0  # steps to zero at the last rate; where it would hold before it asks
@@ -80,7 +81,8 @@ def share_asked(mem: Array, slip: float, near: bool, proved: bool, faint: bool) 
     early = 1.0 <= mem[M.CLOSED] <= FIRST_STEPS
     if proved or mem[M.COUNT] < 1.0 or not (near or early):
         return 0.0
-    if not (mem[M.ASKED] < FREE or mem[M.SPENT] < SHARE * mem[M.HEAT]):
+    made = max(mem[M.HEAT], mem[M.WORK + N_AGES])  # booked, or by the power while no age is known
+    if not (mem[M.ASKED] < FREE or mem[M.SPENT] < SHARE * made):
         return 0.0
     if faint or not near:
         return FAINT

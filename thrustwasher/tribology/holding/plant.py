@@ -19,8 +19,8 @@ import numpy as np
 
 from ...numerics.jit import Array, kernel
 from . import memory as M
+from .asking import N_AGES
 
-N_AGES = 3
 EXCITED = 0.002  # of the largest capacity: smaller changes of the coded part say nothing
 ROUNDING = 1e-12  # of the largest slip: a host that takes it from two speeds rounds it by less
 KEPT = 0.995  # of what was known, at each new sample
@@ -126,6 +126,14 @@ def fit(mem: Array, d: int) -> tuple[float, float, float, float, float]:
 
 
 @kernel
+def _is_alike(mem: Array, d: int, answer: float, by_rest: float) -> bool:
+    """Tell if the rest of the torque, where it is strong, is answered as the coded part is."""
+    if mem[np.uintp(M.FF + d)] <= LEVER * mem[np.uintp(M.ZZ + d)]:
+        return True
+    return ALIKE_LEAST * answer < by_rest < ALIKE_MOST * answer
+
+
+@kernel
 def _judge(mem: Array) -> None:
     """Take over the age whose coded part is answered beyond chance, and its inertia."""
     n = mem[M.WEIGHT]
@@ -134,10 +142,10 @@ def _judge(mem: Array) -> None:
     best, second, age = 1e300, 1e300, -1
     mem[M.PROOF] = 0.0
     for d in range(N_AGES):
-        alone, left, answer, _, own = fit(mem, d)
+        alone, left, answer, by_rest, own = fit(mem, d)
         if own == 0.0:
             continue
-        if answer > 0.0 and left > 0.0:
+        if answer > 0.0 and left > 0.0 and n >= ENOUGH and _is_alike(mem, d, answer, by_rest):
             ratio = answer * answer * own / left * (n - 2.0)
             mem[M.PROOF] = max(mem[M.PROOF], math.sqrt(ratio))
         if left < best:
@@ -152,9 +160,9 @@ def _judge(mem: Array) -> None:
         return
     if not left < math.exp(-LIKELIER / n) * second:
         return
+    if not _is_alike(mem, age, answer, by_rest):
+        return
     zz, ff = mem[np.uintp(M.ZZ + age)], mem[np.uintp(M.FF + age)]
-    if ff > LEVER * zz and not ALIKE_LEAST * answer < by_rest < ALIKE_MOST * answer:
-        return  # a plant answers both alike
     error = math.sqrt(left / max(n - 2.0, 1.0) / own) / answer
     if error > BADLY:
         return

@@ -30,6 +30,7 @@ from .asking import (
     DEEPEST,
     FIRST_STEPS,
     FREE,
+    N_AGES,
     NEAR,
     NEAR_GIVEN,
     SURE,
@@ -40,7 +41,7 @@ from .asking import (
     share_asked,
 )
 from .memory import Coupling
-from .plant import N_AGES, SEEN, excludes, forget, largest_answer, learn
+from .plant import SEEN, excludes, forget, largest_answer, learn
 from .reversals import calm, chatters, count_repeats, watch
 from .work import book
 
@@ -53,7 +54,6 @@ FEW, ALL = 0.03, 1.0  # of the last swings: at most; where the plant is nearly p
 NEARLY = 7.0  # standard deviations of an answer
 START = 0.01  # of the capacity: what a pack that is stuck at the start gives more in each step
 FEELS = 12.0  # steps of slip after which it is stuck no more
-BACK = 0.5  # of the last torque: what it gives at most when the slip reverses
 FULL = 0.5  # of the capacity: one that gives it is stuck no more
 VAGUE, BADLY = 0.03, 0.15  # relative error of the inertia: above it the slip is ended in part
 STEADY, CAREFUL, SLOWEST = 1.0, 0.5, 0.3  # share of the slip that is ended in a step
@@ -294,10 +294,8 @@ def _of_unknown(
             mem[M.STUCK] = 0.0
         last = abs(mem[M.TORQUE]) / capacity
         most = 2.0 * last + START
-        if share * mem[M.TORQUE] < 0.0:
-            most = BACK * last + BACK * START
-        elif abs(slip) < abs(mem[M.SLIP]):
-            most = last + BACK * START
+        if share * mem[M.TORQUE] < 0.0 or abs(slip) < abs(mem[M.SLIP]):
+            most = last + 0.5 * START
         if abs(share) > most:
             return math.copysign(most, share), 0.0
         if abs(share) > FULL:

@@ -14,8 +14,7 @@ import numpy as np
 from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import sign_of
 from . import memory as M
-from .asking import FREE
-from .plant import N_AGES
+from .asking import FREE, N_AGES
 
 MANY = 400.0  # steps: an age, at most two steps, makes a difference of half a per cent
 

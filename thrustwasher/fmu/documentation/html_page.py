@@ -129,9 +129,10 @@ def _slope_words(spec: ModelSpec, runs: bool) -> str | None:
 
 
 def slope(spec: ModelSpec, point: dict[str, float]) -> float:
-    """Return d friction_torque/d speed [N.m.s/rad] at the inputs ``point``, films settled."""
-    settled = {"starts_pressed"} & {f.name for f in fields(spec.params)}
-    with DirectInstance(spec, parameters=dict.fromkeys(settled, True)) as model:
+    """Return d friction_torque/d speed [N.m.s/rad] at ``point``, films settled, nothing held."""
+    known = {f.name for f in fields(spec.params)}
+    alone = {n: x for n, x in (("starts_pressed", True), ("holding", "off")) if n in known}
+    with DirectInstance(spec, parameters=alone) as model:
         model.initialize(0.0, point)
         torques = []
         for end in (-WIDTH, WIDTH):

@@ -6,8 +6,7 @@ const SHARES = Array.from({ length: 49 }, (_, i) => i / 24 - 1); // -1 to 1
 const FACTORS = Array.from({ length: 25 }, (_, i) => i / 16); // of the speed: 0 to 1.5
 const OILS = Array.from({ length: 35 }, (_, i) => 253.15 + 5 * i); // K
 const OVER = 1.25, // the torque's curves reach this times the torque
-  LEAST = 10, // N m, and this at least
-  APART = 1e-4; // m between two bearings at least
+  LEAST = 10; // N m, and this at least
 
 export class Model extends PointModel {
   /** @type {import("../kernel.js").Numbers | undefined} */
@@ -15,17 +14,14 @@ export class Model extends PointModel {
   /** @type {import("../kernel.js").Numbers | undefined} */
   flags;
 
-  /** Take parameters and a level; return the number of the first shaft whose bearings lie at one place. */
+  /** Take parameters and a level; return the number of the first broken rule, 0 if all hold. */
   set(parameters, level) {
     const { L, kernel, about } = this,
       par = this.par.view;
     par.fill(0);
     par.set([...parameters, about.levels[level].code]);
-    for (let shaft = 0; shaft <= par[L.P_MESHES]; shaft += 1) {
-      const at = L.P_SHAFT + shaft * L.SHAFT_ROW + L.B_BEARING + L.C_POSITION;
-      if (!(Math.abs(par[at] - par[at + L.BEARING_ROW]) >= APART)) return shaft + 1;
-    }
-    return kernel.call("derive", this.par) >= about.first_failure ? -1 : 0;
+    const broken = kernel.call("broken_rule", this.par);
+    return broken || (kernel.call("derive", this.par) >= about.first_failure ? -1 : 0);
   }
 
   /** Solve a step of no duration; return its status and all that comes out, [] where nothing does. */

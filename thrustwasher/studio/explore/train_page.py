@@ -45,7 +45,7 @@ def _numbers() -> dict[str, Any]:
 VIEW = View(
     worker=WebWorker(
         script="train_worker",
-        calls=("derive", "step"),
+        calls=("broken_rule", "derive", "step"),
         layout=_numbers(),
         levels={name: {"code": k} for k, name in enumerate(SPEC.fidelities, 1)},
         more={"flows": FLOWS},

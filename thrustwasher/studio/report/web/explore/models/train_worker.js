@@ -16,7 +16,7 @@ export class Model extends PointModel {
 
   /** Take parameters and a level; return the number of the first broken rule, 0 if all hold. */
   set(parameters, level) {
-    const { L, kernel, about } = this,
+    const { kernel, about } = this,
       par = this.par.view;
     par.fill(0);
     par.set([...parameters, about.levels[level].code]);

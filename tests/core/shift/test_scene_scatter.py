@@ -38,6 +38,8 @@ PATHS = [
 ]
 FACTORS = ("engine.torque_scale", "pressure.clutch.scale", "pressure.brake.scale")
 
+CHOICE = "friction_temperature"
+
 
 def points(scene, name):
     return profile_points(scene.parts["transmission"].params, name)
@@ -53,12 +55,18 @@ def test_a_path_names_one_value_of_the_scene(path, value, found):
 
 @pytest.mark.slow
 def test_every_place_holds_its_nominal_value():
+    def bare(parts):
+        """Values without the choice that a place of the table writes out: what auto means here."""
+        found = {name: part.parameters() for name, part in parts.items()}
+        return {n: {k: v for k, v in p.items() if k != CHOICE} for n, p in found.items()}
+
     scene = load_scene("planetary")
     for path, place in scene_places(scene).items():
         part, _, name = path.partition(".")
         own = getattr(scene.parts[part].params, name, None) if part in scene.parts else None
         if own is None or own == place.nominal:  # else 0 stands for another one's value
-            assert varied_scene(scene, {path: place.nominal}).parts == scene.parts, path
+            varied = varied_scene(scene, {path: place.nominal})
+            assert bare(varied.parts) == bare(scene.parts), path
 
 
 def test_a_law_of_an_earlier_form_scatters_by_its_own_names():

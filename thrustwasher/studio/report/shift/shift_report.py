@@ -162,7 +162,7 @@ def _cards(record: Record) -> list[Card]:
         words = usual[name][0].study_words(found) if name in usual else band_words(found)
         doubt = "washer_temperature" in name and steady_is_doubted(record)
         return [
-            f"{BAND}: {words}".replace(" ", "\N{NO-BREAK SPACE}"),
+            unbroken(f"{BAND}: {words}"),
             *loose_words(found),
             *(["steady, which the check in time doubts"] if doubt else []),
         ]
@@ -173,10 +173,9 @@ def _cards(record: Record) -> list[Card]:
         if f.name in usual:
             notes = [usual[f.name][0].note(shown), *notes]
         if spread:
-            ends = [words_of(f, x, 3) for x in (spread[0], spread[2], nominal)]
-            known = [] if record.band(f.name) else [f"{BAND}: {ends[0]} .. {ends[1]}"]
-            more = (*known, f"nominal values: {ends[2]}")
-            notes += [text.replace(" ", "\N{NO-BREAK SPACE}") for text in more]
+            ends = [unbroken(words_of(f, x, 3)) for x in (spread[0], spread[2], nominal)]
+            known = [] if record.band(f.name) else [f"{unbroken(BAND)}: {ends[0]} .. {ends[1]}"]
+            notes += [*known, f"nominal values: {ends[2]}"]
         name = f"{f.text}, median" if spread else f.text
         own = "" if spread or f.name in usual else f.name  # whose nominal value a script writes
         return Card(name, words_of(f, shown), Markup("<br>").join(notes), own)
@@ -185,6 +184,11 @@ def _cards(record: Record) -> list[Card]:
     cards = [card(f, f.value) for f in found if f.value is not None]
     chances = chance_cards(record.scatter, [LOST]) if record.scatter else []
     return [*cards[: MOST_CARDS - len(chances)], *chances]
+
+
+def unbroken(words: str) -> str:
+    """Return words that stay on one line, as a value and its unit."""
+    return words.replace(" ", "\N{NO-BREAK SPACE}")
 
 
 def _friction_sections(record: Record) -> list[Section]:

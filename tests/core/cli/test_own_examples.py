@@ -59,7 +59,7 @@ def test_the_scene_takes_its_profiles_from_its_files():
         (
             "calibrate clutch stop.csv --inertia 0.25kg.m2 --drag-torque 2N.m "
             "--fit friction_scale,permeability",
-            "friction_scale     0.91998",
+            "friction_scale     0.92001",
         ),
         (
             "calibrate clutch monday.csv tuesday.csv --fit friction_scale,permeability "

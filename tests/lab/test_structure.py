@@ -32,6 +32,7 @@ PLACES = {
             "command",
             "sump",
         },
+        "shift.checks.capacity": {"transmission"},
         "shift.checks.holding": {"clutch", "transmission"},
         "shift.checks.run_doubts": {"washer"},
         "shift.scene.profile_file": {"transmission"},
@@ -58,9 +59,9 @@ PLACES = {
     },
     "a train is made of meshes, and of the laws of bearings, churning and seals": {
         "train.kernels.chain": {"gearmesh", "losses"},
-        "train.kernels.layout": {"gearmesh"},
+        "train.kernels.layout": {"gearmesh", "losses"},
         "train.kernels.step": {"gearmesh", "losses"},
-        "train.parameters": {"gearmesh"},
+        "train.parameters": {"gearmesh", "losses"},
         "train.solve": {"gearmesh", "losses"},
         "train.train_file": {"gearmesh"},
     },
@@ -77,6 +78,7 @@ PLACES = {
     },
     "a pack is stepped along recordings of its engagements": {
         "studio.calibration.engagement.pack_history": {"clutch"},
+        "studio.calibration.engagement.recorded": {"clutch"},
         "studio.calibration.engagement.trace_fit": {"clutch"},
         "studio.calibration.engagement.traced_pack": {"clutch"},
     },

@@ -376,7 +376,7 @@ def doubts_of_pack(
 
 
 def _not_used(params: ClutchParams, fidelity: str) -> Iterator[str]:
-    """Yield a line for a number of one's own that ``friction_temperature`` leaves unread."""
+    """Yield a line for a number that was given and ``friction_temperature`` leaves unread."""
     start, slope = ClutchParams(), params.friction_temperature_slope
     idle = params.friction_temperature == "auto" and not params.temperature_law(fidelity)
     if idle and slope not in (0.0, start.friction_temperature_slope):
@@ -391,7 +391,7 @@ def _not_used(params: ClutchParams, fidelity: str) -> Iterator[str]:
 def _corrected(
     params: ClutchParams, par: Any, fidelity: str, speed: float, found: SteadyPack
 ) -> Iterator[str]:
-    """Yield a line for a number of one's own that a default changes, with what it is here."""
+    """Yield a line for a number that was given and a default changes, with what it is here."""
     wang = params.friction_law == "wang" and params.friction_temperature == "auto"
     warm = params.reference_temperature
     own = float(pack_friction.coefficient_slopes(par, speed, warm)[0])
@@ -406,7 +406,7 @@ def _corrected(
 
 
 def _less_cooling(params: ClutchParams, par: Any, cooling: float) -> Iterator[str]:
-    """Yield a line if less than one's own ``heat_transfer`` cools the faces; ``cooling`` [W/K]."""
+    """Yield a line if less than the given ``heat_transfer`` cools the faces; ``cooling`` [W/K]."""
     given, start = params.heat_transfer, ClutchParams()
     here = cooling / params.lining_area
     if given == start.heat_transfer or abs(here - given) <= MUCH * given:

@@ -48,10 +48,10 @@ def _content_digest(kernel: str, params: str, table: bool) -> str:
 
 
 def content_files(kernel: str, params: str, table: bool) -> list[Path]:
-    """Return the files that a model's digest is made of, beside the kernels of the package.
+    """Return the files that a model's digest is made of, in addition to the package's kernels.
 
-    They are the module of its kernel and that of its parameters, all sources and lists beside the
-    latter where they are a package, and the maps that are shipped where it looks into one.
+    They are the module of its kernel and that of its parameters, all sources and lists in the
+    folder of the latter where that is a package, and the shipped maps where it looks into one.
     """
     found = [importlib.util.find_spec(name) for name in (kernel, params)]
     files = [Path(s.origin) for s in found if s and s.origin]

@@ -10,7 +10,7 @@ ALWAYS = "so large that a pair is always in contact"
 
 
 def _cure(p: Any, gear: str) -> str:
-    """Return the least profile shift of a gear, in steps of 0.05, with which the pair keeps all.
+    """Return the minimum profile shift of a gear, in steps of 0.05, with which the pair keeps all.
 
     And with which a rack does not undercut it; "" if none up to 1 does.
     """

@@ -14,6 +14,7 @@ NAMES = [spec.name for spec in all_specs()]
 # Only by the heat of a starved gap, on a step along a straight profile of inputs.
 FILM = "film_ratio film_thickness contact_torque contact_share viscosity friction_coefficient"
 UNSEEN = {"WetClutch": {("drum_speed", name) for name in FILM.split()}}
+UNSEEN["WetClutch"] |= {(name, "slip_bound") for name in ("load", "speed")}  # of a pack that knows
 # Parameters under which different inputs act at once.
 STANDINGS = {
     "ThrustWasher": [{"gear_far_face": "bulk"}, {"gear_far_face": "oil"}],

@@ -41,7 +41,7 @@ def headline(r: Record) -> str:
 
 
 def spread_words(r: Record, name: str, nominal: float) -> str:
-    """Return what a figure is: its median and band with the nominal value beside, or that alone."""
+    """Return what a figure is: its median and band and the nominal value, or that alone."""
     figure, spread = r.figure(name), r.spread(name)
     assert figure is not None
     if spread is None:

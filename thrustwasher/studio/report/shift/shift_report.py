@@ -146,7 +146,7 @@ OF_A_LONE_PACK = ("lock_after_half_ramp", "stopped_inertia", "friction_mean", "f
 def _cards(record: Record) -> list[Card]:
     """Return six figures for the top; braking time and friction where a pack acts alone.
 
-    Where a figure's band is known its median is shown, the nominal value beside it.
+    Where a figure's band is known its median is shown, the nominal value next to it.
     """
     hidden = ("lock_after_ramp_start",) if record.alone else OF_A_LONE_PACK
     names = [n.format(pack=f"peak_{record.engaging}") for n in CARDS if n not in hidden]

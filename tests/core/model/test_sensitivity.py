@@ -21,12 +21,12 @@ from thrustwasher.model.sensitivity import varied_parameters
 
 STEPS = (3e-4, 3e-5)  # relative, of differences of fourth order
 RANGES = {
-    "clutch": {"load": (500.0, 10000.0), "speed": (1.0, 30.0), "oil_temperature": (300.0, 370.0)},
+    "clutch": {"load": (500.0, 10000.0), "speed": (1.0, 6.0), "oil_temperature": (300.0, 370.0)},
     "gearmesh": {"power": (1e3, 2e4), "speed": (50.0, 500.0), "oil_temperature": (300.0, 370.0)},
     "losses": {"input_speed": (50.0, 500.0), "tooth_force": (100.0, 3000.0)},
 }
 SOLVED = {
-    "clutch": (solve_clutch, ClutchParams()),
+    "clutch": (solve_clutch, ClutchParams(friction_temperature="slope")),
     "gearmesh": (solve_gearmesh, GearMeshParams()),
     "losses": (solve_losses, LossesParams()),
 }

@@ -22,7 +22,10 @@ OVER = {"load": "1 kN:9 kN:n20", "speed": "5:300:n100"}
 
 
 def same(one, two):
-    return all(np.array_equal(one[name], two[name]) for name in one.columns)
+    def equal(a, b):  # where a row failed both have no number
+        return np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
+
+    return all(equal(one[name], two[name]) for name in one.columns)
 
 
 def count_blocks(monkeypatch):

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from .moved import follow as _follow
 from .moved import renamed as _renamed
 
-__version__ = "0.23.0"
+__version__ = "0.24.0"
 
 if TYPE_CHECKING:
     from .clutch.engagement import Engagement, engage_clutch

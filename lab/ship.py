@@ -2,27 +2,30 @@
 
 Writes ``data/native``: for each kernel module an archive with the objects of all platforms and, if
 it is no model's, the libraries that Python loads; for each model a module for browsers;
-``index.json`` lists them. What has not changed stays. With ``--check`` nothing is written:
+``index.json`` lists them, ``code.json`` the digests of the parsed sources. What has not changed
+stays, under the name that its digest has now. With ``--check`` nothing is written:
 everything is made anew and compared with what is there, byte by byte if the same versions made it.
 """
 
 import io
 import json
 import lzma
+import os
 import platform as machine
 import sys
 import tarfile
 import tempfile
-import time
 from collections.abc import Mapping, Sequence
 from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from thrustwasher.model.registry import MODELS, OTHERS
-from thrustwasher.native import files, mathematics, shipped
+from thrustwasher.fmu.model_kernels import content_files
+from thrustwasher.model.record import Ladder
+from thrustwasher.model.registry import MODELS, OTHERS, all_models, all_specs
+from thrustwasher.native import code, files, mathematics, shipped
 from thrustwasher.native.compiling.objects import Objects, compile_objects, required_for
-from thrustwasher.native.digest import digest, sources
+from thrustwasher.native.digest import HERE, MAKERS, closure, digest, read, sources
 from thrustwasher.native.entries import libraries as all_libraries
 from thrustwasher.native.files import to_stderr
 from thrustwasher.native.library import linked_library
@@ -39,11 +42,18 @@ def toolchain() -> dict[str, str]:
 
 
 def made(kernel: str) -> tuple[Objects, float]:
-    """Return a kernel module's objects for all platforms, compiled now, and the seconds it took."""
-    start, wanted = time.perf_counter(), required_for(TARGETS.values())
+    """Return a kernel module's objects for all platforms, compiled now.
+
+    Behind them the seconds of processor time that the first level took: what a user waits for whose
+    kernels are new.
+    """
+    wanted, start = required_for(TARGETS.values()), os.times()
     with tempfile.TemporaryDirectory() as folder:
-        code = compile_objects(kernel, Path(folder) / "made", wanted)
-    return code, time.perf_counter() - start
+        place = Path(folder) / "made"
+        compile_objects(kernel, place, dict([next(iter(wanted.items()))]))
+        took = os.times()
+        made = compile_objects(kernel, place, wanted)
+    return made, sum(took[2:4]) - sum(start[2:4])
 
 
 def libraries(kernel: str, code: Objects) -> dict[str, bytes]:
@@ -62,7 +72,9 @@ def ship(kernels: Sequence[str]) -> None:
     """Make what is missing or stale, and list everything."""
     index: dict[str, Any] = {"toolchain": toolchain(), "kernels": {}}
     same_tools = shipped.index().get("toolchain") == index["toolchain"]
-    keep = {shipped.INDEX}
+    keep = {shipped.INDEX, code.KNOWN.name}
+    list_code()
+    rename(kernels)
     for kernel in kernels:
         about: Any = shipped.record(kernel)
         if not (about and same_tools and shipped.objects_of(kernel)):
@@ -82,7 +94,7 @@ def ship(kernels: Sequence[str]) -> None:
 
 def read_again() -> None:
     """Forget what was read: the files have changed."""
-    for read_once in (shipped.index, shipped.record, shipped._archive):
+    for read_once in (code.known, shipped.index, shipped.record, shipped._archive):
         read_once.cache_clear()
 
 
@@ -90,6 +102,39 @@ def is_linked(kernel: str) -> bool:
     """Tell if what is linked here with a kernel's objects is there."""
     has_own = not kernel.startswith(tuple(OTHERS)) or shipped.library(kernel, next(iter(PLATFORMS)))
     return bool(has_own and (kernel not in FOR_BROWSERS or shipped.web_file(kernel)))
+
+
+def list_code() -> None:
+    """List what parsing the sources of kernels and models gives, so that no user's run does it."""
+    modules = {name for model in all_models() for name in _of_levels(model.ladder)}
+    paths = set(closure(*modules).values()) | {HERE / name for name in MAKERS}
+    for library in all_libraries():
+        paths |= set(sources(library).values())
+    for spec in all_specs(helpers=True):
+        paths |= set(content_files(spec.kernel, spec.params.__module__, False))
+    found = {}
+    for text in (read(path) for path in paths if path.suffix == ".py"):
+        made = code.parsed(text)
+        found[code.key(text)] = [made.digest, *made.imports]
+    files.write(code.KNOWN, json.dumps(found, indent=0, sort_keys=True).encode() + b"\n")
+
+
+def _of_levels(ladder: Ladder | None) -> set[str]:
+    """Return the modules of kernels that a model's levels name."""
+    return {name for names in ladder.kernels.values() for name in names} if ladder else set()
+
+
+def rename(kernels: Sequence[str]) -> None:
+    """List what is shipped under the names of now: modules that moved have the same digests."""
+    index: Any = shipped.index()
+    known = {about["digest"]: about for about in index["kernels"].values()}
+    moved = [name for name in kernels if not shipped.record(name) and digest(name) in known]
+    for name in moved:
+        index["kernels"][name] = {**known[digest(name)], "sources": sorted(sources(name))}
+        to_stderr(f"{name} has moved, its files stay")
+    if moved:
+        list_all(index)
+        read_again()
 
 
 def list_all(index: dict[str, Any]) -> None:

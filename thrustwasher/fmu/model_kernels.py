@@ -10,6 +10,8 @@ from typing import Any
 from ..model.prepare import tables_of
 from ..model.registry import kernel_of
 from ..model.spec import ModelSpec
+from ..native.code import code_of
+from ..native.digest import read
 from ..native.library import is_ready
 from ..numerics.jit import kernel_digest, way
 
@@ -35,7 +37,10 @@ def package_version() -> str:
 
 
 def content_digest(spec: ModelSpec) -> str:
-    """Return 16 hex digits over everything that decides the numbers: kernels, maps, the model."""
+    """Return 16 hex digits over everything that decides the numbers: kernels, maps, the model.
+
+    Of a source only the code counts, not comments and docstrings.
+    """
     return _content_digest(spec.kernel, spec.params.__module__, tables_of(spec) is not None)
 
 
@@ -43,7 +48,9 @@ def content_digest(spec: ModelSpec) -> str:
 def _content_digest(kernel: str, params: str, table: bool) -> str:
     hashed = hashlib.sha256(f"{package_version()} {kernel_digest()}".encode())
     for file in content_files(kernel, params, table):
-        hashed.update(file.name.encode() + file.read_bytes())
+        is_code = file.suffix == ".py"
+        content = code_of(read(file)).digest.encode() if is_code else file.read_bytes()
+        hashed.update(file.name.encode() + content)
     return hashed.hexdigest()[:16]
 
 

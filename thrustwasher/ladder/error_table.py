@@ -6,6 +6,7 @@ own part. A level's errors count for the kernels they were measured with; after 
 they are stale and are not used. A file that cannot be read is left out: a solve never stops for it.
 """
 
+import hashlib
 import json
 import math
 import os
@@ -21,7 +22,16 @@ from ..model.registry import find_model
 from ..model.toml_tables import from_plain
 from ..moved import warn_renamed
 from ..native.files import user_cache
-from ..storage.digests import CHECK, DATA, closure, is_broken, kernel_digest, params_digest, sealed
+from ..storage.digests import (
+    CHECK,
+    DATA,
+    data_digest,
+    is_broken,
+    kernel_digest,
+    own_digest,
+    params_digest,
+    sealed,
+)
 from ..storage.whole_files import whole_file
 
 SCHEMA = 4
@@ -174,8 +184,10 @@ def sources_of(model: str, fidelity: str, files: Iterable[str] = ()) -> str:
     found = find_model(model)
     if found.ladder is None:
         raise KeyError(model)
-    modules = closure(*found.ladder.kernels[fidelity])
-    return kernel_digest({*modules, found.spec.kernel, *files})
+    kernels = kernel_digest(*found.ladder.kernels[fidelity])
+    data = [[name, data_digest(name)] for name in sorted(files)]
+    text = json.dumps([kernels, own_digest(found.spec.kernel), data])
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def write_tables(tables: Sequence[ErrorTable], path: Path) -> None:

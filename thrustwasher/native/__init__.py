@@ -2,7 +2,8 @@
 
 ``entries``      which kernel functions can be called from outside
 ``signatures``   what such a function takes and returns, read off its annotations
-``digest``       the name of a compilation: a digest of the sources it is made from
+``code``         what a source says once it is parsed: without comments and docstrings
+``digest``       the name of a compilation: a digest of the code it is made from
 ``targets``      the platforms and levels, how hard the compiler works
 ``compiling``    where nothing is shipped: kernels to object files, by numba and LLVM
 ``binaries``     what objects and libraries need and show; a finished library is checked

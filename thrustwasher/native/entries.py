@@ -84,5 +84,5 @@ def called_modules(library: str) -> list[str]:
 
 
 def symbol_of(module: str, name: str) -> str:
-    """Return the name a function has in its library."""
-    return f"tw_call_{module.partition('.')[2].replace('.', '_')}_{name}"
+    """Return the name a function has in its library, where no two modules have the same name."""
+    return f"tw_call_{module.rpartition('.')[2]}_{name}"

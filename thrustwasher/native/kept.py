@@ -3,11 +3,12 @@
 from pathlib import Path
 
 from . import files, shipped
+from .digest import digest
 
 
 def kept_folder(kernel: str) -> Path:
     """Return the folder of this version of a kernel in the user's cache; it need not exist."""
-    return files.code_folder() / f"{shipped.short(kernel)}-{shipped.digest_now(kernel)}"
+    return files.code_folder() / f"{shipped.short(kernel)}-{digest(kernel)}"
 
 
 def forget_old(kernel: str, home: Path) -> None:

@@ -1,10 +1,10 @@
 """The compiled files inside the package: objects of all platforms, libraries made of them.
 
-``index.json`` lists for each kernel module the sources it was made from, their digest, and the
-files with their checksums. A source that differs, or a file that is not as listed, and it is as if
-nothing had been shipped: what is needed is compiled again. An archive holds a module's objects and
-the libraries that were linked with them, those of the FMUs, which Python loads too: they have most
-in common, which is stored once. Beside the archives lie modules for browsers.
+``index.json`` lists for each kernel module the sources it was made from, the digest of their code,
+and the files with their checksums. Code that differs, or a file that is not as listed, and it is
+as if nothing had been shipped: what is needed is compiled again. An archive holds a module's
+objects and the libraries that were linked with them, those of the FMUs, which Python loads too:
+they have most in common, which is stored once. Beside the archives lie modules for browsers.
 """
 
 import io
@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from . import mathematics
-from .digest import HERE, PACKAGE, digest, digest_of, read
+from .digest import HERE, PACKAGE, digest
 from .files import checksum, to_stderr
 
 FOLDER = HERE.parent / "data" / "native"
@@ -37,27 +37,11 @@ def index() -> Mapping[str, Any]:
 
 @cache
 def record(kernel: str) -> Mapping[str, Any] | None:
-    """Return what is shipped for a kernel module, None if its sources have changed since."""
+    """Return what is shipped for a kernel module, None if its code has changed since."""
     about: dict[str, Any] | None = index()["kernels"].get(kernel)
-    if about is None:
+    if not isinstance(about, dict):
         return None
-    try:
-        found = {name: read(_file(name)) for name in about["sources"]}
-        return about if digest_of(kernel, found) == about["digest"] else None
-    except (OSError, KeyError, TypeError, AttributeError, ValueError):  # changed by hand
-        return None
-
-
-def digest_now(kernel: str) -> str:
-    """Return the digest of a kernel module's sources; quick where they are those shipped."""
-    about = record(kernel)
-    return str(about["digest"]) if about else digest(kernel)
-
-
-def _file(module: str) -> Path:
-    """Return the file of a module of this package."""
-    path = HERE.parents[1].joinpath(*module.split("."))
-    return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+    return about if about.get("digest") == digest(kernel) else None
 
 
 def _listed(kernel: str, part: str) -> Path | None:

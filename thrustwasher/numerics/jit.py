@@ -21,6 +21,8 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from ..errors import EnvironmentProblem
+from ..native.digest import digest
+from ..native.entries import libraries
 from ..native.files import VARIABLE, code_folder, forget_old, is_trusted, private_folder
 from ..native.load import native_function
 from ..native.signatures import Array as Array  # the kinds of array that kernels have
@@ -29,8 +31,7 @@ from ..native.signatures import Ints as Ints
 F = TypeVar("F", bound=Callable[..., Any])
 NUMBAS = "NUMBA_CACHE_DIR"
 KEPT_VERSIONS = 5
-PACKAGE = Path(__file__).parents[1]
-KERNELS = ("numerics", "tribology", "**/kernels", "**/kernels/map")  # folders of kernels
+PACKAGE = f"{__name__.partition('.')[0]}."
 WAYS = ("native", "jit", "python")
 
 
@@ -90,12 +91,9 @@ class Kernel:
 
 @cache
 def kernel_digest() -> str:
-    """Return the first 16 hex digits of the SHA-256 over all kernel sources."""
-    hashed = hashlib.sha256()
-    for file in sorted(file for folder in KERNELS for file in PACKAGE.glob(f"{folder}/*.py")):
-        name = file.relative_to(PACKAGE).as_posix()
-        hashed.update(name.encode() + file.read_bytes().replace(b"\r\n", b"\n"))
-    return hashed.hexdigest()[:16]
+    """Return 16 hex digits over the code of all of the package's kernels."""
+    own = sorted(digest(library) for library in libraries() if library.startswith(PACKAGE))
+    return hashlib.sha256(" ".join(own).encode()).hexdigest()[:16]
 
 
 def cache_folder() -> str:

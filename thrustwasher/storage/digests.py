@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import fields
 from functools import cache
 from hashlib import sha256
@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ..native import digest
+from ..native.code import code_of
 
 PACKAGE = Path(__file__).parents[1]
 DATA = PACKAGE / "data"
@@ -45,26 +46,28 @@ def closure(*modules: str) -> tuple[str, ...]:
     return tuple(sorted(found))
 
 
-def kernel_digest(files: Iterable[str]) -> str:
-    """Return the SHA-256 over kernel modules or, with a slash in the name, files of ``data/``.
+@cache
+def kernel_digest(*modules: str) -> str:
+    """Return 16 hex digits over the code of kernel modules and of all that they import.
 
-    Line ends count as one character: a checkout on Windows has the same digest. FileNotFoundError:
-    a file is not there any more.
+    Comments and docstrings do not count. FileNotFoundError: one is not there any more.
     """
-    whole = sha256()
-    for name in sorted(files):
-        shipped = DATA / name if "/" in name else None  # it may be written anew
-        own = sha256(shipped.read_bytes()).hexdigest() if shipped else _module_digest(name)
-        whole.update(f"{name}\0{own}\n".encode())
-    return whole.hexdigest()
+    closure(*modules)
+    return digest.code_digest(*modules)
 
 
 @cache
-def _module_digest(name: str) -> str:
-    path = digest.file_of(name)
+def own_digest(module: str) -> str:
+    """Return 16 hex digits over the code of one module alone; FileNotFoundError: there is none."""
+    path = digest.file_of(module)
     if path is None:
-        raise FileNotFoundError(name)
-    return sha256(digest.read(path)).hexdigest()
+        raise FileNotFoundError(module)
+    return code_of(digest.read(path)).digest
+
+
+def data_digest(name: str) -> str:
+    """Return the SHA-256 of a file of ``data/``, which may be written anew meanwhile."""
+    return sha256((DATA / name).read_bytes()).hexdigest()
 
 
 def finite(value: object) -> Any:

@@ -10,8 +10,10 @@ from pathlib import Path
 import pytest
 
 from thrustwasher import ParameterError, WasherParams
-from thrustwasher.fmu.model_kernels import content_files
+from thrustwasher.fmu import model_kernels
+from thrustwasher.fmu.model_kernels import content_digest, content_files
 from thrustwasher.model.parameters import as_numbers, check_number
+from thrustwasher.model.prepare import tables_of
 from thrustwasher.model.registry import HELPERS, MODELS, find_spec, kernel_of
 from thrustwasher.units import UNITS
 from thrustwasher.washer.parameters import BODIES, MATERIAL
@@ -123,7 +125,26 @@ def test_parameters_are_at_home_in_their_model_and_can_be_sent_to_other_processe
 
 
 @each_model
-def test_an_edit_of_any_file_of_a_model_changes_its_digest(spec):
+def test_an_edit_of_any_code_of_a_model_changes_its_digest_and_one_of_comments_does_not(
+    spec, monkeypatch, tmp_path
+):
     home = Path(importlib.import_module(spec.params.__module__).__file__).parent
     own = {path for path in home.iterdir() if path.suffix in (".py", ".toml")}
     assert own and own <= set(content_files(spec.kernel, spec.params.__module__, False))
+    before = content_digest(spec)
+    for path in own:
+        text, seen = path.read_text("utf-8"), []
+        for edit in ("\n# a comment\n", "\nedited = 1\n"):
+            edited = tmp_path / path.name
+            edited.write_text(text + edit, "utf-8")
+            files = [edited if p == path else p for p in content_files_of(spec)]
+            monkeypatch.setattr(model_kernels, "content_files", lambda *given, now=files: now)
+            model_kernels._content_digest.cache_clear()
+            seen.append(content_digest(spec) == before)
+            monkeypatch.undo()
+        assert seen == [path.suffix == ".py", False], path
+    model_kernels._content_digest.cache_clear()
+
+
+def content_files_of(spec):
+    return content_files(spec.kernel, spec.params.__module__, tables_of(spec) is not None)

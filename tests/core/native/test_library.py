@@ -188,12 +188,6 @@ def test_code_is_kept_under_all_that_a_kernel_imports(model):
     assert set(run.stdout.split()) & known == set(found)
 
 
-def test_line_ends_do_not_count(tmp_path):
-    for name, text in (("unix", b"a = 1\nb = 2\n"), ("windows", b"a = 1\r\nb = 2\r\n")):
-        (tmp_path / name).write_bytes(text)
-    assert digest.read(tmp_path / "unix") == digest.read(tmp_path / "windows")
-
-
 def emitted(folder, cpu):
     """Return (bitcode's object for v3, messages) of the toy kernel, from a folder of its own."""
     folder.mkdir()

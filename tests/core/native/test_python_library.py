@@ -8,7 +8,7 @@ from children import child
 
 from lab.ship import pack, read_again
 from thrustwasher.errors import EnvironmentProblem
-from thrustwasher.native import binaries, digest, files, link, shipped
+from thrustwasher.native import binaries, code, digest, files, link, shipped
 from thrustwasher.native.compiling import objects
 from thrustwasher.native.entries import called_modules, libraries
 from thrustwasher.native.library import TABLE
@@ -46,7 +46,7 @@ def test_all_that_is_compiled_is_in_the_digest(kernel):
 
 def test_what_is_shipped_is_small_and_all_listed():
     found = sorted(path for path in shipped.FOLDER.rglob("*") if path.is_file())
-    listed = {shipped.INDEX}
+    listed = {shipped.INDEX, code.KNOWN.name}
     for about in shipped.index()["kernels"].values():
         listed |= {about[x]["file"] for x in ("objects", "web", "portable") if x in about}
     assert {path.relative_to(shipped.FOLDER).as_posix() for path in found} == listed

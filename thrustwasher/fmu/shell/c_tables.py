@@ -16,7 +16,7 @@ from ...errors import FIRST_FAILURE, Status
 from ...model.levels import gone_level
 from ...model.registry import kernel_of
 from ...model.unread import RELATIONS, all_conditions
-from ...native.shipped import digest_now
+from ...native.digest import digest
 from ..description.interface import LOG_CATEGORIES, Interface, Variable
 from ..description.model_description import TYPES
 from ..model_kernels import has_derivatives, seed_length
@@ -50,7 +50,7 @@ def _texts(shown: Interface) -> tuple[str, str]:
 
 def build_of(shown: Interface) -> str:
     """Return 16 hex digits over kernels and tables, by which a library knows its parts."""
-    texts = digest_now(shown.spec.kernel), *_texts(shown)
+    texts = digest(shown.spec.kernel), *_texts(shown)
     return hashlib.sha256("".join(texts).encode()).hexdigest()[:16]
 
 

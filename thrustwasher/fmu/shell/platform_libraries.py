@@ -162,7 +162,7 @@ def linked(spec: ModelSpec, platform: Platform, linker: Linker, note: Note = to_
 
 def library_digest(spec: ModelSpec) -> str:
     """Return 16 hex digits over all that a model's libraries are made of, compilers aside."""
-    kernels = f"{shipped.digest_now(spec.kernel)} {mathematics.digest()}"
+    kernels = f"{digest.digest(spec.kernel)} {mathematics.digest()}"
     hashed = hashlib.sha256(f"{kernels} {COMMON}".encode())
     for name, content in sorted(sources(spec).items()):
         hashed.update(f"{name}\0{len(content)}\0".encode() + content)

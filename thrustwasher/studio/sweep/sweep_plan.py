@@ -316,13 +316,13 @@ def _identity(
     plan: Plan, base: Any, fixed: dict[str, Any], varied: Iterable[str]
 ) -> dict[str, str]:
     """Return a digest of each thing that makes this sweep another one than the next."""
-    from ...native.shipped import digest_now
+    from ...native.digest import digest
     from ...numerics.jit import kernel_digest
 
     held = {k: v for k, v in {**asdict(base), **fixed}.items() if k not in set(varied)}
     parts: dict[str, Any] = {"model": plan.spec.key, "fidelity": plan.fidelity}
     parts |= {"parameters": repr(held), **plan.shown, "lines": plan.starts}
-    parts["version of thrustwasher"] = kernel_digest() + digest_now(plan.spec.kernel)
+    parts["version of thrustwasher"] = kernel_digest() + digest(plan.spec.kernel)
     return {name: _digest(part) for name, part in parts.items()}
 
 

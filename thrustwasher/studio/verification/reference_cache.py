@@ -11,7 +11,7 @@ from typing import Any
 from ...errors import SolveError
 from ...native.files import to_stderr, user_cache
 from ...processes import Run, run_here
-from ...storage.digests import closure, kernel_digest, params_digest
+from ...storage.digests import kernel_digest, params_digest
 from ...storage.journal import Journal, when_free
 from .cases import Case
 from .reference_clutch import SOURCE as CLUTCH
@@ -43,7 +43,7 @@ def reference_points(
     """
     axes = [asdict(a) for a in case.box.values()]
     what = [
-        kernel_digest(closure(*source.kernels)),
+        kernel_digest(*source.kernels),
         params_digest(case.params),
         axes,
         case.seed,

@@ -10,6 +10,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -116,18 +117,25 @@ def write_examples(places: dict[Path, Path]) -> list[Pair]:
 
 
 def write_notebooks(places: dict[Path, Path]) -> list[Pair]:
-    """Run the notebooks and write each as a page with what it printed and drew."""
+    """Run the notebooks and write each as a page with what it printed and drew.
+
+    As notebooks they lie in the folder that THRUSTWASHER_NOTEBOOKS_RUN names, for their test.
+    """
     found: list[Pair] = []
+    run = Path(os.environ.get("THRUSTWASHER_NOTEBOOKS_RUN") or tempfile.mkdtemp())
     for path in sorted((ROOT / "examples" / "notebooks").glob("*.ipynb")):
-        out = GATHERED / "notebooks"
-        command = [sys.executable, "-m", "nbconvert", "--to", "markdown", "--execute"]
-        command += ["--output-dir", str(out), "--log-level", "WARN", str(path)]
         began = time.perf_counter()
-        subprocess.run(command, check=True)
+        _convert(path, "notebook", run, "--execute")
+        _convert(run / path.name, "markdown", GATHERED / "notebooks")
         print(f"{path.name}: {time.perf_counter() - began:.1f} s")
         places[path] = Path("notebooks") / f"{path.stem}.md"
         found.append((path.stem.replace("_", " "), f"notebooks/{path.stem}.md"))
     return found
+
+
+def _convert(path: Path, to: str, folder: Path, *how: str) -> None:
+    command = [sys.executable, "-m", "nbconvert", "--to", to, *how, "--log-level", "WARN"]
+    subprocess.run([*command, "--output-dir", str(folder), str(path)], check=True)
 
 
 def pages_of(folder: str) -> list[Pair]:

@@ -2,6 +2,7 @@
 
 import importlib.util
 import json
+import os
 import re
 import subprocess
 import sys
@@ -138,14 +139,23 @@ def test_links_of_a_notebook_lead_somewhere(path):
     assert [link for link in links if not (path.parent / link).exists()] == []
 
 
-@pytest.mark.slow
-@each_notebook
-def test_a_notebook_runs(path):
-    client, nbformat = needed.package("nbclient"), needed.package("nbformat")
+def run_notebook(path):
+    """Return a notebook with its outputs: run by the site's build if that was told where to."""
+    nbformat, folder = needed.package("nbformat"), os.environ.get("THRUSTWASHER_NOTEBOOKS_RUN")
+    if folder and Path(folder, path.name).exists():
+        return nbformat.read(Path(folder, path.name), as_version=4)
+    client = needed.package("nbclient")
     needed.package("ipykernel"), needed.package("pandas")
     book = nbformat.read(path, as_version=4)
     where = {"metadata": {"path": str(path.parent)}}
     client.NotebookClient(book, timeout=600, kernel_name="python3", resources=where).execute()
+    return book
+
+
+@pytest.mark.slow
+@each_notebook
+def test_a_notebook_runs(path):
+    book = run_notebook(path)
     outputs = [o for c in book.cells if c.cell_type == "code" for o in c.outputs]
     printed = "".join(o.text for o in outputs if o.output_type == "stream" and o.name == "stdout")
     assert SAID[path.stem] in printed

@@ -6,6 +6,7 @@ functions inside are taken. The bitcode is not optimised and names no CPU's inst
 makes each platform's object of it.
 """
 
+import gc
 import importlib
 import os
 import sys
@@ -38,6 +39,7 @@ def environment(cache: str) -> dict[str, str]:
         "NUMBA_OPT": "0",
         "NUMBA_DISABLE_INTEL_SVML": "1",
         "NUMBA_CACHE_DIR": cache,
+        "NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING": "1",  # thousands, none of which is shown
         "THRUSTWASHER_KERNELS": "emit",
         "PYTHONHASHSEED": "0",
     }
@@ -75,6 +77,7 @@ def main(arguments: list[str]) -> int:
     name, expected, file = arguments
     warnings.filterwarnings("ignore", message=r"[\s\S]*Cannot cache compiled function")
     llvm.initialize_all_targets()
+    gc.disable()  # little is garbage here, and looking for it takes long
     try:
         whole = module(importlib.import_module(name))
         digest.cache_clear()

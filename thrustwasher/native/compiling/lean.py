@@ -3,11 +3,12 @@
 numba is made to run every function it compiles. It links all functions below one into it and
 optimises the whole again, makes machine code of it, wraps it for Python, and keeps it on the disk:
 four fifths of the time. Here each function's own module is kept as it was written, and all are
-linked once. None of this is public in numba: a version whose parts are not as expected is refused.
+linked once. Who else holds an array is not counted: kernels make none. None of this is public in
+numba: a version whose parts are not as expected is refused.
 """
 
 import inspect
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any
 
@@ -20,23 +21,21 @@ _EXPECTED = {
     ("JITCodeLibrary", "add_llvm_module"): ["self", "ll_module"],
     ("JITCodeLibrary", "get_pointer_to_function"): ["self", "name"],
     ("JITCPUCodegen", "set_env"): ["self", "env_name", "env"],
+    ("BaseFunction", "get_call_type"): ["self", "context", "args", "kws"],
+    ("NRTContext", "incref"): ["self", "builder", "typ", "value"],
+    ("NRTContext", "decref"): ["self", "builder", "typ", "value"],
 }
-_NO_COUNTING = """
-define void @NRT_incref(ptr %p) alwaysinline {
-  ret void
-}
-define void @NRT_decref(ptr %p) alwaysinline {
-  ret void
-}
-"""
 
 
 def check_numba() -> None:
     """Stop if numba's code generator lacks the parts that are replaced here."""
     from numba.core import codegen
+    from numba.core.runtime import context
+    from numba.core.types import functions
 
+    homes = {"NRTContext": context, "BaseFunction": functions}
     for (owner, name), arguments in _EXPECTED.items():
-        method = getattr(getattr(codegen, owner, None), name, None)
+        method = getattr(getattr(homes.get(owner, codegen), owner, None), name, None)
         if method is None or list(inspect.signature(method).parameters) != arguments:
             raise unknown_numba(f"{owner}.{name} is not as expected")
 
@@ -57,8 +56,12 @@ def module(callbacks: Sequence[Callback]) -> Any:
 def _gathered() -> list[Any]:
     """Replace the parts; return the list that each finished library of functions is added to."""
     from numba.core import codegen
+    from numba.core.runtime import context
+    from numba.core.types import functions
 
     parts: Any = codegen
+    counting: Any = context
+    typing: Any = functions.BaseFunction
     libraries: list[Any] = []
 
     def finalize(self: Any) -> None:
@@ -78,17 +81,37 @@ def _gathered() -> list[Any]:
     parts.JITCodeLibrary.add_llvm_module = add_llvm_module
     parts.JITCodeLibrary.get_pointer_to_function = get_pointer_to_function
     parts.JITCPUCodegen.set_env = lambda self, env_name, env: None
+    typing.get_call_type = _remembered(typing.get_call_type)
+    counting.NRTContext.incref = counting.NRTContext.decref = lambda self, builder, typ, value: None
     return libraries
+
+
+def _remembered(get_call_type: Callable[..., Any]) -> Callable[..., Any]:
+    """Return numba's choice of an operator's variant, which is tried out, made once per types."""
+    from numba.core import types
+
+    plain: Any = (types.Number, types.Boolean, types.Array, types.BaseTuple, types.Literal)
+    known: dict[Any, tuple[Any, Any]] = {}
+
+    def remembered(self: Any, context: Any, args: Any, kws: Any) -> Any:
+        if kws or not all(isinstance(kind, plain) for kind in args):
+            return get_call_type(self, context, args, kws)
+        key = id(self), tuple(args)
+        if key not in known:
+            known[key] = self, get_call_type(self, context, args, kws)  # kept, so is its id
+        return known[key][1]
+
+    return remembered
 
 
 def _linked(libraries: Sequence[Any], names: dict[str, str]) -> Any:
     """Return all modules in one, callers before what they call.
 
-    A function that nobody has asked for so far would not be taken over.
+    Neighbours are linked in pairs: each time all that has been linked before is looked through.
     """
     import llvmlite.binding as llvm
 
-    whole = llvm.parse_assembly(_NO_COUNTING)
+    parts = []
     for library in reversed(libraries):
         part = library._final_module.clone()
         own = {f.name for f in part.functions if not f.is_declaration}
@@ -97,8 +120,13 @@ def _linked(libraries: Sequence[Any], names: dict[str, str]) -> Any:
         for function in part.functions:
             external = function.linkage == llvm.Linkage.external
             if external and function.name in own and function.name not in names:
-                function.linkage = "linkonce_odr"
-        whole.link_in(part)
+                function.linkage = "weak_odr"
+        parts.append(part)
+    while len(parts) > 1:
+        for one, next_one in zip(parts[::2], parts[1::2], strict=False):
+            one.link_in(next_one)
+        parts = parts[::2]
+    whole = parts[0]
     for name, symbol in names.items():
         function = whole.get_function(name)
         function.name, function.linkage = symbol, "external"

@@ -82,8 +82,10 @@ def test_the_manipulation_toolbox_finds_nothing(name, fmi):
     assert not [line for line in said.splitlines() if line.startswith(("ERROR", "WARN", "CRIT"))]
 
 
-@pytest.mark.parametrize("name", NAMES)
-@each_fmi
+# what FMI 3 does to the numbers, the small model shows: nothing
+@pytest.mark.parametrize(
+    ("name", "fmi"), [*((n, 2) for n in NAMES), pytest.param(SMALL, 3, marks=pytest.mark.fmi3)]
+)
 def test_the_default_experiment_gives_the_reference_results(name, fmi, tmp_path):
     with zipfile.ZipFile(packed(name, fmi)) as zipped:
         zipped.extractall(tmp_path)

@@ -3,8 +3,8 @@
     python -m lab.benchmarks.covered all FOLDER [--below 90]
 
 Compiled kernels leave no trace of their lines, so there are two kinds of runs. ``kernels FOLDER``:
-the kernels' tests as plain Python (NUMBA_DISABLE_JIT), each file for 40 s at most. The suite,
-compiled, processes that it starts included, is run by whoever wants it, any part of it:
+the kernels' tests as plain Python (NUMBA_DISABLE_JIT), each file for 40 s at most (``cut_off``).
+The suite, compiled, processes that it starts included, is run by whoever wants it, any part of it:
 
     python -m lab.benchmarks.covered start FOLDER
     python -m coverage run --rcfile=FOLDER/rc -m pytest
@@ -21,9 +21,6 @@ import argparse
 import os
 import subprocess
 import sys
-import time
-from concurrent.futures import ThreadPoolExecutor
-from functools import partial
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
@@ -50,7 +47,6 @@ MORE = (
     "tests/core/model/test_levels_in_short.py",
     "tests/core/model/test_status_numbers.py",
 )
-LIMIT, LAST_WORDS = 40, 10  # s
 SETTINGS = """[run]
 branch = True
 source_pkgs = thrustwasher
@@ -71,50 +67,17 @@ def plain_files() -> list[Path]:
     return [*(p for p in mine if p.stem not in SLOW), *(ROOT / p for p in MORE)]
 
 
-def run_tests(rc: Path, words: list[str], limit: int | None, **environment: str) -> bool:
-    """Run tests under measurement; cut off, they leave what was measured until then.
-
-    Returns False if a test failed.
-    """
-    began = time.perf_counter()
-    command = [
-        sys.executable,
-        "-m",
-        "coverage",
-        "run",
-        f"--rcfile={rc}",
-        "-m",
-        "pytest",
-        "-q",
-        *(("-n", "0", "-p", "no:cacheprovider", *words) if words else ()),
-    ]
-    running = subprocess.Popen(
-        command,
-        cwd=ROOT,
-        env={**os.environ, **environment},
-        text=True,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-    )
-    try:
-        whole = running.communicate(timeout=limit)[0]
-        said = whole.strip().splitlines()[-1:] if running.returncode == 0 else [whole]
-    except subprocess.TimeoutExpired:
-        running.terminate()
-        try:
-            running.communicate(timeout=LAST_WORDS)
-        except subprocess.TimeoutExpired:  # coverage may wait for a lock that it holds itself
-            running.kill()
-            running.communicate()
-        said, running.returncode = ["cut off"], 0
-    print(f"{' '.join(words) or 'suite'}: {time.perf_counter() - began:.0f} s", *said, flush=True)
-    return running.returncode == 0
+def run_tests(rc: Path, *words: str, **environment: str) -> bool:
+    """Run tests under measurement; False if one failed."""
+    command = [sys.executable, "-m", "coverage", "run", f"--rcfile={rc}", "-m", "pytest", *words]
+    return subprocess.run(command, cwd=ROOT, env={**os.environ, **environment}).returncode == 0
 
 
-def run_plain(rc: Path, file: Path) -> bool:
-    """Run one file of tests with the kernels as plain Python."""
-    words = [str(file.relative_to(ROOT)), "-W", "ignore::RuntimeWarning"]  # of inf
-    return run_tests(rc, words, LIMIT, NUMBA_DISABLE_JIT="1")
+def run_plain(rc: Path) -> bool:
+    """Run the kernels' tests with the kernels as plain Python."""
+    files = [str(path.relative_to(ROOT)) for path in plain_files()]
+    how = ("--dist", "loadfile", "-p", "no:cacheprovider", "-p", "lab.benchmarks.cut_off")
+    return run_tests(rc, *how, "-W", "ignore::RuntimeWarning", *files, NUMBA_DISABLE_JIT="1")
 
 
 def share(rc: Path, *words: str) -> str:
@@ -137,10 +100,7 @@ def low(rc: Path, below: float) -> list[str]:
 def start(folder: Path) -> None:
     """Write what coverage is told; every process that runs tests adds a file next to it."""
     folder.mkdir(parents=True, exist_ok=True)
-    settings = SETTINGS.format(data=folder.resolve() / "data", root=ROOT)
-    (folder / "rc").write_text(settings)
-    # what is cut off writes its data first; commands under test take SIGTERM themselves
-    (folder / "rc-cut-off").write_text(settings.replace("parallel", "sigterm = True\nparallel"))
+    (folder / "rc").write_text(SETTINGS.format(data=folder.resolve() / "data", root=ROOT))
 
 
 def report(folder: Path, below: float) -> int:
@@ -168,10 +128,9 @@ def main() -> int:
         start(given.folder)
     good = True
     if given.part in ("kernels", "all"):
-        with ThreadPoolExecutor(os.cpu_count()) as pool:
-            good = all([*pool.map(partial(run_plain, given.folder / "rc-cut-off"), plain_files())])
+        good = run_plain(rc)
     if given.part == "all":
-        good = run_tests(rc, [], None) and good
+        good = run_tests(rc) and good
     low_share = report(given.folder, given.below) if given.part in ("report", "all") else 0
     return low_share or int(not good)
 

@@ -1,0 +1,31 @@
+"""A plugin of pytest: each file of tests has 40 s of processor time, what is left is skipped."""
+
+import signal
+import time
+from collections import defaultdict
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+LIMIT = 40.0  # s
+_used: defaultdict[Path, float] = defaultdict(float)
+
+
+def _stop(*_: object) -> None:
+    pytest.skip("cut off")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call(item: pytest.Item) -> Iterator[None]:
+    """Run a test until the time of its file is up."""
+    left, began = LIMIT - _used[item.path], time.process_time()
+    if left <= 0.0:
+        _stop()
+    signal.signal(signal.SIGPROF, _stop)
+    signal.setitimer(signal.ITIMER_PROF, left)
+    try:
+        return (yield)
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        _used[item.path] += time.process_time() - began

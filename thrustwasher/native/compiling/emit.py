@@ -77,7 +77,7 @@ def main(arguments: list[str]) -> int:
     name, expected, file = arguments
     warnings.filterwarnings("ignore", message=r"[\s\S]*Cannot cache compiled function")
     llvm.initialize_all_targets()
-    gc.disable()  # little is garbage here, and looking for it takes long
+    gc.set_threshold(100_000, 10, 10)  # little is garbage here, and looking for it takes long
     try:
         whole = module(importlib.import_module(name))
         digest.cache_clear()

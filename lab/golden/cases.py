@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from lab.golden.record import Value, bits, numbers
+from lab.verify import cases
 from thrustwasher import calibrate, calibrate_traces, optimise, propagate, run_sweep
 from thrustwasher.clutch.solve import ClutchParams
 from thrustwasher.fmu.build import build
@@ -25,7 +26,6 @@ from thrustwasher.shift.from_fmus import fmu_instances, run_scene
 from thrustwasher.shift.scene.scene import Scene
 from thrustwasher.shift.scene.scene_file import builtin_scenes
 from thrustwasher.shift.scene.sequence import sequence_of
-from thrustwasher.studio.verification.cases import cases
 from thrustwasher.studio.verification.reference_cache import SOURCES, answer, reference_points
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

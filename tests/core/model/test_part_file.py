@@ -229,22 +229,17 @@ def test_limits_are_written_and_read_back(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("limits", "words"),
+    ("model", "limits", "words"),
     [
-        ('face_presure = "1 MPa"', "did you mean 'face_pressure'"),
-        ('face_pressure = "1 K"', "face_pressure"),
-        ("face_pressure = -1.0", "allowed"),
+        ("washer", 'face_presure = "1 MPa"', "did you mean 'face_pressure'"),
+        ("washer", 'face_pressure = "1 K"', "face_pressure"),
+        ("washer", "face_pressure = -1.0", "allowed"),
+        ("gearmesh", 'face_pressure = "1 MPa"', "no faces"),
     ],
 )
-def test_a_limit_that_is_none_is_refused(tmp_path, limits, words):
+def test_a_limit_that_is_none_is_refused(tmp_path, model, limits, words):
     with pytest.raises(ParameterError, match=words):
-        load_part(part(tmp_path, f'model = "washer"\nname = "A"\n[limits]\n{limits}\n'))
-
-
-def test_a_part_without_faces_has_no_limits_of_them(tmp_path):
-    text = 'model = "gearmesh"\nname = "A"\n[limits]\nface_pressure = "1 MPa"\n'
-    with pytest.raises(ParameterError, match="no faces"):
-        load_part(part(tmp_path, text))
+        load_part(part(tmp_path, f'model = "{model}"\nname = "A"\n[limits]\n{limits}\n'))
 
 
 def test_studies_and_searches_have_them_as_figures(tmp_path):

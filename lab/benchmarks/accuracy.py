@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 import sys
 
+from lab.benchmarks.printed import table_head, table_row
 from thrustwasher import WasherParams, load_curve, solve_washer
 
 # (what it is, speed rad/s, load N, branch)
@@ -70,11 +71,12 @@ def converged(speed: float, load: float, branch: str) -> tuple[float, ...]:
 
 def case_table() -> None:
     """Print errors of the named fidelities case by case."""
-    print(
-        "| case | speed rad/s, load N | torque N m, film ratio, rise K (converged; order seen) "
-        "| `field` torque %, film ratio, K | `fine` torque %, film ratio, K |"
+    table_head(
+        "case",
+        "speed rad/s, load N",
+        "torque N m, film ratio, rise K (converged; order seen)",
+        *(f"`{name}` torque %, film ratio, K" for name in ("field", "fine")),
     )
-    print("|---|---|---|---|---|")
     worst = {"field": [0.0, 0.0, 0.0, 0.0], "fine": [0.0, 0.0, 0.0, 0.0]}
     for what, speed, load, branch in CASES:
         torque, ratio, temperature, order = converged(speed, load, branch)
@@ -92,10 +94,8 @@ def case_table() -> None:
             for k, e in enumerate(errors):
                 most[k] = max(most[k], abs(e))
             cells.append(f"{errors[0]:+.3f}, {errors[1]:+.4f}, {errors[2]:+.3f}")
-        print(
-            f"| {what} | {speed:g}, {load:g} | {torque:.6f}, {ratio:.4f}, "
-            f"{temperature - OIL:.3f} ({order:.2f}) | {cells[0]} | {cells[1]} |"
-        )
+        far = f"{torque:.6f}, {ratio:.4f}, {temperature - OIL:.3f} ({order:.2f})"
+        table_row(what, f"{speed:g}, {load:g}", far, *cells)
     for fidelity, most in worst.items():
         print(
             f"\n{fidelity}: worst torque {most[0]:.3f} %, film ratio {most[1]:.4f}, temperature "
@@ -105,18 +105,17 @@ def case_table() -> None:
 
 def fold_table() -> None:
     """Print the fold loads on the named grids and on the finest."""
-    print("\n| speed rad/s | fold | `field` N | `fine` N | 37 x 128 N | field % | fine % |")
-    print("|---|---|---|---|---|---|---|")
+    print()
+    table_head("speed rad/s", "fold", "`field` N", "`fine` N", "37 x 128 N", "field %", "fine %")
     for speed in (545.0, 953.0, 1367.0):
         curves = [
             load_curve(PARAMS, speed=speed, tilt=TILT, **grid)
             for grid in ({}, {"fidelity": "fine"}, {"grid": FAMILY[-1]})
         ]
         for a, b, c in zip(*(curve.folds for curve in curves), strict=True):
-            print(
-                f"| {speed:g} | {a.kind} | {a.load:.2f} | {b.load:.2f} | {c.load:.2f} | "
-                f"{100 * (a.load / c.load - 1):+.2f} | {100 * (b.load / c.load - 1):+.3f} |"
-            )
+            loads = [f"{x.load:.2f}" for x in (a, b, c)]
+            off = f"{100 * (a.load / c.load - 1):+.2f}", f"{100 * (b.load / c.load - 1):+.3f}"
+            table_row(f"{speed:g}", a.kind, *loads, *off)
 
 
 if __name__ == "__main__":

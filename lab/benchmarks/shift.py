@@ -20,6 +20,7 @@ from typing import Any
 
 import numpy as np
 
+from lab.benchmarks.printed import table_head, table_row
 from thrustwasher.fmu.fmu_cache import fmu_paths
 from thrustwasher.fmu.stepper import Instance
 from thrustwasher.shift import Scene, ShiftResult, load_scene, run_auto, with_fidelities
@@ -87,11 +88,10 @@ def torque(r: ShiftResult) -> Any:
 def compare(run: ShiftResult, others: dict[str, ShiftResult]) -> None:
     """Print the figures of a run and how far others' are from them, in percent."""
     mine = figures(run)
-    print(f"| figure | at the tolerance | {' | '.join(others)} |")
-    print("|---" * (2 + len(others)) + "|")
+    table_head("figure", "at the tolerance", *others)
     for name, value in mine.items():
         off = [100.0 * (value / figures(o)[name] - 1.0) for o in others.values()]
-        print(f"| {name} | {value:.7g} | {' | '.join(f'{x:+.4f} %' for x in off)} |")
+        table_row(name, f"{value:.7g}", *(f"{x:+.4f} %" for x in off))
     for title, other in others.items():
         theirs = np.interp(run.time, other.time, torque(other))
         worst = 100.0 * np.max(np.abs(torque(run) - theirs)) / np.max(np.abs(theirs))

@@ -19,6 +19,7 @@ from functools import partial
 
 import numpy as np
 
+from lab.benchmarks.printed import median_and_least, table_head, table_row
 from thrustwasher import WasherParams, WasherResult, load_curve, solve_washer
 from thrustwasher.washer import solve
 from thrustwasher.washer.kernel_arguments import constants
@@ -84,8 +85,7 @@ def neighbours(base: WasherResult) -> Callable[[], WasherResult]:
 
 def solves() -> None:
     """Print warm and cold solves point by point."""
-    print("| point | cold ms | warm us, load +-1 % | iterations |")
-    print("|---|---|---|---|")
+    table_head("point", "cold ms", "warm us, load +-1 %", "iterations")
     warm_all, cold_all = [], []
     for name, speed, load in POINTS:
         cold_solve = partial(solve_washer, PARAMS, load=load, speed=speed, tilt=0.002)
@@ -95,10 +95,9 @@ def solves() -> None:
         warm = timed(neighbours(base), 400)
         warm_all.append(warm[0])
         cold_all.append(cold[0])
-        print(
-            f"| {name}, {speed:g} rad/s, {load:g} N | {1e3 * cold[0]:.1f} ({1e3 * cold[1]:.1f}) "
-            f"| {1e6 * warm[0]:.0f} ({1e6 * warm[1]:.0f}) | {iterations} |"
-        )
+        what = f"{name}, {speed:g} rad/s, {load:g} N"
+        times = median_and_least(cold, 1e3, ".1f"), median_and_least(warm, 1e6, ".0f")
+        table_row(what, *times, iterations)
     print(
         f"\nmedian of points: cold {1e3 * statistics.median(cold_all):.1f} ms, "
         f"warm {1e6 * statistics.median(warm_all):.0f} us"
@@ -115,7 +114,7 @@ def curve() -> None:
 
 def starts() -> None:
     """Print what a newcomer waits for, and what Python adds to a solve."""
-    print("| what | median (minimum) |\n|---|---|")
+    table_head("what", "median (minimum)")
     with tempfile.TemporaryDirectory() as folder:
         for name, words in PROCESSES.items():
             run = partial(
@@ -126,8 +125,7 @@ def starts() -> None:
                 capture_output=True,
             )
             run()
-            t = timed(run, 5)
-            print(f"| {name}, new process | {t[0]:.3g} ({t[1]:.3g}) s |", flush=True)
+            table_row(f"{name}, new process", median_and_least(timed(run, 5), 1.0, ".3g") + " s")
     point = {"load": 300.0, "speed": 953.0, "tilt": 0.002}
     start = solve_washer(PARAMS, **point)
     ready, state = solve._prepared(PARAMS, "field", start.grid), start._state.copy()
@@ -140,8 +138,8 @@ def starts() -> None:
     found = [timed(call, 10_000) for call in calls.values()]
     added = tuple(a - b for a, b in zip(found[1], found[2], strict=True))
     names = [*calls, "what Python adds to a warm solve"]
-    for name, (median, least) in zip(names, [*found, added], strict=True):
-        print(f"| {name} | {1e6 * median:.3g} ({1e6 * least:.3g}) us |")
+    for name, seconds in zip(names, [*found, added], strict=True):
+        table_row(name, median_and_least(seconds, 1e6, ".3g") + " us")
 
 
 def profile() -> None:

@@ -17,6 +17,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from lab.benchmarks.printed import median_and_least, table_head, table_row
 from thrustwasher.clutch.kernels import layout
 from thrustwasher.fmu.stepper import DirectInstance
 from thrustwasher.model.registry import find_spec, kernel_of
@@ -71,10 +72,8 @@ def measure(
                 step(core.par, row, core.state, core.work, core.out, core.iout, i * H, H)
                 substeps.append(core.work[layout.W_SUBSTEPS])
         count = f"{np.mean(substeps):.2f} ({max(substeps):.0f})" if substeps else "-"
-        print(
-            f"| {name} | {1e6 * statistics.median(kernel):.2f} ({1e6 * min(kernel):.2f}) "
-            f"| {1e6 * statistics.median(call):.2f} ({1e6 * min(call):.2f}) | {count} |"
-        )
+        times = ((statistics.median(own), min(own)) for own in (kernel, call))
+        table_row(name, *(median_and_least(t, 1e6, ".2f") for t in times), count)
 
 
 def engagement() -> Array:
@@ -92,8 +91,7 @@ def mesh_profile() -> Array:
 
 def main() -> None:
     """Print the table."""
-    print("| step | kernel us | call us | substeps, mean (most) |")
-    print("|---|---|---|---|")
+    table_head("step", "kernel us", "call us", "substeps, mean (most)")
     run = runner("WetClutch")
     sudden = engagement()
     sudden[:, 0], sudden[:, 1] = 5898.0, 350.0

@@ -2,6 +2,8 @@
 
 import json
 import os
+import random
+import shlex
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
@@ -11,10 +13,17 @@ import chart_records
 import pytest
 from chart_records import MACHINE, QUANTITY, cell, group, sample
 
+from lab.benchmarks.charts import disagreements
 from lab.chart import main
 from lab.charts.chart_cost import count_figure
-from lab.charts.chart_page import same_everywhere, stability_markdown
-from lab.charts.work_precision import Sample
+from lab.charts.chart_page import command_lines, same_everywhere, stability_markdown
+from lab.charts.chart_series import cases_of
+from lab.charts.chart_text import beats, front
+from lab.charts.work_precision import CHARTS, Sample
+from lab.macro_steps import WAYS
+from thrustwasher import cli
+from thrustwasher.errors import ParameterError
+from thrustwasher.model.registry import models_with_error_tables, spec_of
 
 ROOT = Path(__file__).parents[2]
 
@@ -190,3 +199,173 @@ def test_a_quick_run_measures_everything_and_draws_it(tmp_path):
         "chart-shift.svg",
         "chart-clutch.svg",
     } <= names
+
+
+# The command behind each mark of the charts is one that runs, and solves the worst case.
+
+
+def marks():
+    """Yield model, study and sample of every mark that a chart can have, in every case."""
+    for model in models_with_error_tables():
+        cases = [vars(case) for case in cases_of(model)]
+        for one in CHARTS[model].series(spec_of(model)):
+            sample = {**vars(one), "errors": {}}
+            for case in cases:
+                yield model, {"cases": cases}, sample, case["name"]
+    for way in WAYS:
+        sample = {
+            "family": way.name,
+            "label": f"{way.name}, 2 ms",
+            "knob": "macro step",
+            "value": "2 ms",
+            "is_rival": False,
+        }
+        yield "shift", {"scene": "a shift"}, sample, "shift"
+
+
+def parsed(line):
+    """Return what the command's own parser reads of a line; ParameterError if it refuses."""
+    program, name, *words = shlex.split(line.removeprefix("command: "))
+    assert program == "thrustwasher"
+    parser, command = cli._Parser(name), cli._command(name)
+    command.add_arguments(parser)
+    return name, parser.parse_args(words)
+
+
+LINES = {
+    (model, tuple(command_lines(study, model, sample, worst)))
+    for model, study, sample, worst in marks()
+}
+
+
+def test_each_command_of_a_chart_is_understood():
+    found = set()
+    for model, (line, *_) in LINES:
+        if line.startswith("command: "):
+            name, arguments = parsed(line)
+            found.add(name)
+            if name == "shift":
+                assert arguments.step and arguments.master and len(arguments.fidelity) == 2
+        else:
+            assert model == "shift" and "in [transmission]" in line  # a coupling has no option
+    assert found == {"washer", "engage", "gearmesh", "shift"}
+    with pytest.raises(ParameterError):
+        parsed("command: thrustwasher gearmesh --load 40")
+
+
+WASHER = "washer --load 700 --speed 545 --tilt 0.002 --oil-temperature 297.15 --branch contact"
+MESH = "gearmesh --power 21600 --speed 180 --oil-temperature 299.85"
+PACK = "engage --load 12000 --speed 350 --oil-temperature 297.15 --ramp 0.1 --duration 0.6"
+
+
+@pytest.mark.parametrize(
+    ("words", "name", "value"),
+    [
+        (f"{MESH} --fidelity fine", "speed", 180.0),
+        (f"{WASHER} --fidelity map", "branch", "contact"),
+        (f"{WASHER} --grid 7x20", "branch", "contact"),
+        (f'{PACK} --fidelity field --step "20 ms"', "duration", 0.6),
+    ],
+)
+def test_a_command_solves_its_case(words, name, value, capsys):
+    assert f"command: thrustwasher {words}" in {lines[0] for _, lines in LINES}
+    assert cli.main([*shlex.split(words), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)[name] == value
+
+
+# Who is on the front: ties, the reference's uncertainty, failures, and a second run.
+
+
+def pareto_sample(label, cost, error, *, spread=0.0, floor=1e-6, failed=0):
+    return {
+        "label": label,
+        "call_median": cost,
+        "call_iqr": spread,
+        "errors": {"torque": {"worst": error, "rms": None if error is None else 0.5 * error}},
+        "ref_uncertainty": {"torque": floor},
+        "n_failed": failed,
+    }
+
+
+def labels(samples):
+    return [samples[i]["label"] for i in front(samples, "torque")]
+
+
+def test_dearer_and_coarser_is_beaten():
+    samples = [
+        pareto_sample("a", 1.0, 1e-2),
+        pareto_sample("b", 2.0, 1e-3),
+        pareto_sample("c", 3.0, 2e-3),
+    ]
+    assert labels(samples) == ["a", "b"]
+
+
+def test_faster_by_less_than_both_spreads_beats_nothing():
+    quick, slow = (
+        pareto_sample("a", 1.0, 1e-3, spread=0.06),
+        pareto_sample("b", 1.1, 1e-3, spread=0.06),
+    )
+    assert not beats(quick, slow, "torque")
+    assert labels([quick, slow]) == ["a", "b"]
+    assert beats(pareto_sample("a", 1.0, 1e-3, spread=0.04), slow | {"call_iqr": 0.04}, "torque")
+
+
+def test_errors_below_the_references_uncertainty_are_equal():
+    samples = [pareto_sample("a", 1.0, 9e-5, floor=1e-4), pareto_sample("b", 2.0, 1e-5, floor=1e-4)]
+    assert labels(samples) == ["a"]
+
+
+def test_who_fails_beats_nobody_who_does_not():
+    samples = [
+        pareto_sample("a", 1.0, 1e-5, failed=1),
+        pareto_sample("b", 2.0, 1e-2),
+        pareto_sample("c", 3.0, 1e-3),
+    ]
+    assert labels(samples) == ["a", "b", "c"]
+    assert beats(samples[0], pareto_sample("d", 9.0, 1e-2, failed=2), "torque")
+
+
+def test_who_never_fails_but_errs_more_does_not_beat_a_map_with_an_edge():
+    assert (
+        labels([pareto_sample("closed", 1.0, 0.5), pareto_sample("map", 2.0, 1e-4, failed=1)])[-1]
+        == "map"
+    )
+
+
+def test_what_has_no_answer_is_on_no_front():
+    assert labels([pareto_sample("a", 1.0, None), pareto_sample("b", 2.0, 1e-2)]) == ["b"]
+
+
+@pytest.fixture
+def measured():
+    """Return a function that measures the same twelve ways with noise of a clock."""
+    source = random.Random(3)
+    ways = [(10.0 ** source.uniform(-6, -2), 10.0 ** source.uniform(-5, -1)) for _ in range(12)]
+
+    def once(seed):
+        noise = random.Random(seed)
+        return [
+            pareto_sample(
+                f"way {i}", cost * (1.0 + noise.uniform(-0.02, 0.02)), error, spread=0.02 * cost
+            )
+            for i, (cost, error) in enumerate(ways)
+        ]
+
+    return once
+
+
+def test_two_runs_agree_on_every_member_outside_the_spread(measured):
+    for seed in range(20):
+        assert disagreements(measured(seed), measured(100 + seed), "torque") == []
+
+
+def test_a_way_on_one_front_alone_is_a_disagreement(measured):
+    one, two = measured(0), measured(1)
+    assert disagreements([*one, pareto_sample("new", 1e-9, 1e-9)], two, "torque")
+
+
+def test_a_tie_that_falls_the_other_way_is_none():
+    one = [pareto_sample("a", 1.00, 1e-3, spread=0.05), pareto_sample("b", 1.09, 1e-3, spread=0.05)]
+    two = [pareto_sample("a", 1.00, 1e-3, spread=0.05), pareto_sample("b", 1.12, 1e-3, spread=0.05)]
+    assert labels(one) != labels(two)
+    assert disagreements(one, two, "torque") == []

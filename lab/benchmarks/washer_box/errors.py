@@ -13,6 +13,7 @@ import math
 import statistics
 from pathlib import Path
 
+from lab.benchmarks.printed import table_head, table_row
 from thrustwasher import WasherParams, solve_washer
 
 TABLE = Path(__file__).with_name("reference.csv")
@@ -49,10 +50,7 @@ def main() -> None:
     asked = parser.parse_args()
     with asked.table.open(newline="") as file:
         rows = list(csv.DictReader(file))
-    print(
-        "| points | places | median | 95 % | 99.9 % | most | within 1 % | within 3 % | estimate |"
-    )
-    print("|---|---|---|---|---|---|---|---|---|")
+    table_head(*"points|places|median|95 %|99.9 %|most|within 1 %|within 3 %|estimate".split("|"))
     for chosen in ("random", "hard"):
         found = [(*off(row, asked.fidelity), row) for row in rows if row["chosen"] == chosen]
         found.sort(key=lambda x: x[0])
@@ -65,7 +63,7 @@ def main() -> None:
         told = [e <= estimate for e, estimate, _, _ in found if not math.isnan(estimate)]
         true = sum(told) / max(len(told), 1)
         cells = [statistics.median(errors), *at, errors[-1], *within, true]
-        print(f"| {chosen} | {n} | " + " | ".join(f"{100 * x:.3g} %" for x in cells) + " |")
+        table_row(chosen, n, *(f"{100 * x:.3g} %" for x in cells))
         for error, _, _, row in found[-asked.worst :]:
             print(
                 f"  {100 * error:.2f} %:", *(f"{float(row[k]):.6g}" for k in INPUTS), row["branch"]

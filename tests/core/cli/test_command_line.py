@@ -1,15 +1,21 @@
 """The command line answers bad input with one line and good input with one object."""
 
+import math
 import os
+import shlex
+import shutil
 import subprocess
 import sys
 from dataclasses import fields
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
-from thrustwasher import cli
+from thrustwasher import cli, optimise
 from thrustwasher.cli import main
+from thrustwasher.cli.common._output import duration, going_on
+from thrustwasher.cli.common._progress import TimeLeft
 from thrustwasher.clutch.parameters import SPEC as CLUTCH
 from thrustwasher.errors import BranchError, EnvironmentProblem, SolveError
 from thrustwasher.gearmesh.parameters import SPEC as GEARMESH
@@ -133,3 +139,162 @@ def test_kernels_in_plain_python_are_said_at_the_start(variable, value, says):
     done = subprocess.run(words, env=plain | {variable: value}, capture_output=True, text=True)
     assert done.returncode == 0 and len(done.stderr.splitlines()) == says
     assert (f"{variable} = {value}: kernels run as plain Python" in done.stderr) == says
+
+
+# The help: commands in groups, a line each; examples that run; names of before.
+
+EXAMPLES = Path(__file__).parents[3] / "examples"
+LONG = {"scatter", "map", "fidelity", "compare"}  # some ten seconds and more
+
+
+def test_every_command_stands_in_one_group_and_on_one_line(capsys):
+    assert main(["--help"]) == 0
+    text = capsys.readouterr().out
+    assert sorted(cli.COMMANDS) == sorted({*cli.COMMANDS}) and len(cli.GROUPS) == 4
+    assert {*cli.OF_MODELS} <= {*cli.COMMANDS}
+    listed = text.partition("\noptions:")[0].splitlines()
+    assert max(map(len, listed)) <= 80
+    assert [line[:-1] for line in listed if line.endswith(":")] == [*cli.GROUPS]
+
+
+def parts(line):
+    """Return the commands of an example."""
+    return [shlex.split(part)[1:] for part in line.split("&&")]
+
+
+@pytest.mark.parametrize(
+    "command", [pytest.param(c, marks=[pytest.mark.slow] * (c in LONG)) for c in cli.COMMANDS]
+)
+@pytest.mark.slow
+def test_help_of_a_command_ends_with_two_examples_that_run(command, tmp_path, monkeypatch, capsys):
+    assert main([command, "--help"]) == 0
+    text = capsys.readouterr().out
+    lines = [part.strip() for part in text.partition("examples:\n")[2].split("\n\n")[0].split("\n")]
+    assert len(lines) == 2
+    shutil.copytree(EXAMPLES, tmp_path / "examples")
+    monkeypatch.chdir(tmp_path)
+    if command == "fidelity":  # what it measures is kept for the user
+        monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    for line in lines:
+        assert any(words[0] == command for words in parts(line))
+        for words in parts(line):
+            assert main(words) == 0, (words, capsys.readouterr().err)
+
+
+def test_names_of_before_go_on_for_a_version(capsys):
+    assert main(["cards", "clutch"]) == 0
+    assert "cards is now fidelity" in capsys.readouterr().err
+    main(["optimise", "clutch", "--figures", "--least", "temperature"])
+    assert "--least is now --minimise" in capsys.readouterr().err
+    with (
+        pytest.warns(DeprecationWarning, match="least= is now minimise="),
+        pytest.raises(ValueError, match="vary"),
+    ):
+        optimise("clutch", vary={}, least="temperature")
+
+
+# The shell completes words where argcomplete is installed; without it nothing changes.
+
+
+def answers(line, *, code="from thrustwasher.cli import main; main()"):
+    """Return what the shell is offered for the last word of a line."""
+    # the program answers on number 8, as the shell has it
+    script = f"import os; os.dup2(1, 8); os.dup2(os.open(os.devnull, os.O_WRONLY), 9); {code}"
+    given = {"COMP_LINE": line, "COMP_POINT": str(len(line)), "_ARGCOMPLETE": "1"}
+    done = subprocess.run(
+        [sys.executable, "-c", script],
+        env={**os.environ, **given, "_ARGCOMPLETE_IFS": "\n"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert "Traceback" not in done.stderr
+    return {word.strip() for word in done.stdout.splitlines()}
+
+
+@pytest.mark.parametrize(
+    ("line", "found"),
+    [
+        ("thrustwasher sw", {"sweep"}),
+        ("thrustwasher washer --lo", {"--load"}),
+        ("thrustwasher clutch --preset ", {"automatic", "paper"}),
+        ("thrustwasher clutch --set friction_sc", {"friction_scale="}),
+        ("thrustwasher shift --scene planetary-h", {"planetary-hot-oil"}),
+        ("thrustwasher explore planetary-h", {"planetary-hot-oil"}),
+        ("thrustwasher part new gear", {"gearmesh"}),
+    ],
+)
+def test_words_are_completed(line, found):
+    pytest.importorskip("argcomplete")
+    assert answers(line) == found
+
+
+def test_every_command_is_offered():
+    pytest.importorskip("argcomplete")
+    assert {*cli.COMMANDS} <= answers("thrustwasher ")
+
+
+def test_without_the_package_the_shell_gets_no_answer_and_the_command_runs():
+    code = (
+        "import sys; sys.modules['argcomplete'] = None; sys.argv = ['thrustwasher', '--version'];"
+        "from thrustwasher.cli import main; sys.exit(main())"
+    )
+    assert {word.split()[0] for word in answers("thrustwasher sw", code=code)} == {"thrustwasher"}
+
+
+# The time left changes smoothly; a command that was stopped says how it goes on.
+
+
+def test_the_time_left_forgets_a_slow_start_and_does_not_jump():
+    left, shown = TimeLeft(), []
+    done, now = 0.0, 0.0
+    while done < 1000.0:  # 20 s for the first five, then two each second
+        shown.append((now, left.after(now, int(done), 1000)))
+        now += 0.5
+        done += 0.125 if done < 5.0 else 1.0
+    end = now
+    known = [(t, x) for t, x in shown if math.isfinite(x)]
+    for (t, x), (then, y) in zip(known[1:], known, strict=False):
+        assert abs(x - (y - (t - then))) <= 0.06 * max(x, y)  # 6 % in half a second
+    for t, x in known:
+        if t > 120.0:
+            assert x == pytest.approx(end - t, rel=0.15, abs=2.0)
+
+
+def test_nothing_is_named_before_it_is_known():
+    left = TimeLeft()
+    assert [math.isnan(left.after(t, n, 100)) for t, n in [(0, 40), (1, 50), (4, 60)]] == [
+        True,
+        True,
+        False,
+    ]
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [(0.31, "0.3 s"), (40.0, "40 s"), (310.0, "5 min"), (7800.0, "2 h 10 min")],
+)
+def test_durations_are_read_at_a_glance(seconds, words):
+    assert duration(seconds) == words
+
+
+@pytest.mark.parametrize(("done", "there"), [(3, True), (0, True), (3, False)])
+def test_a_stopped_command_names_its_journal_and_the_command_that_goes_on(
+    done, there, tmp_path, capsys
+):
+    journal = tmp_path / "a.csv.journal"
+    if there:
+        journal.write_text("")
+    given = SimpleNamespace(command_line="thrustwasher sweep clutch --out a.csv")
+    with (
+        pytest.raises(KeyboardInterrupt),
+        going_on(given, journal, lambda *_: None) as progress,
+    ):
+        progress(done, 10)
+        raise KeyboardInterrupt
+    told = capsys.readouterr().err
+    if done and there:
+        line = f"{journal} keeps 3 of 10 points; to go on: {given.command_line}\n"
+        assert told == line
+    else:
+        assert told == ""

@@ -1,13 +1,20 @@
 """Which inputs of the models move which outputs at once, as their descriptions say."""
 
 import random
+from contextlib import contextmanager
+from zipfile import ZipFile
 
+import needed
 import pytest
+from built import built_fmu
 from sampling import jump
 
+from thrustwasher import ParameterError, WasherParams, build_fmu, load_part, solve_washer
+from thrustwasher.errors import SolveError
 from thrustwasher.fmu.description.interface import interface
-from thrustwasher.fmu.stepper import DirectInstance
+from thrustwasher.fmu.stepper import DirectInstance, Instance
 from thrustwasher.model.registry import all_specs, find_spec
+from thrustwasher.washer.parameters import SPEC
 
 H = 1e-3
 NAMES = [spec.name for spec in all_specs()]
@@ -98,3 +105,148 @@ def test_only_listed_inputs_move_an_output_at_once_and_all_of_them_the_real_ones
     real = {signal.name for signal in spec.outputs if signal.kind == "real"}
     assert seen <= listed
     assert {pair for pair in listed - seen if pair[1] in real} == UNSEEN.get(name, set())
+
+
+# One FMU from a part or a model: where it lies, and what is refused.
+
+PART = 'model = "gearmesh"\nname = "MyPair"\n[parameters]\npinion_teeth = 23\n'
+
+
+@pytest.fixture
+def part(tmp_path):
+    file = tmp_path / "pair.toml"
+    file.write_text(PART)
+    return file
+
+
+def named(path):
+    with ZipFile(path) as fmu:
+        return f'modelName="{path.stem}"' in fmu.read("modelDescription.xml").decode()
+
+
+def test_a_model_goes_to_a_folder_under_its_name(tmp_path):
+    needed.linker()
+    path = build_fmu("gearmesh", tmp_path / "new", platforms=["linux64"])
+    assert path == tmp_path / "new" / "GearMesh.fmu" and named(path)
+    assert build_fmu("GearMesh", str(tmp_path / "new"), platforms=["linux64"]) == path
+
+
+def test_a_part_is_built_from_its_file_or_itself_the_same(part, tmp_path):
+    needed.linker()
+    made = (part, str(part), load_part(part))
+    paths = [build_fmu(one, tmp_path / str(i), platforms=["linux64"]) for i, one in enumerate(made)]
+    assert [path.name for path in paths] == 3 * ["MyPair.fmu"] and all(map(named, paths))
+    assert len({path.read_bytes() for path in paths}) == 1
+
+
+def test_the_file_may_be_named(part, tmp_path):
+    needed.linker()
+    path = build_fmu(part, tmp_path / "other.fmu", fmi=3, platforms=["linux64"])
+    with ZipFile(path) as fmu:
+        assert 'fmiVersion="3.0"' in fmu.read("modelDescription.xml").decode()
+    assert [p.name for p in tmp_path.iterdir() if p != part] == ["other.fmu"]
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (("washr", "."), "model = 'washr', allowed: ThrustWasher.*did you mean 'washer'"),
+        (("none.toml", "."), "part = 'none.toml': cannot be read"),
+        ((3, "."), "part_or_model = 3, allowed: the path of a part file"),
+        (("washer", ""), "out = '', allowed: the path of an FMU"),
+        (("washer", 3), "out = 3, allowed: the path of an FMU"),
+        (("washer", __file__), "allowed: the path of an FMU .* or a folder"),
+    ],
+)
+def test_what_is_not_allowed_is_named(given, said):
+    with pytest.raises(ParameterError, match=said):
+        build_fmu(*given)
+
+
+def test_versions_and_platforms_are_those_of_build(tmp_path):
+    with pytest.raises(ParameterError, match="fmi = 4, allowed: 2 or 3"):
+        build_fmu("washer", tmp_path, fmi=4)
+    with pytest.raises(ParameterError, match="'amiga'"):
+        build_fmu("washer", tmp_path, platforms=["amiga"])
+
+
+# Derivatives over tunable parameters, at any time; they leave no trace.
+
+POINT = {"load": 300.0, "speed": 545.0, "tilt": 0.002}
+OUTPUTS = ["friction_torque", "temperature", "film_ratio", "oil_flow"]
+PAPER = {"oil_cooling": False, "film_heat_fraction": 0.8}
+ways = pytest.mark.parametrize("way", ["kernels", "native-fmi2", "native-fmi3"])
+
+
+def fmu_of(model, way):
+    target, fmi = way.split("-fmi")
+    return built_fmu(model, target=target, fmi=int(fmi), local=True)
+
+
+@contextmanager
+def washer(way, **parameters):
+    if way == "kernels":
+        yield DirectInstance(SPEC, parameters=parameters)
+        return
+    instance = Instance(fmu_of("washer", way), parameters=parameters)
+    yield instance
+    instance.close()
+
+
+@ways
+@pytest.mark.parametrize("parameters", [{}, PAPER], ids=["oil cools", "paper"])
+def test_shares_of_heat_have_the_derivatives_of_the_solution(way, parameters):
+    solved = solve_washer(WasherParams(**parameters), **POINT).sensitivities(OUTPUTS)
+    with washer(way, **parameters) as instance:
+        instance.initialize(inputs=POINT)
+        instance.step(0.0, 1e-3)
+        for name in ("heat_split", "film_heat_fraction") if parameters else ("heat_split",):
+            found = instance.directional_derivative(OUTPUTS, [name], [2.0])
+            for output, value in zip(OUTPUTS, found, strict=True):
+                rows = solved[output]
+                values = {p: getattr(WasherParams(**parameters), p) for p in rows}
+                largest = max(abs(values[p] * slope) for p, slope in rows.items())
+                off = abs(0.5 * value - rows[name]) * values[name]
+                assert off <= 1e-6 * largest, (output, name)
+
+
+@ways
+def test_asking_leaves_no_trace(way):
+    rows = []
+    for asks in (False, True):
+        with washer(way) as instance:
+            instance.initialize(inputs=POINT)
+            for k in range(3):
+                instance.step(k * 1e-3, 1e-3)
+                if asks:
+                    instance.directional_derivative(OUTPUTS, ["heat_split", "load"], [1.0, 2.0])
+            rows.append(instance.outputs())
+    assert rows[0] == rows[1]
+
+
+@ways
+def test_what_a_rule_holds_has_none_and_says_so(way):
+    if way == "kernels":
+        pytest.skip("the shell knows the rules")
+    with washer(way) as instance:
+        instance.initialize(inputs=POINT)
+        instance.step(0.0, 1e-3)
+        with pytest.raises(SolveError, match="film_heat_fraction = 1 has no derivative here"):
+            instance.directional_derivative(OUTPUTS, ["film_heat_fraction"], [1.0])
+        with pytest.raises((SolveError, ParameterError), match="roughness: derivatives are of"):
+            instance.directional_derivative(OUTPUTS, ["roughness"], [1.0])
+        instance.step(1e-3, 1e-3)
+
+
+def test_a_clutchs_torque_grows_with_its_friction_scale():
+    instance = Instance(
+        fmu_of("clutch", "native-fmi3"), parameters={"friction_scale": 0.9, "holding": "off"}
+    )
+    instance.initialize(inputs={"load": 9000.0, "speed": 2.0})
+    for k in range(40):  # until the faces touch
+        instance.step(k * 0.01, 0.01)
+    (torque,) = instance.get(["friction_torque"])
+    (slope,) = instance.directional_derivative(["friction_torque"], ["friction_scale"], [1.0])
+    assert 0.5 * torque < 0.9 * slope < 1.001 * torque
+    assert instance.get(["friction_torque"]) == [torque]
+    instance.close()

@@ -6,15 +6,33 @@ from dataclasses import replace
 import helical_pair
 import numpy as np
 import pytest
-from closed_forms.flash_temperature import blok_flash
-from closed_forms.line_contact import full_width
+from built import built_fmu
+from closed_forms.flash_temperature import (
+    ELLIPTIC,
+    Body,
+    atan_flash,
+    blok_flash,
+    deep_body_rise,
+    pinion_flash,
+)
+from closed_forms.involute_mesh import Mesh, flanks_at, line_load, start_of_contact
+from closed_forms.line_contact import compliance, full_width, peak_pressure
+from closed_forms.thermal_fatigue import (
+    Endurance,
+    contact_stress,
+    grouped_factor,
+    modification_factor,
+    thermal_stress,
+)
 from helical_pair import Pair
 from kernel_part import Part
-from scipy.integrate import quad
+from scipy.integrate import quad, solve_ivp
 
 from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
+from thrustwasher.fmu.stepper import Instance
 from thrustwasher.gearmesh.kernels import constants
 from thrustwasher.gearmesh.kernels import layout as L
+from thrustwasher.gearmesh.kernels.mesh_point import LEAST_LINE_LOAD
 from thrustwasher.gearmesh.parameters import SPEC
 from thrustwasher.gearmesh.solve import prepare
 
@@ -334,3 +352,154 @@ def test_hotter_oil_makes_a_hotter_film():
         for oil in np.linspace(235.0, 420.0, 38)
     ]
     assert np.all(np.diff(found) > 0.0)
+
+
+# The gear mesh's temperatures and stresses derived again from heat flow and contact.
+
+PHI, E, NU, FORMS_SPEED, POWER, FORMS_FACE = math.radians(20.0), 205e9, 0.3, 180.0, 7500.0, 0.05
+STEEL = Body(compliance(E, NU), 50.2, 7850.0, 475.0)
+FORMS_THETA = 2.0 * STEEL.compliance
+HIGH_CARBON = Endurance(0.53, 0.40)
+
+
+def contact(mesh, speed=FORMS_SPEED, power=POWER):
+    flanks = flanks_at(start_of_contact(mesh), mesh, speed)
+    load = line_load(power / speed, mesh, FORMS_FACE)
+    return flanks, load, full_width(load, flanks.radius, FORMS_THETA)
+
+
+def test_a_deep_body_warms_as_heat_conduction_says():
+    """Finite volumes over a depth that the heat does not reach in the time."""
+    k, c, time = 50.2, 7850.0 * 475.0, 1e-4
+    depth = 12.0 * math.sqrt(k / c * time)
+    edges = depth * np.linspace(0.0, 1.0, 241) ** 2
+    size, middle = np.diff(edges), 0.5 * (edges[1:] + edges[:-1])
+    between = k / np.diff(middle)
+
+    def warming(_, t):
+        flow = np.concatenate(([1.0], -between * np.diff(t), [0.0]))
+        return -np.diff(flow) / (c * size)
+
+    run = solve_ivp(
+        warming, (0.0, time), np.zeros(240), method="LSODA", lband=1, uband=1, rtol=1e-8, atol=1e-16
+    )
+    surface = run.y[0, -1] + 1.0 * middle[0] / k
+    assert surface == pytest.approx(deep_body_rise(1.0, time, math.sqrt(k * c)), rel=1e-4)
+
+
+@pytest.mark.parametrize(("m", "n", "ratio"), [(2.0, 20, 1.67), (2.0, 30, 1.32), (5.0, 20, 1.73)])
+def test_half_the_heat_overheats_the_slow_flank(m, n, ratio):
+    mesh = Mesh(m, n, 0.254, PHI)
+    flanks, load, width = contact(mesh)
+    half = pinion_flash(mesh, POWER / FORMS_SPEED, FORMS_SPEED, FORMS_FACE, 0.5 * 0.08, STEEL)
+    blok = blok_flash(
+        load, 0.08, flanks.speed_pinion, flanks.speed_gear, width, STEEL.effusivity, ELLIPTIC
+    )
+    assert half / blok == pytest.approx(ratio, abs=6e-3)
+
+
+def test_without_the_cosine_in_eq_9_eq_12_would_not_follow():
+    """The load is the torque over the *base* radius; over the pitch radius K is 6.4 % larger."""
+    mesh = Mesh(2.0, 25, 0.254, PHI)
+    flanks, load, _ = contact(mesh)
+    rise = atan_flash(mesh, POWER, FORMS_SPEED, FORMS_FACE, 0.4, STEEL)
+    printed = contact_stress(load * math.cos(PHI), flanks.radius, E)
+    short = modification_factor(thermal_stress(rise, E, NU, 12e-6), printed, HIGH_CARBON)
+    long = grouped_factor(
+        mesh, POWER, FORMS_SPEED, FORMS_FACE, 0.4, HIGH_CARBON, E, NU, 12e-6, STEEL.effusivity
+    )
+    assert max(short / long, long / short) == pytest.approx(1.064, abs=1e-3)
+
+
+@pytest.mark.parametrize("place", [-0.7, 0.2, 0.9])
+def test_the_pressure_flattens_the_gap(place):
+    """Slope of two half spaces: -(2 theta/pi) times the principal value of p(s)/(x - s)."""
+    load, radius = 2.5e4, 0.008
+    half, top = (
+        0.5 * full_width(load, radius, FORMS_THETA),
+        peak_pressure(load, radius, FORMS_THETA),
+    )
+    value = quad(lambda u: -math.sqrt(1.0 - u * u), -1.0, 1.0, weight="cauchy", wvar=place)[0]
+    assert -2.0 * FORMS_THETA / math.pi * top * value == pytest.approx(
+        -place * half / radius, rel=1e-6
+    )
+
+
+# A mesh under torque and speed of either sign: the other flanks bear, the loss stays a loss.
+
+COASTING_PAIRS = {
+    "default": GearMeshParams(),
+    "helical": GearMeshParams.preset("planet"),
+    "shifted": GearMeshParams(profile_shift_pinion=0.3, profile_shift_gear=-0.1),
+    "elastic": GearMeshParams(
+        load_sharing="elastic", tip_relief_pinion=10e-6, tip_relief_length_pinion=2e-3
+    ),
+    "paper": GearMeshParams.preset("paper"),
+}
+QUADRANTS = [(a, b) for a in (1.0, -1.0) for b in (1.0, -1.0)]
+
+
+def mesh_of(name):
+    return Part("gearmesh", "field", COASTING_PAIRS[name])
+
+
+def coasting_at(mesh, load, speed):
+    """Return the real outputs of the step that FMUs make, at a point."""
+    mesh.state[:] = 0.0
+    assert mesh.step([load, speed, 353.15]) == 0
+    return {name: mesh[name] for name in mesh.reals}
+
+
+@pytest.mark.parametrize("pair", COASTING_PAIRS)
+def test_all_four_quadrants_lose_the_same(pair):
+    """Neither flank nor driver is in the laws: the profile is that of both flanks."""
+    mesh = mesh_of(pair)
+    one = coasting_at(mesh, 40.0, 180.0)
+    for load, speed in QUADRANTS:
+        found = coasting_at(mesh, 40.0 * load, 180.0 * speed)
+        for name, value in one.items():
+            sign = speed if name == "friction_torque" else 1.0
+            assert found[name] == sign * value, name
+        given, left = 40.0 * load * 180.0 * speed, 40.0 * load - found["friction_torque"]
+        assert given - left * 180.0 * speed == pytest.approx(found["friction_power"], rel=1e-9)
+        assert found["friction_power"] > 0.0
+
+
+@pytest.mark.parametrize("pair", COASTING_PAIRS)
+def test_the_loss_passes_through_no_torque_smoothly(pair):
+    """Continuous with its slope, and exact outside the stated width of 2 N/m of line load."""
+    mesh = mesh_of(pair)
+    width = 2.0 * LEAST_LINE_LOAD / mesh.par[L.D_LINE]
+    torques = np.linspace(-2.0 * width, 2.0 * width, 401)
+    loss = np.array([coasting_at(mesh, t, 180.0)["friction_torque"] for t in torques])
+    slopes = np.diff(loss) / np.diff(torques)
+    assert loss[200] == 0.0 and (loss >= 0.0).all() and loss == pytest.approx(loss[::-1])
+    assert abs(slopes).max() < 0.2
+    assert abs(np.diff(slopes)).max() < 0.05 * abs(slopes).max()
+    if COASTING_PAIRS[pair].load_sharing == "rigid":
+        found = coasting_at(mesh, width, 180.0)
+        sharp = found["mean_friction"] * mesh.par[L.D_LOSS] * width
+        assert found["friction_torque"] == pytest.approx(sharp, rel=1e-12)
+
+
+def test_the_sign_of_the_power_given_does_not_matter():
+    """The power of a mesh seen from Python: recuperation has the other sign."""
+    drive, coast = (solve_gearmesh(GearMeshParams(), power=p, speed=180.0) for p in (7e3, -7e3))
+    assert drive.friction_power == coast.friction_power > 0.0
+    back = solve_gearmesh(GearMeshParams(), power=7e3, speed=-180.0)
+    assert back.friction_torque == -drive.friction_torque and math.isfinite(back.film_thickness)
+
+
+def test_the_fmu_passes_from_drive_to_coasting_without_a_jump():
+    """1 N m to -1 N m in steps of 0.01 N m: the loss changes by less than 4e-5 N m in each."""
+    with Instance(built_fmu("gearmesh", local=True)) as mesh:
+        names = [s.name for s in SPEC.outputs]
+        place, losses = names.index("friction_torque"), []
+        mesh.initialize(0.0, {"load": 1.0, "speed": 180.0, "oil_temperature": 353.15})
+        for i, torque in enumerate(np.linspace(1.0, -1.0, 201).tolist()):
+            mesh.set_inputs([torque, 180.0, 353.15])
+            mesh.step(1e-3 * i, 1e-3)
+            losses.append(mesh.outputs()[place])
+    assert min(losses) == pytest.approx(0.0, abs=1e-15) and losses[0] > 1e-3
+    assert abs(np.diff(losses)).max() < 4e-5
+    assert losses == pytest.approx(losses[::-1], rel=1e-3, abs=1e-12)

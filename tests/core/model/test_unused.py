@@ -3,6 +3,7 @@
 What is said of one that is not used is true as well: moved, it leaves every output as it was.
 """
 
+import json
 import re
 from dataclasses import fields, replace
 from itertools import pairwise
@@ -10,12 +11,20 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from thrustwasher import ClutchParams, GearMeshParams, WasherParams, solve_clutch, solve_gearmesh
+from thrustwasher.cli.common._options import read_settings
 from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.fmu.documentation.reference_results import input_rows
 from thrustwasher.fmu.running.direct_instance import DirectInstance
-from thrustwasher.model.registry import all_specs, find_spec
+from thrustwasher.model.idle import idle_warnings, kept_warnings
+from thrustwasher.model.parameters import as_numbers
+from thrustwasher.model.part_file import find_part, load_part, preset_parts
+from thrustwasher.model.part_places import other_of
+from thrustwasher.model.registry import all_models, all_specs, find_spec
 from thrustwasher.model.unread import unread
 from thrustwasher.shift import load_scene
+from thrustwasher.train.parameters import TrainParams
+from thrustwasher.transmission.parameters import TransmissionParams
 
 ROWS = 12  # points in time of a run
 ROUNDING = 1e-9  # of an output: what steps that are cut elsewhere may move
@@ -198,3 +207,161 @@ def test_what_is_said_not_to_be_used_leaves_every_output_as_it_is(key):
     for parameters, profile in points(key):
         for name, what, far in scanned(spec, parameters, profile, names):
             assert what != "said" or far < ROUNDING, f"{name} moves outputs by {far:g}"
+
+
+# A parameter that the choices next to it leave unread is told; nothing of the package's own is.
+
+
+@pytest.mark.parametrize("model", [m.key for m in all_models()])
+def test_defaults_and_presets_have_nothing_idle_on_any_level(model):
+    spec = find_part(model).spec
+    for part in (find_part(model), *preset_parts(spec).values()):
+        for level in ("", *spec.levels):
+            assert idle_warnings(model, part.params, level) == ()
+
+
+TIMES = {f"engine_torque_time_{i}": 0.1 * i for i in range(1, 7)}
+PLOUGHED = ClutchParams(plough_weight=0.2, stick_speed=2.0)
+DRY = WasherParams(dry_friction=0.05)
+IDLE = [
+    ("washer", DRY, "", "dry_friction = 0.05", "friction_law = constant only"),
+    ("clutch", PLOUGHED, "field", "plough_weight = 0.2, stick_speed = 2 m/s", "law = wang"),
+    ("clutch", ClutchParams(table_friction_0=0.05), "closed", "table_friction_0", "stribeck or"),
+    ("gearmesh", GearMeshParams(partition_share=0.3), "field", "partition_share", "is loss"),
+    (
+        "transmission",
+        TransmissionParams(engine_torque=120.0, engine_torque_points=6, **TIMES),
+        "",
+        "engine_torque = 120 N·m",
+        "engine_torque_points = 0 only; engine_torque_points is 6",
+    ),
+    (
+        "train",
+        TrainParams(mesh_3_partition_share=0.3),
+        "",
+        "mesh_3_partition_share = 0.3",
+        "meshes >= 3 only; meshes is 2",
+    ),
+    (
+        "train",
+        TrainParams(shaft_2_seals=1),
+        "",
+        "shaft_2_seals = 1",
+        "shaft_2_seal_diameter > 0 only; shaft_2_seal_diameter is 0",
+    ),
+]
+
+
+@pytest.mark.parametrize(("model", "params", "level", "value", "reader"), IDLE)
+def test_a_value_nobody_reads_is_told_with_what_would_read_it(model, params, level, value, reader):
+    (line,) = idle_warnings(model, params, level)
+    assert line.startswith(value) and reader in line and "has no effect: read by" in line
+
+
+def test_a_description_names_the_condition():
+    """Of one that is required in addition, of one that no model uses, of one that does little."""
+    known = {f.name: f for params in (TransmissionParams, TrainParams) for f in fields(params)}
+    words = {
+        "engine_torque": "; used if engine_torque_points = 0",
+        "thrust_share": "; used if needle_count = 0 and helix_angle > 0",
+        "mesh_3_limiting_traction": "; used if mesh_3_friction_law = mixed or "
+        "mesh_3_traction_law = limited, and meshes >= 3",
+        "mesh_1_thermal_expansion": "; not used in this model",
+        "required_life": "; only for warnings of results in Python",
+    }
+    for name, ending in words.items():
+        assert known[name].metadata["help"].endswith(ending)
+
+
+def test_what_the_scene_gives_a_part_is_not_told():
+    """Planets' teeth bend both ways, the oil fills the pistons: of no effect, and nobody's."""
+    part = load_scene("planetary").parts["mesh"]
+    assert part.params.reversed_bending == 0.7 and part.params.root_limit == 0.0
+    assert idle_warnings("gearmesh", part.params, part.fidelity, part.usual) == ()
+    assert len(idle_warnings("gearmesh", part.params, part.fidelity)) == 1
+
+
+def test_a_value_that_is_read_is_not_told():
+    params = WasherParams(dry_friction=0.05, friction_law="constant")
+    assert idle_warnings("washer", params) == ()
+    params = ClutchParams(friction_law="constant", constant_friction=0.05)
+    assert (
+        idle_warnings("clutch", params, "closed") == idle_warnings("clutch", params, "field") == ()
+    )
+
+
+def test_a_level_that_passes_the_law_over_says_so_in_its_result():
+    params = ClutchParams(table_friction_0=0.05)
+    assert solve_clutch(params, load=1e3, speed=2.0, fidelity="field").warnings == ()
+    (line,) = solve_clutch(params, load=1e3, speed=2.0, fidelity="closed").warnings
+    assert "fidelity is closed" in line
+
+
+# A parameter given as it is without being given changes nothing and is not told.
+
+MODELS = pytest.mark.parametrize("model", all_models(), ids=lambda m: m.key)
+OF_PINION = ("conductivity_gear", "heat_capacity_gear", "density_gear")
+NUMBERS = ("friction_power", "film_thickness", "film_ratio_gf", "flash_max", "pitting_safety")
+
+
+@MODELS
+def test_each_start_value_given_is_the_same_to_the_bit(model):
+    """In Python and by ``--set``; a kernel sees the numbers alone."""
+    spec = model.spec
+    plain = spec.params()
+    told = idle_warnings(spec.key, plain)
+    for f in fields(spec.params):
+        value = getattr(plain, f.name)
+        given = spec.params(**{f.name: value})
+        assert as_numbers(given) == as_numbers(plain), f.name
+        assert idle_warnings(spec.key, given) == told, f.name
+        if f.metadata["kind"] != "boolean":
+            assert read_settings([f"{f.name}={value}"], spec) == {f.name: value}
+
+
+@MODELS
+def test_a_part_file_of_start_values_is_the_model_itself(model, tmp_path):
+    spec, path = model.spec, tmp_path / "part.toml"
+    plain = find_part(spec.key)
+    head = f'model = "{spec.key}"\nname = "Given"\n[parameters]\n'
+    for f in fields(spec.params)[:: max(1, len(fields(spec.params)) // 130)]:
+        path.write_text(f"{head}{f.name} = {json.dumps(getattr(plain.params, f.name))}\n")
+        part = load_part(path)
+        assert as_numbers(part.params) == as_numbers(plain.params), f.name
+        assert kept_warnings(part) == kept_warnings(plain), f.name
+
+
+def gear_meshes():
+    """Yield default and presets of the gear mesh with each value that stands behind a 0 given."""
+    default = find_part("gearmesh")
+    parts = {"default": default, **preset_parts(default.spec)}
+    for preset, part in parts.items():
+        params = part.params
+        for f in fields(params):
+            other = other_of(f.metadata)
+            if getattr(params, f.name) == 0.0 and other and not unread(params, f.name, "field"):
+                value = other(params) if callable(other) else getattr(params, other)
+                yield pytest.param(params, f.name, value, id=f"{preset}-{f.name}")
+        for f in fields(params):
+            own = f.name.removesuffix("_gear")
+            if f.name.endswith("_gear") and f.name in OF_PINION and not getattr(params, f.name):
+                yield pytest.param(params, f.name, getattr(params, own), id=f"{preset}-{f.name}")
+
+
+@pytest.mark.parametrize(("params", "name", "value"), gear_meshes())
+def test_what_stands_behind_a_zero_is_the_same_when_given(params, name, value):
+    """Module, distance, tips, roughness, limits, materials equal to the pinion's, alpha."""
+    point = {"power": 7500.0, "speed": 180.0, "oil_temperature": 340.0}
+    plain, given = (solve_gearmesh(p, **point) for p in (params, replace(params, **{name: value})))
+    for number in NUMBERS:
+        found = getattr(given, number)
+        assert found == pytest.approx(getattr(plain, number), rel=1e-9), number
+    assert given.warnings == plain.warnings
+
+
+def test_the_clutchs_own_radius_given_is_the_same():
+    plain = ClutchParams()
+    given = replace(plain, effective_radius=plain.friction_radius)
+    point = {"load": 3000.0, "speed": 5.0}
+    torques = [solve_clutch(p, **point).friction_torque for p in (plain, given)]
+    assert torques[0] == pytest.approx(torques[1], rel=1e-12)

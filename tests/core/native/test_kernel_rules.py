@@ -1,14 +1,26 @@
 """What keeps the kernels fit for compilation ahead of time: read from their sources."""
 
 import ast
+import importlib
 import importlib.util
+import inspect
 import json
+import subprocess
+import sys
+from pathlib import Path
 
+import gate_rows
+import llvmlite.binding as llvm
 import pytest
 from children import child
 from kernel_files import ROOT, kernel_files
 
+from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.model.registry import compiled_packages
+from thrustwasher.native import binaries
+from thrustwasher.native.compiling import emit, gate
+from thrustwasher.native.compiling.lower import is_quick
+from thrustwasher.native.targets import PLATFORMS, TARGETS
 
 FILES = kernel_files()
 ARRAY_METHODS = set("append astype copy dot fill max mean min ravel reshape sum T".split())
@@ -148,3 +160,105 @@ def test_kernels_run_as_plain_python():
     for plain, compiled in zip(*answers, strict=True):
         assert plain == (compiled if isinstance(plain, str) else pytest.approx(compiled, rel=1e-8))
     assert answers[0][3] == answers[0][9] == 0
+
+
+# What may go into an FMU: libm and memset pass, everything else is named with cause and cure.
+
+
+@pytest.fixture(scope="module")
+def judgements(tmp_path_factory):
+    """What the gate says of each kernel in gate_rows, from one process with numba's settings."""
+    surroundings = emit.environment(str(tmp_path_factory.mktemp("numba")))
+    surroundings["PYTHONPATH"] = str(Path(__file__).parents[3])
+    command = [sys.executable, gate_rows.__file__]
+    run = subprocess.run(command, capture_output=True, text=True, env=surroundings, timeout=500)
+    assert run.returncode == 0, run.stderr
+    return json.loads(run.stdout)
+
+
+@pytest.mark.parametrize("row", gate_rows.PASSED, ids=lambda row: row.__name__)
+def test_numbers_loops_and_libm_pass(row, judgements):
+    assert judgements[row.__name__] == ""
+
+
+@pytest.mark.parametrize("row", gate_rows.REFUSED, ids=lambda row: row.__name__)
+def test_what_needs_more_is_refused_with_kernel_symbol_and_cause(row, judgements):
+    said = judgements[row.__name__]
+    assert said.startswith("rows.derive is not self-contained, it needs ")
+    assert gate_rows.REFUSED[row] in said and "not on the list" not in said
+
+
+DOUBLE = (
+    "define double @tw_step(double %x) {{\n %y = call double @{0}(double %x)\n ret double %y\n}}"
+)
+
+
+def compiled(text, platform):
+    """Return (module, object file) of LLVM text for a platform."""
+    llvm.initialize_all_targets()
+    llvm.initialize_all_asmprinters()
+    module = llvm.parse_assembly(text)
+    module.triple = TARGETS[platform].triple
+    machine = llvm.Target.from_triple(module.triple).create_target_machine(
+        reloc="static" if platform == "wasm32" else "pic", codemodel="default"
+    )
+    return module, bytes(machine.emit_object(module))
+
+
+@pytest.mark.parametrize("platform", TARGETS)
+def test_the_object_file_is_read_too_on_every_platform(platform):
+    text = DOUBLE.format("secret") + "\ndeclare double @secret(double)\n"
+    _, code = compiled(text, platform)
+    assert binaries.undefined(code) == {"secret"}
+    with pytest.raises(EnvironmentProblem, match=r"k\.step .* it needs secret \(not on the list"):
+        gate.check_object(code, "k.step")
+
+
+@pytest.mark.parametrize("platform", TARGETS)
+def test_an_intrinsic_that_becomes_a_call_of_libm_passes(platform):
+    text = DOUBLE.format("llvm.exp.f64") + "\ndeclare double @llvm.exp.f64(double)\n"
+    module, code = compiled(text, platform)
+    assert binaries.undefined(code) == {"exp"}
+    gate.check_module(module, "k")
+    gate.check_object(code, "k")
+
+
+def test_instructions_of_one_kind_of_machine_are_refused():
+    name = "llvm.x86.rdtsc"
+    text = f"define i64 @tw_step() {{\n %y = call i64 @{name}()\n ret i64 %y\n}}\n"
+    module = llvm.parse_assembly(f"{text}declare i64 @{name}()\n")
+    with pytest.raises(EnvironmentProblem, match=r"llvm\.x86\.rdtsc .* one kind of machine"):
+        gate.check_module(module, "k")
+
+
+def test_a_variable_that_is_only_declared_is_refused():
+    text = "@outside = external global i64\ndefine ptr @tw_step() {\n ret ptr @outside\n}\n"
+    with pytest.raises(EnvironmentProblem, match="it needs outside"):
+        gate.check_module(llvm.parse_assembly(text), "k")
+
+
+def test_an_unknown_kind_of_object_is_said():
+    with pytest.raises(EnvironmentProblem, match="neither ELF"):
+        binaries.undefined(b"garbage that is no object file")
+
+
+# Kernels that keep all speed are found by the name of their module in the compiler's names.
+
+LEVELS = {level.name: level for platform in PLATFORMS.values() for level in platform.levels}
+
+
+@pytest.mark.parametrize("level", LEVELS.values(), ids=LEVELS)
+def test_every_module_listed_as_quick_is_found_by_the_names_of_its_kernels(level):
+    funcdesc = pytest.importorskip("numba.core.funcdesc")
+    assert level.quick
+    for name in level.quick:
+        module = importlib.import_module(f"thrustwasher.{name}")
+        kernels = [
+            k for k in vars(module).values() if hasattr(k, "py_func") or inspect.isfunction(k)
+        ]
+        own = [k for k in kernels if k.__module__ == module.__name__]
+        assert own
+        for kernel in own:
+            prefix = funcdesc.qualifying_prefix(module.__name__, kernel.__qualname__)
+            assert is_quick(funcdesc.default_mangler(prefix, ()), level)
+    assert not is_quick("_ZN12thrustwasher6washer7kernels9constants6deriveB2v1", level)

@@ -64,13 +64,6 @@ def test_a_state_taken_over_from_a_run_counts_as_having_run():
         cosimulate(SCENE, other)
 
 
-def test_an_instance_of_another_scene_is_named_with_what_differs():
-    made = instances(SCENE)
-    made["clutch"] = instances(small("msl"))["clutch"]
-    with pytest.raises(ParameterError, match=r"clutch: .* faces = 1, scene 'planetary-sun' has 8"):
-        cosimulate(SCENE, made)
-
-
 @pytest.mark.parametrize(
     ("part", "change"),
     [
@@ -91,18 +84,21 @@ def test_any_other_parameter_is_found(part, change):
         cosimulate(SCENE, made)
 
 
-def test_an_instance_of_another_model_is_named():
-    made = instances(SCENE)
-    made["clutch"] = made["transmission"]
-    with pytest.raises(ParameterError, match="clutch: the instance has the inputs"):
-        cosimulate(SCENE, made)
-
-
-def test_a_missing_part_is_named():
-    made = instances(SCENE)
-    del made["brake"]
-    with pytest.raises(ParameterError, match="brake missing"):
-        cosimulate(SCENE, made)
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        (
+            lambda made: made | {"clutch": instances(small("msl"))["clutch"]},
+            r"clutch: .* faces = 1, scene 'planetary-sun' has 8",
+        ),
+        (lambda made: made | {"clutch": made["transmission"]}, "clutch: the instance has the inp"),
+        (lambda made: {n: x for n, x in made.items() if n != "brake"}, "brake missing"),
+    ],
+    ids=["another scene's", "another model's", "none"],
+)
+def test_an_instance_that_is_not_the_scenes_is_named(changed, said):
+    with pytest.raises(ParameterError, match=said):
+        cosimulate(SCENE, changed(instances(SCENE)))
 
 
 def test_a_scene_may_begin_at_any_time_and_all_parts_with_it():

@@ -2,16 +2,22 @@
 
 import dataclasses
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from sampling import sizes
 from scipy.interpolate import CubicSpline
 
-from thrustwasher import BranchError, WasherParams, solve_washer
+from thrustwasher import BranchError, ParameterError, WasherParams, load_part, solve_washer
+from thrustwasher.errors import Status
+from thrustwasher.model.parameters import as_numbers
 from thrustwasher.model.part_file import preset_part
 from thrustwasher.tribology.asperities import contact_pressure
 from thrustwasher.tribology.viscosity import viscosity
-from thrustwasher.washer.kernels.constants import washer_model
+from thrustwasher.washer.kernels import layout as L
+from thrustwasher.washer.kernels.constants import contact_pair, washer_model
+from thrustwasher.washer.kernels.gap import dry_friction
 from thrustwasher.washer.parameters import SPEC
 from thrustwasher.washer.solve import constants
 
@@ -195,3 +201,203 @@ def test_a_film_that_cannot_exist_is_said_not_hidden():
     assert all(w in message for w in ("branch", "'film'", "1100", "N", "'contact'", "545", "0.002"))
     with pytest.raises(BranchError, match="'contact'"):
         solve({"load": 300.0, "speed": 545.0, "branch": "contact"})
+
+
+# What no two outputs of a solve may contradict: heat, torque, flow and materials, anywhere.
+
+LAWS = {
+    "default": WasherParams(),
+    "paper": WasherParams.preset("paper"),
+    "carrier turns": WasherParams(conduction="rotating", heat_split=0.3),
+    "everywhere": WasherParams(conduction="all", heat_split=0.8),
+    "liquid alone": WasherParams(cavity_shear="liquid", oil_supply_temperature=330.0),
+    "heat kept out": WasherParams(oil_cooling=False, film_heat_fraction=0.6),
+    "insulated gear": WasherParams(gear_far_face="insulated"),
+    "warm gear": WasherParams(gear_far_face="bulk"),
+}
+BASE = {"load": 300.0, "speed": 545.0, "tilt": 2e-3}
+
+
+@sizes(25, 250)
+@pytest.mark.parametrize("name", LAWS)
+def test_friction_power_reaches_the_oil_at_every_point_of_the_box(name, n):
+    rng = np.random.default_rng(11)
+    worst = 0.0
+    for _ in range(n):
+        r = solve_washer(
+            LAWS[name],
+            load=10.0 ** rng.uniform(0.0, 3.7),
+            speed=rng.uniform(-2000.0, 2000.0),
+            tilt=rng.uniform(0.0, 4e-3),
+            oil_temperature=rng.uniform(240.0, 420.0),
+            far_face_temperature=345.0 if name == "warm gear" else 0.0,
+        )
+        assert r.friction_power == pytest.approx(r.friction_torque * r.speed, rel=1e-14)
+        worst = max(worst, abs(r.oil_heat / r.friction_power - 1.0))
+    assert worst < (1e-7 if name == "warm gear" else 1e-8)  # whose own heat flows next to it
+
+
+def test_at_rest_nothing_is_made_and_nothing_flows():
+    r = solve_washer(WasherParams(), **{**BASE, "speed": 0.0})
+    assert (r.friction_power, r.oil_heat, r.oil_flow) == (0.0, 0.0, 0.0)
+    assert r.film_temperature == r.oil_outlet_temperature == r.oil_temperature
+
+
+def test_without_tilt_no_oil_leaves_and_the_gap_is_full():
+    r = solve_washer(WasherParams(), **{**BASE, "tilt": 0.0})
+    assert r.status is Status.OK and r.fields().liquid_fraction.min() > 1.0 - 1e-12
+    assert r.oil_heat == pytest.approx(r.friction_power, rel=1e-8)
+
+
+def test_a_hotter_supply_warms_the_film_and_not_the_outer_faces():
+    cool, hot = (
+        solve_washer(WasherParams(oil_supply_temperature=t), **BASE) for t in (297.15, 337.15)
+    )
+    assert solve_washer(WasherParams(), **BASE).friction_torque == pytest.approx(
+        cool.friction_torque, rel=1e-9
+    )
+    assert cool.film_temperature + 5.0 < hot.film_temperature < cool.film_temperature + 40.0
+    assert hot.friction_torque < cool.friction_torque
+    assert hot.oil_heat == pytest.approx(hot.friction_power, rel=1e-8)
+
+
+def test_values_of_each_body_that_are_equal_are_the_common_ones():
+    common = WasherParams(youngs_modulus=1.1e11, conductivity=45.0, yield_strength=6e8)
+    own = {
+        f"{name}_{body}": getattr(common, name)
+        for name in ("youngs_modulus", "poisson_ratio", "yield_strength", "conductivity")
+        for body in ("carrier", "washer", "gear")
+    }
+    at = {**BASE, "load": 900.0, "speed": 136.0}
+    one, other = solve_washer(common, **at), solve_washer(WasherParams(**own), **at)
+    assert one.friction_torque == other.friction_torque
+    assert one.temperature == other.temperature
+
+
+def test_a_bronze_washer_is_softer_in_both_contacts():
+    """1/E' = sum of (1 - nu^2)/E; strength, modulus and Poisson's ratio are the softer body's."""
+    bronze = {"youngs_modulus_washer": 1.1e11, "poisson_ratio_washer": 0.34}
+    p = WasherParams(**bronze, yield_strength_washer=2.5e8, yield_strength_gear=2e8)
+    par = constants(p, (10, 32))
+    modulus = 1.0 / ((1.0 - 0.296**2) / 201e9 + (1.0 - 0.34**2) / 1.1e11)
+    assert contact_pair(par, L.OF_CARRIER) == pytest.approx((modulus, 1.1e11, 0.34, 2.5e8))
+    assert contact_pair(par, L.OF_GEAR) == pytest.approx((modulus, 201e9, 0.296, 2e8))
+    at = {**BASE, "load": 1361.0, "speed": 136.0}
+    steel = solve_washer(WasherParams(), **at)
+    assert solve_washer(p, **at).film_ratio < steel.film_ratio
+
+
+# What the gear's far face borders on: the oil, nothing, or the bulk of the gear.
+
+OIL = 297.15
+INSULATED = WasherParams(gear_far_face="insulated")
+BULK = WasherParams(gear_far_face="bulk")
+
+
+def test_a_far_face_as_warm_as_the_oil_is_that_of_the_oil():
+    oil, bulk, told = (
+        solve_washer(params, **BASE, **more)
+        for params, more in (
+            (WasherParams(), {}),
+            (BULK, {}),
+            (BULK, {"far_face_temperature": OIL}),
+        )
+    )
+    assert bulk.friction_torque == oil.friction_torque == told.friction_torque
+    assert bulk.temperature == oil.temperature == told.temperature
+    said = "without a far_face_temperature: the oil's is taken"
+    assert said in bulk.warnings[0] and not oil.warnings and not told.warnings
+
+
+def test_an_insulated_gear_is_between_none_and_one_as_warm_as_it_would_become():
+    """With the far face as warm as the insulated gear no heat passes it: the same washer."""
+    params = replace(INSULATED, conductivity_gear=400.0)  # its radial differences are small
+    free = solve_washer(params, **BASE)
+    gear = free.fields().gear_temperature
+    told = float(np.nanmean(gear))
+    bulk = solve_washer(replace(params, gear_far_face="bulk"), **BASE, far_face_temperature=told)
+    assert np.nanmax(gear) - np.nanmin(gear) < 0.5
+    assert bulk.friction_torque == pytest.approx(free.friction_torque, rel=2e-3)
+    assert free.temperature > solve_washer(WasherParams(), **BASE).temperature
+
+
+@pytest.mark.parametrize(
+    ("params", "more", "said"),
+    [
+        (WasherParams(), {"far_face_temperature": 330.0}, "with gear_far_face = 'bulk'"),
+        (BULK, {"far_face_temperature": 80.0}, "0 \\(the oil's\\) or 233.15"),
+        (BULK, {"fidelity": "map"}, "a map has no far_face_temperature"),
+    ],
+)
+def test_a_far_face_in_vain_is_refused(params, more, said):
+    with pytest.raises(ParameterError, match=said):
+        solve_washer(params, **BASE, **more)
+
+
+# Dry friction over the mean contact pressure, and its earlier form over the load.
+
+GRID = (10, 32)
+HALF = {"inner_radius": 0.00555, "outer_radius": 0.01135, "gear_inner_radius": 0.0078}
+
+
+def friction(params, load):
+    return dry_friction(constants(params, GRID), load)[0]
+
+
+def test_washers_of_different_size_have_the_same_friction_at_the_same_pressure():
+    for load in (100.0, 300.0, 900.0):
+        small = friction(WasherParams(**HALF), load / 4.0)
+        own = math.pi * (0.01135**2 - 0.00555**2) / (math.pi * (0.0227**2 - 0.0111**2))
+        assert own == pytest.approx(0.25, rel=1e-12)
+        assert small == pytest.approx(friction(WasherParams(), load), rel=1e-12)
+
+
+OVER_LOAD = {"friction_constant": 0.4, "friction_load_min": 50.0, "friction_load_max": 900.0}
+
+
+@pytest.mark.parametrize("size", [{}, HALF])
+def test_a_law_over_the_load_holds_for_the_washer_it_is_given_for(size):
+    params = WasherParams(**size, **OVER_LOAD, friction_slope=0.04)
+    for load in (10.0, 50.0, 300.0, 2000.0):
+        expected = 0.4 - 0.04 * math.log(min(max(load, 50.0), 900.0))
+        assert friction(params, load) == pytest.approx(expected, rel=1e-13)
+
+
+def test_a_part_file_of_the_earlier_form_reads_as_before(tmp_path):
+    file = tmp_path / "old.toml"
+    file.write_text(
+        'model = "washer"\nname = "Old"\n[parameters]\ninner_radius = "5.55 mm"\n'
+        'outer_radius = "11.35 mm"\ngear_inner_radius = "7.8 mm"\nfriction_constant = 0.48\n'
+        'friction_slope = 0.05\nfriction_load_min = "260.5 N"\nfriction_load_max = "1725.6 N"\n'
+    )
+    part = load_part(file)
+    assert "friction_load_min" not in part.parameters
+    assert part.params == WasherParams(**HALF, friction_load_min=260.5)
+    assert as_numbers(part.model.params()) == as_numbers(part.params)
+    assert friction(part.params, 300.0) == pytest.approx(0.48 - 0.05 * math.log(300.0), rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"friction_load_min": 2000.0}, "friction_load_min = 2000 N, allowed: below"),
+        ({"friction_load_min": -1.0}, "friction_load_min"),
+        (
+            {"friction_load_min": 100.0, "friction_pressure_min": 1e5},
+            "together with friction_pressure_min",
+        ),
+        ({"friction_pressure_min": 2e6}, "friction_pressure_min"),
+    ],
+)
+def test_friction_data_that_contradict_each_other_are_refused(given, said):
+    with pytest.raises(ParameterError, match=said):
+        WasherParams(**given)
+
+
+def test_pressures_outside_the_data_are_told():
+    inside = solve_washer(WasherParams(), load=1361.0, speed=136.0, tilt=2e-3)
+    below = solve_washer(WasherParams(**HALF), load=40.0, speed=5.0, tilt=1e-3)
+    full = solve_washer(WasherParams(), load=300.0, speed=953.0, tilt=2e-3)
+    assert not any("dry friction" in line for line in (*inside.warnings, *full.warnings))
+    (line,) = (line for line in below.warnings if "dry friction" in line)
+    assert "held" in line

@@ -1,7 +1,10 @@
 """Reference values: they agree with every other route within what they say they may be off by."""
 
+import json
+
 import numpy as np
 import pytest
+from synthetic import level, put
 
 from thrustwasher import (
     ClutchParams,
@@ -13,6 +16,12 @@ from thrustwasher import (
     solve_gearmesh,
     solve_washer,
 )
+from thrustwasher.cli import main
+from thrustwasher.ladder import error_table
+from thrustwasher.ladder.choose import choose
+from thrustwasher.model.registry import spec_of
+from thrustwasher.studio.verification.cases import own_case
+from thrustwasher.studio.verification.measure_errors import measure_part
 from thrustwasher.studio.verification.reference_clutch import reference_clutch, reference_engagement
 from thrustwasher.studio.verification.reference_gearmesh import reference_gearmesh
 from thrustwasher.studio.verification.reference_washer import reference_washer
@@ -98,3 +107,131 @@ def test_the_gears_quadrature_confirms_the_level_fine(changes, preset):
 def test_a_reference_asked_for_as_a_level_says_where_it_is(solve):
     with pytest.raises(ParameterError, match=r"call thrustwasher\.studio\.verification\.reference"):
         solve("reference")
+
+
+# Table and map of a part of your own: made on request, kept by the digest of parameters.
+
+SPEC = spec_of("washer")
+OWN = WasherParams(roughness=5.1e-7)
+BOX = {
+    "load": (200.0, 400.0),
+    "speed": (520.0, 540.0),
+    "tilt": (0.002, 0.002),
+    "oil_temperature": (297.15, 297.15),
+}
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
+        error_table.forget()
+        yield measure_part(SPEC, OWN, BOX, points=12, workers=1)
+    error_table.forget()
+
+
+@pytest.mark.slow
+def test_every_level_is_measured_and_kept_in_the_users_cache(made):
+    assert [level.fidelity for level in made.levels] == ["map", "field", "fine"]
+    assert [made.stale(level) for level in made.levels] == [None] * 3
+    (file,) = error_table.own_folder().iterdir()
+    assert file.name == f"washer-{made.name}.json" and error_table.read_tables(file) == (made,)
+
+
+@pytest.mark.slow
+def test_choose_takes_the_map_with_its_measured_error(made):
+    choice = choose("washer", BOX, tol=0.01, params=OWN, n_calls=1e6)
+    assert choice.fidelity == "map" and choice.is_verified and 0.0 < choice.error <= 0.01
+
+
+@pytest.mark.parametrize(
+    ("box", "points", "said"),
+    [
+        ({"load": (1, 2.1e5)}, 60, "load"),
+        ({"tilt": (0.002, 0.001)}, 60, "tilt"),
+        ({}, 3, "points"),
+    ],
+)
+def test_a_box_outside_the_models_range_is_refused(box, points, said):
+    with pytest.raises(ParameterError, match=said):
+        own_case(SPEC, OWN, box, points)
+
+
+def test_a_box_of_light_loads_begins_where_the_model_does():
+    assert own_case(SPEC, OWN, {"load": (0.0, 140.0)}, 60).box["load"].min == 1.0
+
+
+def test_a_part_without_levels_to_choose_from_has_no_table(tmp_path, capsys):
+    file = tmp_path / "sump.toml"
+    file.write_text('model = "sump"\nname = "Sump"\n')
+    assert main(["fidelity", str(file)]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+# ``thrustwasher fidelity`` and ``--fidelity auto:TOL`` as typed.
+
+WASHER = ["washer", "--load", "100", "--speed", "500"]
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    put(tmp_path, monkeypatch, level("field", 5e-3), level("fine", 4e-4))
+    yield tmp_path
+    error_table.forget()
+
+
+def test_cards_lists_errors_costs_and_the_box(capsys):
+    assert main(["fidelity", "washer"]) == 0
+    out = capsys.readouterr().out
+    assert "load 20 N .. 2 kN" in out
+    assert "0.5 %" in out and "200 µs" in out and "of this version" in out
+
+
+def test_cards_names_stale_levels_and_broken_files(folder, monkeypatch, capsys):
+    put(folder, monkeypatch, level("fine", 4e-4, sources="0" * 64))
+    (folder / "mesh.json").write_text("{")
+    assert main(["fidelity"]) == 0
+    out = capsys.readouterr().out
+    assert "renew it: python -m lab.verify washer" in out
+    assert "clutch: no verification tables; make them" in out and "mesh.json: refused" in out
+
+
+def test_cards_as_json(capsys):
+    assert main(["fidelity", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    names = {c["name"]: c for c in found["tables"]}
+    assert set(names) == {"washer-field", "washer-fine"} and found["refused"] == {}
+    field = names["washer-field"]
+    assert field["stale"] is None
+    assert field["worst"]["friction_torque"] == 5e-3
+    assert field["envelope"]["load"] == [20.0, 2000.0, "N"]
+
+
+def test_auto_takes_the_first_level_that_holds_says_why_and_gives_up_at_the_last(capsys):
+    for wish, level_taken, said in (
+        (
+            "auto:0.01",
+            "field",
+            "field, friction_torque within 0.15 % at this point (requested 1 %)",
+        ),
+        ("auto:0.001", "fine", "too coarse: field, 0.15 %"),
+    ):
+        assert main([*WASHER, "--fidelity", wish, "--json"]) == 0
+        seen = capsys.readouterr()
+        assert json.loads(seen.out)["fidelity"] == level_taken and said in seen.err
+    assert main([*WASHER, "--fidelity", "auto:0.0001"]) == 3
+    assert "the best is fine" in capsys.readouterr().err
+
+
+def test_auto_of_other_parameters_is_compared_with_the_level_above(capsys):
+    own = ["--set", "dry_friction=0.2", "--json"]
+    assert main([*WASHER, "--fidelity", "auto:0.05", *own]) == 0
+    seen = capsys.readouterr()
+    assert json.loads(seen.out)["fidelity"] == "field"
+    assert "no table of errors speaks here; there it is" in seen.err
+
+
+@pytest.mark.parametrize("wish", ["auto:", "auto:much", "auto:-1", "best"])
+def test_a_wrong_wish_is_refused(wish, capsys):
+    assert main([*WASHER, "--fidelity", wish]) == 2
+    assert "fidelity" in capsys.readouterr().err

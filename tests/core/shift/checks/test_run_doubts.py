@@ -1,11 +1,197 @@
-"""What a scene and its signals show to be doubtful is a warning, without a further run."""
+"""Packs that do not hold as a shift takes for granted: lock-up is the last one, and it is said."""
 
+import re
 from dataclasses import replace
 
+import numpy as np
 import pytest
-from scene_runs import instances, shift
+from scene_runs import NOMINAL, changed, instances, shift, slow_without_jit
 
+from thrustwasher.errors import SolveError
 from thrustwasher.shift import cosimulate, load_scene
+from thrustwasher.shift.checks.capacity import holding
+from thrustwasher.shift.checks.holding import _in_turn, _of_washers
+from thrustwasher.shift.key_figures.events_and_phases import Event, lock_up
+
+BARE = "losses = false\n[transmission]\nwashers = 0\n"
+
+
+def run(tmp_path, text):
+    own = changed(tmp_path, BARE + text)
+    return cosimulate(own, instances(own))
+
+
+def events(*pairs):
+    return [Event(t, f"clutch_{kind}", kind) for t, kind in pairs]
+
+
+@pytest.mark.parametrize(
+    ("times", "lock"),
+    [
+        ((0.8,), 0.8),
+        ((0.7, 0.71, 0.75), 0.75),
+        ((0.7, 0.71), None),
+        ((0.7, 0.8, 0.9, 1.1, 1.2), None),
+        ((0.05, 0.06, 0.8), 0.8),
+    ],
+)
+def test_lock_up_is_the_last_lock_after_which_the_pack_holds(times, lock):
+    """It locks and lets go in turn at these times."""
+    found = events(*((t, ("locked", "released")[i % 2]) for i, t in enumerate(times)))
+    assert lock_up(load_scene("planetary"), found) == lock
+
+
+@slow_without_jit
+def test_figures_and_phases_follow_the_lock_up_that_holds(tmp_path):
+    result = run(tmp_path, NOMINAL.replace("[engine]", '[engine]\nspeed = "-1000 rpm"'))
+    locks = [e.time for e in result.events if e.kind == "clutch_locked"]
+    f = result.figures
+    assert len(locks) > 1 and f["lock_time"] == locks[-1]
+    assert not any(e.kind == "clutch_released" and e.time > locks[-1] for e in result.events)
+    inertia = next(p for p in result.phases if p.name == "inertia phase")
+    assert inertia.end == locks[-1] and f["inertia_phase"] == inertia.end - inertia.start
+    assert [p.name for p in result.phases][-1] == "locked"
+    assert f["flare"] == 0.0  # an engine that turns backwards and only slows down
+
+
+@pytest.mark.parametrize(("every", "words"), [(0.002, "numerical"), (0.02, "asks for more")])
+def test_sticking_and_slipping_in_turn_is_told_with_its_times(every, words):
+    time = np.linspace(0.0, 1.3, 1301)
+    turns = [(0.7 + i * every, "locked") for i in range(10)]
+    turns += [(t + 0.5 * every, "released") for t, _ in turns[:-1]]
+    [line] = _in_turn(load_scene("planetary"), time, events(*sorted(turns)))
+    assert f"from 0.7 to {0.7 + 9 * every:.4g} s (10 lock-ups)" in line and words in line
+    assert not list(_in_turn(load_scene("planetary"), time, events(turns[0])))
+
+
+@slow_without_jit
+def test_a_pack_let_go_at_the_end_held_until_then(tmp_path):
+    points = '[[0.1, 0.0], [0.2, "720 kPa"], [1.1, "720 kPa"], [1.2, 0.0]]'
+    result = run(tmp_path, f"[pressure.clutch]\npoints = {points}\n")
+    [line] = [w for w in result.warnings if w.startswith("At the end no pack holds")]
+    assert f"{result.figures['lock_time']:.4g} s" in line
+    assert result.phases[-1].name == "open"
+
+
+@slow_without_jit
+def test_a_late_clutch_leaves_the_engine_free_and_says_so(tmp_path):
+    result = run(tmp_path, NOMINAL + 'fill_volume = 1e-4\nfill_flow = "10 l/min"\n')
+    [line] = [w for w in result.warnings if "neither pack is pressed" in w]
+    assert "flares by 287.9" in line
+
+
+@slow_without_jit
+def test_a_run_that_fails_while_nothing_holds_says_so(tmp_path):
+    points = '[[2.0, 0.0], [2.1, "720 kPa"]]'
+    own = changed(tmp_path, f"{BARE}[pressure.clutch]\npoints = {points}\n")
+    alive = instances(own)
+    alive["mesh"] = FailsLate(alive["mesh"])
+    with pytest.raises(SolveError, match=r"since 0\.\d+ s no pack held .*the run ends at 1.3 s"):
+        cosimulate(own, alive)
+
+
+class FailsLate:
+    """Stands for a part whose input leaves its range at 0.6 s."""
+
+    def __init__(self, part):
+        self._part = part
+
+    def __getattr__(self, name):
+        return getattr(self._part, name)
+
+    def step(self, t, h):
+        if t > 0.6:
+            raise SolveError(f"mesh at t = {t:.4g} s: speed is outside")
+        self._part.step(t, h)
+
+
+@slow_without_jit
+def test_a_pressed_pack_that_slips_before_the_shift_is_told(tmp_path):
+    late = run(tmp_path, "[brake]\nstarts_pressed = false\n")
+    [line] = [w for w in late.warnings if w.startswith("Before the shift begins")]
+    assert "brake" in line
+    assert late.figures["torque_phase"] is not None  # the same shift has the same phases
+
+
+@pytest.mark.parametrize("pack", ["clutch", "brake"])
+@pytest.mark.parametrize("name", ["planetary", "planetary-sun"])
+def test_the_torque_that_holds_a_gear_is_that_of_the_free_members(name, pack):
+    """Each member by itself: teeth drive the drum's gear by r tau, the carrier by (1 + r) tau."""
+    p = load_scene(name).parts["transmission"].params
+    engine, output, r = 250.0, 60.0, p.ratio
+    driven, drum, carrier = (getattr(p, f"{n}_inertia") for n in ("input", "drum", "carrier"))
+    x = np.array(
+        [1.0, -1.0, 0.0] if pack == "clutch" else [0.0, 1.0, 0.0]
+    )  # it turns what it holds
+    # unknown: rates of driven gear, drum, carrier; tooth torque; the pack's torque
+    rows = np.zeros((5, 5))
+    rows[:3, :3] = np.diag([driven, drum, carrier])
+    rows[:3, 3], rows[:3, 4] = [1.0, r, -(1.0 + r)], x
+    rows[3, :3] = [1.0, r, -(1.0 + r)]  # speeds of the set
+    rows[4, :3] = x  # the slip stays
+    torque = np.linalg.solve(rows, [engine, 0.0, -output, 0.0, 0.0])[4]
+    law = holding(p, pack)
+    assert law.engine * engine + law.output * output == pytest.approx(torque, rel=1e-10)
+    rows[4], more = [0.0, 0.0, 0.0, 0.0, 1.0], torque + 1.0  # the pack carries 1 N m more
+    slip = x @ np.linalg.solve(rows, [engine, 0.0, -output, 0.0, more])[:3]
+    assert slip == pytest.approx(-law.mobility, rel=1e-9)
+
+
+WEAK = {
+    "brake": '[[0.0, "{} kPa"], [0.16, "{} kPa"], [0.36, "80 kPa"], [0.38, 0.0]]',
+    "clutch": '[[0.1, 0.0], [0.11, "40 kPa"], [0.2, "40 kPa"], [0.4, "{} kPa"], [1.0, "{} kPa"]]',
+}
+
+
+@slow_without_jit
+@pytest.mark.parametrize(
+    ("pack", "kpa", "gear"), [("brake", 200, "first"), ("clutch", 230, "second")]
+)
+def test_a_pack_too_weak_for_its_gear_is_told_first_and_the_advice_cures_it(
+    tmp_path, pack, kpa, gear
+):
+    def pressed(pressure):
+        points = WEAK[pack].format(pressure, pressure)
+        return run(tmp_path, f"[pressure.{pack}]\npoints = {points}\n")
+
+    result = pressed(kpa)
+    line = result.warnings[0]
+    assert line.startswith(f"The {pack} is too weak for {gear} gear: under ")
+    told = "\n".join(result.warnings)
+    assert "initial speeds" not in told and "let it go later" not in told
+    assert "HOT" in told  # of a part, behind the cause
+    capacity, need = (
+        float(re.search(rf"{word} ([\d.]+) N·m", line)[1]) for word in ("holds", "gear takes")
+    )
+    r = 38.0 / 74.0
+    held = {"brake": r, "clutch": r / (1.0 + r)}[pack] * 253.0  # without acceleration
+    assert need == pytest.approx(held, rel=0.04)
+    mean = (85e-3**3 - 64e-3**3) / (85e-3**2 - 64e-3**2) / 1.5
+    assert capacity == pytest.approx(4 * 0.112 * mean * 8e-3 * (kpa - 30.0) * 1e3, rel=0.04)
+    times = float(re.search(r"([\d.]+) times", line)[1])
+    cured = pressed(30.0 + times * (kpa - 30.0))  # behind the spring of 30 kPa
+    assert not any("too weak" in w for w in cured.warnings)
+    assert cured.figures["lock_time"] is not None
+
+
+def test_washers_without_a_tilting_couple_are_told():
+    one = np.ones(3)
+    signals = {
+        "transmission.washer_load": one,
+        "washer.friction_torque": one,
+        "transmission.washer_heat": 6.3 * one,
+    }
+    [line] = _of_washers(signals)
+    assert "1 N" in line and "6.3 J" in line
+    assert not list(_of_washers(signals | {"transmission.washer_load": 2.0 * one}))
+
+
+def test_no_washers_means_no_washer_part(tmp_path):
+    own = changed(tmp_path, BARE)
+    assert "washer" not in own.parts and any("washers = 0" in note for note in own.notes)
+
+
+# What a scene and its signals show to be doubtful is a warning, without a further run.
 
 
 def said(name="msl", **changes):

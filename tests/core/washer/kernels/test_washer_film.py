@@ -19,6 +19,22 @@ from thrustwasher.washer.kernels.layout import RING
 
 from washer_setup import BASE, bench, order, tilted  # isort: skip
 
+from thrustwasher.washer.kernels import layout as L
+from thrustwasher.washer.kernels.heat import heat_residual
+from thrustwasher.washer.kernels.newton import evaluate
+from thrustwasher.washer.kernels.throughflow import _leave
+from thrustwasher.washer.parameters import WasherParams
+from thrustwasher.washer.solve import constants
+
+from washer_setup import bench_of, settle  # isort: skip
+import math
+
+from thrustwasher.errors import Status
+from thrustwasher.washer.kernels import step as kernel
+from thrustwasher.washer.kernels.layout import N_HEAD
+from thrustwasher.washer.kernels.workspace import size_of_state, size_of_work
+from thrustwasher.washer.solve import solve_washer
+
 MU = 0.06
 GRIDS = [(19, 64), (37, 128), (73, 256)]
 
@@ -214,3 +230,150 @@ def test_film_that_only_opens_cavitates_everywhere():
     assert settle_film(b.m, b.f) == 0.0 and not b.f.p.any()
     film_solve(b.m, b.f)
     assert np.all(b.f.film_rhs == 0.0)
+
+
+# Oil through film 1: closed forms along a stream, limits of its heat capacity, continuity.
+
+
+def stream(n_t, source):
+    """Return angles and rises of oil that turns with a stream between walls held at 0.
+
+    ``source`` (n_t,) scales the heat made. Exchange per radian over what flows is about 1.
+    """
+    b = bench((5, n_t))
+    m, f = b.m, b.f
+    f.ht[:], f.ht2[:], f.liquid[:], f.fluidity[:] = 1e-5, 1e-5, 1.0, 1.0
+    f.mu[:] = (source * 1e-5 / (BASE.speed * b.radius) ** 2).T.ravel()
+    per_angle = m.film_exchange * np.asarray(m.weight1) / 1e-5
+    b.node("flow_t")[:] = (per_angle / m.oil_storage)[:, None]
+    f.flow_r[:] = 0.0
+    _leave(m, f)
+    at = (m.film_at + np.arange(n_t) * m.film_step)[None, :] + np.arange(m.n_r)[:, None]
+    f.temp[:] = 0.0
+    heat_residual(m, BASE, f.temp, f)
+    made, i = f.heat[at[2]].copy(), 2
+    matrix = np.empty((n_t, n_t))
+    for j in range(n_t):
+        f.temp[:] = 0.0
+        f.temp[at[:, j]] = 1.0
+        heat_residual(m, BASE, f.temp, f)
+        matrix[:, j] = f.heat[at[i]] - made
+    angle = np.unwrap(np.arctan2(m.sin, m.cos))
+    rise = np.linalg.solve(matrix, -made) * m.film_exchange / 1e-5
+    return angle, rise
+
+
+@pytest.mark.slow
+def test_heat_made_in_waves_warms_a_turning_stream_in_waves():
+    """dT/da + T = cos a has T = (cos a + sin a)/2; second order in the mesh."""
+    errors = []
+    for n_t in (32, 64, 128):
+        angle = np.unwrap(np.arctan2(bench((5, n_t)).m.sin, bench((5, n_t)).m.cos))
+        angle, rise = stream(n_t, np.cos(angle))
+        errors.append(np.abs(rise - 0.5 * (np.cos(angle) + np.sin(angle))).max())
+    assert order(errors) == pytest.approx([2.0, 2.0], abs=0.3)
+    assert errors[-1] < 1e-3
+
+
+@pytest.mark.parametrize("speed", [545.0, -545.0])
+@pytest.mark.parametrize("ratio", [2.0, 12.0])
+def test_oil_that_enters_a_node_leaves_it(ratio, speed):
+    """Where the film is full all of it; where the gap opens the liquid; full where it closes."""
+    b = bench((10, 32))
+    m, f = b.m, b.f
+    pt, q = BASE._replace(speed=speed), tilted(b.m, ratio, gx=0.0)
+    evaluate(m, pt, q, f, False)
+    liquid, on, up = b.node("liquid"), b.node("flow_t"), b.node("flow_r")
+    down = np.vstack((np.zeros(32), up[:-1]))
+    back = np.roll(on, 1, axis=1)
+    full = b.node("p") > 0.0
+    net = on - back + up - down
+    assert np.abs(net[full]).max() < 1e-9 * np.abs(on).max()
+    assert liquid.min() > 0.0 and liquid.max() <= 1.0 + 1e-12
+    closes = np.sin(np.arctan2(m.sin, m.cos)) * np.sign(speed) < -0.3
+    assert np.all(liquid[:, closes] == 1.0) and liquid.min() < 0.9
+
+
+def cooled(**changes):
+    """Return a bench settled at fixed gaps, some oil constants changed beyond their ranges."""
+    par = constants(WasherParams(oil_supply_temperature=310.0), (10, 32)).copy()
+    for place, value in changes.items():
+        par[getattr(L, place)] = value
+    b = bench_of(par, (10, 32))
+    settle(b.m, BASE, tilted(b.m, 9.0), b.f)
+    return b
+
+
+@pytest.mark.slow
+def test_oil_without_heat_capacity_is_warmer_than_the_walls_by_its_heat():
+    b = cooled(P_OIL_DENSITY=1e-7)
+    film = b.f.temp[: b.m.film_step * 32].reshape(32, -1)
+    washer = b.f.temp[b.m.washer_at :][:10]
+    walls = 0.5 * (film[:, 10:20] + washer)
+    np.testing.assert_allclose((film[:, :10] - walls).ravel(), b.f.made / b.f.exchange, rtol=1e-5)
+
+
+# The washer on a mesh of 5 x 8 nodes: small enough to run as plain Python, whole all the same.
+
+GRID = (5, 8)
+PARAMS = WasherParams()
+FILM = {"load": 300.0, "speed": 545.0, "tilt": 2e-3}
+CONTACT = {"load": 1500.0, "speed": 545.0, "tilt": 2e-3}
+
+
+def solve(**changes):
+    return solve_washer(PARAMS, grid=GRID, **{**FILM, **changes})
+
+
+@pytest.mark.parametrize(("point", "branch"), [(FILM, "film"), (CONTACT, "contact")])
+def test_both_branches_carry_their_load(point, branch):
+    r = solve(**point)
+    said = Status.DISTRESS if branch == "contact" else Status.OK
+    assert (r.status, r.branch) == (said, branch)
+    assert r.fluid_load + r.contact_load == pytest.approx(r.load, rel=1e-6)
+    assert r.temperature_max > r.temperature > r.oil_temperature
+
+
+def test_a_warm_start_ends_where_a_cold_one_does():
+    """Both stop where the load is balanced to some 1e-6."""
+    warm = solve(load=330.0, start=solve())
+    assert warm.friction_torque == pytest.approx(solve(load=330.0).friction_torque, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        {"conduction": "all"},
+        {"conduction": "rotating"},
+        {"oil_cooling": False},
+        {"cavity_shear": "liquid"},
+        {"friction_law": "constant"},
+        {"asperity_height_law": "summit"},
+    ],
+)
+def test_other_laws_balance_too(law):
+    r = solve_washer(WasherParams(**law), grid=GRID, **CONTACT)
+    assert r.fluid_load + r.contact_load == pytest.approx(r.load, rel=1e-6)
+
+
+def test_steps_go_on_from_their_memory_and_fail_without_harming_it():
+    par = constants(PARAMS, GRID)
+    state, work = np.zeros(size_of_state(*GRID)), np.zeros(N_HEAD + size_of_work(*GRID))
+    out, iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
+    loads = []
+    for load in (300.0, 320.0):
+        inp = np.array([load, 545.0, 2e-3, 297.15, 0.0, 0.0])
+        assert kernel.step(par, inp, state, work, out, iout, 0.0, 1e-3) == Status.OK
+        loads.append(out[0])
+    assert loads[0] != loads[1]
+    before = state.copy()
+    inp[0] = math.nan
+    assert kernel.step(par, inp, state, work, out, iout, 0.0, 1e-3) >= Status.MAX_ITERATIONS
+    assert np.array_equal(state, before)
+
+
+def test_the_curve_has_its_folds():
+    from thrustwasher.washer.load_curve import load_curve
+
+    curve = load_curve(PARAMS, speed=545.0, tilt=2e-3, grid=GRID)
+    assert [f.kind for f in curve.folds] == ["film_lost", "film_regained"]

@@ -174,8 +174,9 @@ NSTATE = S_MEMORY + N_MEMORY
 # the position at hand, the constants there; then, for both heats, the number of the hottest.
 W_HOTTEST, W_HERE, W_LOCAL, W_PLACE = N_FIELD, 2 * N_FIELD, 3 * N_FIELD, 3 * N_FIELD + D_POSITION
 # Where the loss heats: how the step began (HELD and so on), the bodies over the oil then [K],
-# duration [s]; friction of every position, in mixed friction the contact's share.
-W_BEGAN, W_FROM, W_DURATION, W_FRICTION = range(W_PLACE + 1, W_PLACE + 5)
+# duration [s]; speed over which the torque rises [rad/s]; friction of every position, in mixed
+# friction the contact's share.
+W_BEGAN, W_FROM, W_DURATION, W_WIDTH, W_FRICTION = range(W_PLACE + 1, W_PLACE + 6)
 W_CONTACT, W_PAR = W_FRICTION + N_PATH, W_FRICTION + 2 * N_PATH
 # Where stiffness shares the load: all constants with the shares at the load at hand; scratch for
 # solving the point again with others.

@@ -1,6 +1,6 @@
 """Where each number of the gear mesh lies in its arrays."""
 
-from ...tribology.holding.memory import N_MEMORY
+from ...tribology.holding.memory import N_FIGURES, N_MEMORY
 
 # places: P_ of parameters
 P_GEAR_RATIO, P_PINION_TEETH, P_CENTRE_DISTANCE, P_NORMAL_MODULE, P_PRESSURE_ANGLE = range(0, 5)
@@ -181,7 +181,9 @@ W_CONTACT, W_PAR = W_FRICTION + N_PATH, W_FRICTION + 2 * N_PATH
 # Where stiffness shares the load: all constants with the shares at the load at hand; scratch for
 # solving the point again with others.
 W_AGAIN = W_PAR + NPAR
-NWORK = W_AGAIN + W_PAR + NSTATE
+W_MEMORY = W_AGAIN + W_PAR + NSTATE  # of the driveline, while a step is made
+W_TOLD = W_MEMORY + N_MEMORY  # numbers in what the mesh says of its speed
+NWORK = W_TOLD + N_FIGURES
 NOUT = 35
 IO_REGIME, IO_STATUS, NIOUT = range(3)
 

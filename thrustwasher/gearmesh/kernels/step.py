@@ -8,6 +8,7 @@ from ...numerics.smoothing import floored, floored_slope, soft_size, soft_size_s
 from ...numerics.status import BAD_INPUT, CHATTER, NOT_FINITE, OK
 from ...tribology.holding import memory as M
 from ...tribology.holding.drag import keep, wants_capacity, width_at
+from ...tribology.holding.figures import fill_figures
 from ...tribology.holding.memory import Coupling
 from ...tribology.holding.reversals import chatters
 from . import layout as L
@@ -18,7 +19,7 @@ from .mesh_point import LEAST_LINE_LOAD
 from .operating_point import point_changes, solve_point
 
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
-NOUT, NIOUT = L.NOUT, L.NIOUT
+NOUT, NIOUT, W_TOLD = L.NOUT, L.NIOUT, L.W_TOLD
 SHARE_STEP = 1e-5  # of the load, for the slope of the shares
 
 
@@ -81,7 +82,8 @@ def step(
     if not (are_finite(inp) and oil > 0.0 and math.isfinite(dt) and dt >= 0.0):
         iout[L.IO_STATUS] = BAD_INPUT
         return BAD_INPUT
-    mem, way = state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY], coupling_of(par)
+    mem, way = work[L.W_MEMORY : L.W_MEMORY + M.N_MEMORY], coupling_of(par)
+    copy(state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY], mem)
     if wants_capacity(way, mem, speed, dt):
         _solve(shared(par, load, work), load, speed, oil, way[3], state, 0.0, work)
         mem[M.CAPACITY] = capacity_of(work)
@@ -91,6 +93,8 @@ def step(
         return status
     if dt > 0.0:
         keep(way, mem, speed, dt, out[L.F_TORQUE], capacity_of(work))
+        copy(mem, state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY])
+    fill_figures(way, mem, work[L.W_TOLD : L.W_TOLD + M.N_FIGURES])
     if chatters(mem):
         iout[L.IO_STATUS] = CHATTER
     return OK

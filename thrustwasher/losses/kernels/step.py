@@ -8,12 +8,13 @@ import math
 
 import numpy as np
 
-from ...numerics.arrays import are_finite, clear
+from ...numerics.arrays import are_finite, clear, copy
 from ...numerics.jit import Array, Ints, kernel
 from ...numerics.smoothing import soft_size, soft_size_slope
 from ...numerics.status import BAD_INPUT, CHATTER, NOT_FINITE, OK, OUTSIDE_VERIFIED
 from ...tribology.holding import memory as M
 from ...tribology.holding.drag import keep, width_at
+from ...tribology.holding.figures import fill_figures
 from ...tribology.holding.reversals import chatters
 from ...tribology.viscosity import viscosity
 from .loss_laws import bearing_drag as bearing_drag
@@ -79,7 +80,9 @@ SOURCES = 4  # of torque: bearing, churning, pump, seal; the order of their powe
 W_TORQUE, W_BY_SPEED, W_BY_OIL = 0, SPEEDS * SOURCES, 2 * SPEEDS * SOURCES
 W_BY_FORCE = 3 * SPEEDS * SOURCES
 W_WIDTH = W_BY_FORCE + 1
-NWORK = W_WIDTH + SPEEDS
+W_MEMORY = W_WIDTH + SPEEDS  # of the driveline, while a step is made
+W_TOLD = W_MEMORY + SPEEDS * M.N_MEMORY  # numbers in what is said of a speed
+NWORK = W_TOLD + M.N_FIGURES
 LIGHT = 1.0  # N, tooth force over which the corner at none is rounded
 COLDEST, HOTTEST = 253.15, 423.15  # K, between which the laws are meant
 
@@ -189,24 +192,26 @@ def resist(par: Array, inp: Array, work: Array) -> None:
 
 
 @kernel
-def memory_of(state: Array, i: int) -> Array:
+def memory_of(work: Array, i: int) -> Array:
     """Return what is remembered of a speed."""
-    place = S_MEMORY + i * M.N_MEMORY
-    return state[place : place + M.N_MEMORY]
+    place = W_MEMORY + i * M.N_MEMORY
+    return work[place : place + M.N_MEMORY]
 
 
 @kernel
-def keep_torques(par: Array, inp: Array, state: Array, work: Array, dt: float) -> bool:
+def keep_torques(par: Array, inp: Array, work: Array, dt: float) -> bool:
     """Remember the torques that were given; tell if one of the speeds chatters."""
     way, told = (M.IDENTIFIED, 0.0, 0, par[P_SPEED_SMOOTHING], False), False
     for i in range(SPEEDS):
-        speed, torque, mem = inp[np.uintp(i)], 0.0, memory_of(state, i)
+        speed, torque, mem = inp[np.uintp(i)], 0.0, memory_of(work, i)
         for k in range(SOURCES):
             torque += work[np.uintp(W_TORQUE + i * SOURCES + k)]
         risen = math.tanh(abs(speed) / work[np.uintp(W_WIDTH + i)])
         capacity = abs(torque) / risen if risen > 0.0 else 0.0
         if dt > 0.0:
             keep(way, mem, speed, dt, torque, capacity)
+        if i == 0 or (chatters(mem) and not told):
+            fill_figures(way, mem, work[W_TOLD : W_TOLD + M.N_FIGURES])
         told = told or chatters(mem)
     return told
 
@@ -238,9 +243,10 @@ def step(
         iout[SHAFTS] = BAD_INPUT
         return BAD_INPUT
     way = (M.IDENTIFIED, 0.0, 0, par[P_SPEED_SMOOTHING], False)
+    copy(state[S_MEMORY:NSTATE], work[W_MEMORY:W_TOLD])
     for i in range(SPEEDS):
         speed = inp[np.uintp(i)]
-        work[np.uintp(W_WIDTH + i)] = width_at(way, memory_of(state, i), speed, dt)
+        work[np.uintp(W_WIDTH + i)] = width_at(way, memory_of(work, i), speed, dt)
     resist(par, inp, work)
     clear(out)
     for i in range(SPEEDS):
@@ -258,10 +264,11 @@ def step(
         status = OUTSIDE_VERIFIED
     if not are_finite(out):
         status = NOT_FINITE
-    elif keep_torques(par, inp, state, work, dt):
+    elif keep_torques(par, inp, work, dt):
         status = CHATTER
     if dt > 0.0 and status < 10:
         state[0] = out[O_ENERGY]
+        copy(work[W_MEMORY:W_TOLD], state[S_MEMORY:NSTATE])
     iout[SHAFTS] = status
     return status if status >= 10 else 0
 

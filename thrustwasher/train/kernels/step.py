@@ -13,11 +13,12 @@ from ...gearmesh.kernels.working_pair import section
 from ...losses.kernels.loss_laws import churning_constants, starved
 from ...losses.kernels.skf_friction import SKF, fill_series
 from ...losses.kernels.skf_series import NUMBERS
-from ...numerics.arrays import are_finite
+from ...numerics.arrays import are_finite, copy
 from ...numerics.jit import Array, Ints, kernel
 from ...numerics.status import BAD_INPUT, CHATTER, NOT_FINITE, OK, OUTSIDE_VERIFIED
 from ...tribology.holding import memory as M
 from ...tribology.holding.drag import keep, width_at
+from ...tribology.holding.figures import fill_figures
 from ...tribology.holding.reversals import chatters
 from . import layout as L
 from .bearing_life import equivalent_load, rating_life
@@ -25,7 +26,7 @@ from .chain import shaft_loss, solve_chain
 from .tooth_forces import centres, induced_of
 
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
-NOUT, NIOUT = L.NOUT, L.NIOUT
+NOUT, NIOUT, W_TOLD = L.NOUT, L.NIOUT, L.W_TOLD
 HOLDS_NOT = 3.0  # the number of `holding = off`
 K_Z = (3.1, 4.4, 5.1, 6.0)  # of the types of bearings: SKF's constant of starvation
 COLDEST, HOTTEST = 253.15, 423.15  # K, between which the laws are meant
@@ -253,7 +254,8 @@ def step(
         iout[np.uintp(i * G.NIOUT + G.IO_REGIME)] = G.FILM
         iout[np.uintp(i * G.NIOUT + G.IO_STATUS)] = OK
     # the fastest shaft comes nearest to chatter, and no shaft's friction rises over less
-    fastest, mem = fastest_of(par), state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY]
+    fastest, mem = fastest_of(par), work[L.W_MEMORY : L.W_MEMORY + M.N_MEMORY]
+    copy(state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY], mem)
     way = (M.IDENTIFIED, 0.0, 0, par[L.D_PAIR + G.P_SPEED_SMOOTHING] / fastest, False)
     width = fastest * width_at(way, mem, inp[L.I_SPEED], dt)
     status = solve_chain(par, inp, width, state, work, iout, dt)
@@ -284,6 +286,8 @@ def step(
     elif dt > 0.0 and status < 10:
         state[L.S_ENERGY] = out[L.O_ENERGY]
         keep(way, mem, inp[L.I_SPEED], dt, out[L.O_LOSS_TORQUE], capacity_of(par, work, width))
+        copy(mem, state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY])
+    fill_figures(way, mem, work[L.W_TOLD : L.W_TOLD + M.N_FIGURES])
     if status < 10 and chatters(mem):
         status = CHATTER
     iout[L.IO_STATUS] = status

@@ -3,11 +3,12 @@
 The washer's parameters are those in the map; ``par`` has what may differ between runs.
 """
 
-from ....numerics.arrays import are_finite
+from ....numerics.arrays import are_finite, copy
 from ....numerics.jit import Array, Ints, kernel
 from ....numerics.status import BAD_INPUT, CHATTER, OK
 from ....tribology.holding.drag import keep, risen, wants_capacity, width_at
-from ....tribology.holding.memory import CAPACITY, N_MEMORY, Coupling
+from ....tribology.holding.figures import fill_figures
+from ....tribology.holding.memory import CAPACITY, N_FIGURES, N_MEMORY, Coupling
 from ....tribology.holding.reversals import chatters
 from .. import layout as L
 from ..outputs import book, keep_book, lessen, lessen_slopes
@@ -21,7 +22,9 @@ NINP = L.I_FAR_FACE  # a map has no such face
 NOUT, NIOUT = L.NOUT, L.NIOUT
 NSTATE = L.S_FIELDS
 NUMBERS, SCRATCH = 0, L.N_ALL  # all outputs of the last look-up, then its scratch, the map
-TABLE_AT = SCRATCH + N_MAP_WORK
+W_MEMORY = SCRATCH + N_MAP_WORK
+W_TOLD = W_MEMORY + N_MEMORY
+TABLE_AT = W_TOLD + N_FIGURES
 ROOM = 360_000  # numbers of the largest map, 2.9 MB
 NWORK = TABLE_AT + ROOM
 TABLE = {
@@ -61,7 +64,7 @@ def _look_up(
         L.ANY,
         state,
         work[NUMBERS:SCRATCH],
-        work[SCRATCH:TABLE_AT],
+        work[SCRATCH:W_MEMORY],
         data,
         out,
         iout,
@@ -77,7 +80,8 @@ def step(
     iout[L.IO_REGIME], iout[L.IO_DISTRESS], iout[L.IO_STATUS] = BOUNDARY, 0, BAD_INPUT
     if not are_finite(inp) or inp[L.I_TILT] < 0.0 or work[TABLE_AT + M.KIND] != M.MAGIC:
         return BAD_INPUT
-    mem, way, speed = state[L.S_MEMORY : L.S_MEMORY + N_MEMORY], coupling_of(par), inp[L.I_SPEED]
+    mem, way, speed = work[W_MEMORY:W_TOLD], coupling_of(par), inp[L.I_SPEED]
+    copy(state[L.S_MEMORY : L.S_MEMORY + N_MEMORY], mem)
     if wants_capacity(way, mem, speed, dt):
         status = _look_up(par, inp, state, work, out, iout, 0.0)
         if status != OK:
@@ -94,6 +98,8 @@ def step(
     if dt > 0.0:
         keep_book(out, state)
         keep(way, mem, speed, dt, out[L.O_TORQUE], abs(torque))
+        copy(mem, state[L.S_MEMORY : L.S_MEMORY + N_MEMORY])
+    fill_figures(way, mem, work[W_TOLD:TABLE_AT])
     if chatters(mem):
         iout[L.IO_STATUS] = CHATTER
     return OK
@@ -105,7 +111,7 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
     data = work[TABLE_AT:]
     pt, change = point_of(data[M.PARAMS :], inp), change_of(data[M.PARAMS :], inp, seed)
     numbers = work[NUMBERS:SCRATCH]
-    status = look_up_slopes(pt, change, numbers, work[SCRATCH:TABLE_AT], data, dout)
+    status = look_up_slopes(pt, change, numbers, work[SCRATCH:W_MEMORY], data, dout)
     mem = state[L.S_MEMORY : L.S_MEMORY + N_MEMORY]
     share, slope = risen(pt.speed, width_at(coupling_of(par), mem, pt.speed, 0.0))
     if status == OK and share != 1.0:

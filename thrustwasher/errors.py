@@ -214,3 +214,11 @@ FIGURES = (
         "the noise of the speed is {1} rad/s, the torque moves it by at most {2} rad/s in a step",
     ),
 )
+
+
+def figures_of(status: Status, numbers: list[float]) -> str:
+    """Return what ``FIGURES`` says of a status with a unit's numbers, "" if it has none here."""
+    for named, place, text in FIGURES if numbers else ():
+        if named is status and numbers[place] > 0.0:
+            return text.format(*(f"{x:g}" for x in numbers)) + "; "
+    return ""

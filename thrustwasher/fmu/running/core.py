@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import FIGURES, FIRST_FAILURE, ParameterError, SolveError, Status
+from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status, figures_of
 from ...model.levels import gone_level
 from ...model.prepare import fill_table, is_of_table, wants_table
 from ...model.registry import kernel_of
@@ -392,7 +392,8 @@ class Core:
         self._warned = status
         if not is_known and Status.OK < status < FIRST_FAILURE:
             self._cared[status] = self._cared.get(status, 0) + 1
-            figures, engaged = self._figures(status), self._engaged.get(status, 0.0)
+            figures = figures_of(status, self._told.tolist())
+            engaged = self._engaged.get(status, 0.0)
             if self._cared[status] == 1 or (figures and self._told[T_ENGAGEMENT] != engaged):
                 self._engaged[status] = self._told.item(T_ENGAGEMENT) if figures else 0.0
                 point = self._point(self.shown.point)
@@ -409,14 +410,6 @@ class Core:
                     span = f"is outside {low:g} .. {high:g}{unit}, {words}"
                     found.append(f"{begin}{name}{v.name} = {value:g}{unit} {span}")
         return found
-
-    def _figures(self, status: Status) -> str:
-        """Return the numbers that belong to a status in words, "" if it has none here."""
-        for named, place, text in FIGURES if self._told.size else ():
-            if named is status and self._told[place] > 0.0:
-                numbers = [f"{x:g}" for x in self._told.tolist()]
-                return text.format(*numbers) + "; "
-        return ""
 
     def counts(self) -> list[str]:
         """Return, for the end of a run, how often it was as was warned of once."""

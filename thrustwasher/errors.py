@@ -186,3 +186,39 @@ class Status(IntEnum):
 
 
 FIRST_FAILURE = 10
+
+# What is said with a status of a unit that cannot hold: the first sentence whose number is not 0;
+# numbers in braces are places among those that the unit tells (``M.T_...`` of holding.memory).
+FIGURES = (
+    (
+        Status.UNANSWERED,
+        0,
+        "tested {0} times, none answered; the noise of the speed is {1} rad/s, the capacity moves "
+        "the slip by at most {2} rad/s in a step",
+    ),
+    (Status.CHATTER, 5, "the speed comes every {5} steps: step the unit at that rate"),
+    (
+        Status.CHATTER,
+        2,
+        "the noise of the speed is {1} rad/s, the torque moves it by at most {2} rad/s in a step",
+    ),
+    (Status.REFUTED, 7, "the slip answers as one of {7} kg m2 does"),
+    (
+        Status.REFUTED,
+        4,
+        "the slip is {3} rad/s where at most {4} rad/s were expected",
+    ),
+    (
+        Status.REFUTED,
+        2,
+        "the noise of the speed is {1} rad/s, the torque moves it by at most {2} rad/s in a step",
+    ),
+)
+
+
+def figures_of(status: Status, numbers: list[float]) -> str:
+    """Return what ``FIGURES`` says of a status with a unit's numbers, "" if it has none here."""
+    for named, place, text in FIGURES if numbers else ():
+        if named is status and numbers[place] > 0.0:
+            return text.format(*(f"{x:g}" for x in numbers)) + "; "
+    return ""

@@ -11,6 +11,7 @@ int reset(Instance *m) {
     memset(m->beyond, 0, sizeof m->beyond);
     memset(m->left, 0, sizeof m->left);
     memset(m->cared, 0, sizeof m->cared);
+    memset(m->engaged, 0, sizeof m->engaged);
     m->unsolved = m->work_fits = m->last_step = m->table_ready = 0;
     m->happened = m->is_early = 0;
     m->warned = -1;

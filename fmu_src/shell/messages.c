@@ -290,8 +290,37 @@ static void tell_ranges(Instance *m, int k) {
     }
 }
 
-/* Warn once in a run when the solution begins to need care for a reason, the gravest first; what
- * cools down to HOT was told that before. */
+/* The numbers that belong to a status, or NULL: it has none here. */
+static const Figure *figure_of(const Instance *m, int32_t status) {
+    for (int i = 0; i < N_FIGURES; i++) {
+        const Figure *f = &FIGURES[i];
+        if (f->status == status && m->work[W_TOLD + f->when] > 0.0) return f;
+    }
+    return NULL;
+}
+
+static void add_figure(Text *t, const Instance *m, const Figure *f) {
+    for (const char *c = f->text; *c; c++) {
+        if (*c != '{') {
+            add(t, "%c", *c);
+            continue;
+        }
+        add_number(t, m->work[W_TOLD + (c[1] - '0')]);
+        c += 2;
+    }
+    add(t, "; ");
+}
+
+/* Whether a status is to be told: once in a run, one with figures once in an engagement. */
+static int is_news(Instance *m, int32_t status, const Figure *f) {
+    const double engaged = m->engaged[status], now = f ? m->work[W_TOLD + TOLD_ENGAGEMENT] : engaged;
+    const int first = !m->cared[status]++;
+    m->engaged[status] = now;
+    return first || now != engaged;
+}
+
+/* Warn once when the solution begins to need care for a reason, the gravest first; what cools down to
+ * HOT was told that before. */
 void tell_advice(Instance *m) {
     for (int i = 0; m->warned < 0 && i < N_GONE_LEVELS; i++) {
         if (GONE_LEVELS[i].number != m->now.par[LEVEL]) continue;
@@ -307,9 +336,11 @@ void tell_advice(Instance *m) {
     int told = status == m->warned || (status == STATUS_OUTSIDE_VERIFIED && unverified)
                || (status == STATUS_HOT && m->warned == STATUS_EXTRAPOLATED);
     m->warned = status;
-    if (!told && status > STATUS_OK && status < FIRST_FAILURE && !m->cared[status]++) {
+    const Figure *figure = figure_of(m, status);
+    if (!told && status > STATUS_OK && status < FIRST_FAILURE && is_news(m, status, figure)) {
         Text text = begun(m, m->now.time);
         add(&text, " s: %s: %s; ", status_text(status)->name, status_text(status)->advice);
+        if (figure) add_figure(&text, m, figure);
         add_point(&text, m, 1);
         tell(&m->log, WARNING, LOG_WARNING, &text);
     }

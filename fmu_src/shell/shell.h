@@ -74,6 +74,7 @@ typedef struct {
     uint8_t beyond[2][AT_LEAST_ONE(NINP)]; /* the inputs that are outside their ranges ... */
     uint32_t left[2][AT_LEAST_ONE(NINP)];  /* ... and how often they left them in this run */
     uint32_t cared[FIRST_FAILURE];         /* how often a solution began to need care, by its status */
+    double engaged[FIRST_FAILURE];         /* in which engagement a status with figures was told last */
     int32_t work_fits;                     /* `work` belongs to the present solution */
     int32_t last_step;                     /* what the last step returned */
     int32_t has_events;                    /* the host goes through event mode; FMI 3 only */

@@ -59,6 +59,12 @@ typedef struct {
     const char *name, *advice;
 } StatusText;
 
+/* What is said with a status, if the number at `when` is not 0; {k} stands for the unit's number k. */
+typedef struct {
+    int32_t status, when;
+    const char *text;
+} Figure;
+
 /* A Boolean output whose changes are events: what happens when it becomes true, then false, and the
    places in `out` of the times [s] of both, -1: not told. */
 typedef struct {

@@ -2,15 +2,16 @@
 
 Run: python -m lab.benchmarks.coupling_order [MILLISECONDS ...]
 
-A clutch alone: load and slip by smooth functions of time, known to the master. Pack and
-transmission: the default shift without washer and mesh, stepped by masters as in hosts of FMI 2.0.
-`parallel` steps all parts with the outputs of the last point, `in turn` the packs first. Their
-rates are differences of the last two points; the transmission in turn gets the packs' capacities at
-both ends of its step. `held`: `input_profile` of the packs is held, as it starts in the FMUs, and
-the transmission does not extrapolate capacities; `extrapolated`: it does, with a linear profile, as
-in `thrustwasher shift`. Errors are relative to a run with rates at a much shorter step; times count
-from the first pressure, 0.1 s. The order is the slope of log(error) over log(step), fitted to all
-steps: where pressure and engine torque have a corner inside a step single errors scatter.
+A clutch alone, `holding` = off: load and slip by smooth functions of time, known to the master.
+Pack and transmission: the default shift without washer and mesh, stepped by masters as in hosts of
+FMI 2.0. `parallel` steps all parts with the outputs of the last point, `in turn` the packs first.
+Their rates are differences of the last two points; the transmission in turn gets the packs'
+capacities at both ends of its step. `held`: `input_profile` of the packs is held, as it starts in
+the FMUs, and the transmission does not extrapolate capacities; `extrapolated`: it does, with a
+linear profile, as in `thrustwasher shift`. Errors are relative to a run with rates at a much
+shorter step; times count from the first pressure, 0.1 s. The order is the slope of log(error) over
+log(step), fitted to all steps: where pressure and engine torque have a corner inside a step single
+errors scatter.
 """
 
 import math
@@ -43,7 +44,7 @@ def slip(t: float) -> float:
 
 def alone(level: str, step: float, moving: bool) -> Figures:
     """Step a clutch through its profile; ``step`` [s]."""
-    unit = DirectInstance(clutch.SPEC, parameters={"fidelity": level})
+    unit = DirectInstance(clutch.SPEC, parameters={"fidelity": level, "holding": "off"})
     unit.initialize(0.0, {"load": load(0.0), "speed": slip(0.0), "oil_temperature": 350.0})
     for i in range(round(ALONE / step)):
         t, end = i * step, (i + 1) * step

@@ -34,6 +34,7 @@ Python FMU and the native FMU call the same code:
 ``broken_rule(par)``   number of the first broken rule between parameters, 0 if there is none
 ``step(...)``          ``step(par, inp, state, work, out, iout, t, dt)`` returns a status
 ``sens(...)``          ``sens(par, inp, state, work, seed, dout)`` returns a status; not all have it
+``W_TOLD``             where in ``work`` the numbers of ``errors.FIGURES`` lie, if it has them
 ``TABLE``              where in ``work`` the table of a level lies, if one looks its answers up
 =====================  ============================================================================
 

@@ -1,6 +1,6 @@
 """Where the wet clutch keeps its numbers: places in the arrays of parameters, state and work."""
 
-from ...tribology.holding.memory import N_MEMORY
+from ...tribology.holding.memory import N_FIGURES, N_MEMORY
 
 # places: P_ of parameters
 P_INNER_RADIUS, P_OUTER_RADIUS, P_FACES, P_EFFECTIVE_RADIUS, P_FRICTION_LAW = range(0, 5)
@@ -152,7 +152,8 @@ W_MEMORY = W_GIVEN + 5
 W_GIVEN_TORQUE, W_BY_SLIP, W_BY_CAPACITY, W_BOUND_SLOPE = (
     W_MEMORY + N_MEMORY + i for i in range(4)
 )
-NWORK = W_MEMORY + N_MEMORY + 4
+W_TOLD = W_MEMORY + N_MEMORY + 4  # numbers in what a pack says when it cannot hold
+NWORK = W_TOLD + N_FIGURES
 
 (
     O_TORQUE,

@@ -32,6 +32,7 @@ from ...numerics.status import (
 )
 from ...numerics.step_size import advised_step
 from ...tribology.holding import memory as M
+from ...tribology.holding.figures import fill_figures
 from ...tribology.holding.reversals import chatters
 from ...tribology.holding.torque import OFTEN, told_of
 from . import layout as L
@@ -54,7 +55,7 @@ from .rates import given_power, n_unknowns, pack_rates, surfaces
 
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
 NOUT, NIOUT, sens = L.NOUT, L.NIOUT, directional_derivative
-NRATES = NINP
+NRATES, W_TOLD = NINP, L.W_TOLD
 # What a partner may be off by over a step: a share of the capacity, or of that of a pack pressed a
 # little [Pa] whose coefficient is low.
 ADVISED_SHARE, LEAST_PRESSURE, LEAST_COEFFICIENT = 0.01, 1e5, 0.1
@@ -168,6 +169,7 @@ def step(
         advice = CHATTER
     if hottest > L.EXTRAPOLATED_LIMIT:
         advice = EXTRAPOLATED
+    fill_figures(coupling_of(par), work[L.W_MEMORY :], work[L.W_TOLD : L.W_TOLD + M.N_FIGURES])
     iout[L.IO_STATUS] = advice if status == OK else status
     return status
 

@@ -10,12 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status
+from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status, figures_of
 from ...model.levels import gone_level
 from ...model.prepare import fill_table, is_of_table, wants_table
 from ...model.registry import kernel_of
 from ...model.unread import unread
 from ...native.load import bound
+from ...tribology.holding.memory import N_FIGURES, T_ENGAGEMENT
 from ...units import into_range
 from ..description.interface import Interface, Variable
 from ..model_kernels import content_digest
@@ -72,6 +73,8 @@ class Core:
         taken = given if self._takes_rates else self.inp
         self._arrays = {name: getattr(self, name) for name in (*ARRAYS, "work")}
         handed = {name: a for name, a in self._arrays.items() if name != "rates"}
+        told = getattr(kernel, "W_TOLD", -1)
+        self._told = self.work[told : told + N_FIGURES] if told >= 0 else np.zeros(0)
         self._step = bound(kernel.step, **handed | {"inp": taken})
         self._undo = self.state.copy(), self.out.copy(), self.iout.copy()
         self._zeros = np.zeros(kernel.NOUT)
@@ -79,6 +82,7 @@ class Core:
         self._beyond = [[False] * len(own) for own in self._ranges]
         self._left = [[0] * len(own) for own in self._ranges]  # how often in this run
         self._cared = dict[Status, int]()  # how often a solution began to need care
+        self._engaged = dict[Status, float]()  # in which engagement that was told last
         self._warned = -1  # the status that was last told, -1: nothing yet
         self.time, self.mode = 0.0, Mode.INSTANTIATED
         self.dirty, self.prepared = True, False
@@ -388,9 +392,12 @@ class Core:
         self._warned = status
         if not is_known and Status.OK < status < FIRST_FAILURE:
             self._cared[status] = self._cared.get(status, 0) + 1
-            if self._cared[status] == 1:
+            figures = figures_of(status, self._told.tolist())
+            engaged = self._engaged.get(status, 0.0)
+            if self._cared[status] == 1 or (figures and self._told[T_ENGAGEMENT] != engaged):
+                self._engaged[status] = self._told.item(T_ENGAGEMENT) if figures else 0.0
                 point = self._point(self.shown.point)
-                found.append(f"{begin}{status.name}: {status.advice}; {point}")
+                found.append(f"{begin}{status.name}: {status.advice}; {figures}{point}")
         for k, (name, words) in reversed([*enumerate(RANGES.items())]):
             for i, v in enumerate(self.shown.inputs):
                 was_beyond, self._beyond[k][i] = self._beyond[k][i], self._is_beyond(k, i)

@@ -12,11 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import FIRST_FAILURE, Status
+from ...errors import FIGURES, FIRST_FAILURE, Status
 from ...model.levels import gone_level
 from ...model.registry import kernel_of
 from ...model.unread import RELATIONS, all_conditions
 from ...native.digest import digest
+from ...tribology.holding.memory import N_FIGURES, T_ENGAGEMENT
 from ..description.interface import LOG_CATEGORIES, Interface, Variable
 from ..description.model_description import TYPES
 from ..model_kernels import has_derivatives, seed_length
@@ -140,6 +141,10 @@ def _lists(shown: Interface) -> dict[str, tuple[str, list[str]]]:
         "STATUSES": ("StatusText", [(int(s), s.name, s.advice) for s in sorted(Status)]),
         "SWITCHES": ("Switch", [_switch(shown, slot, events) for slot, events in shown.switches]),
         "COUNTS": ("Count", shown.counts),
+        "FIGURES": (
+            "Figure",
+            [(int(s), *row) for s, *row in FIGURES if hasattr(kernel_of(shown.spec), "W_TOLD")],
+        ),
         "RULES": ("Rule", [(rule.text,) for rule in shown.spec.rules]),
         "GONE_LEVELS": (
             "Item",
@@ -212,6 +217,9 @@ def _header(shown: Interface, lists: dict[str, tuple[str, list[str]]]) -> str:
         "NRATES": getattr(kernel, "NRATES", 0),
         "NSEED": seed_length(kernel),
         "IO_STATUS": status,
+        "W_TOLD": getattr(kernel, "W_TOLD", 0),
+        "N_TOLD": N_FIGURES,
+        "TOLD_ENGAGEMENT": T_ENGAGEMENT,
         "FIRST_FAILURE": FIRST_FAILURE,
         "LEVEL": next(v.slot for v in shown.parameters if v.name == "fidelity"),
         **{f"STATUS_{s.name}": int(s) for s in Status},

@@ -1,6 +1,6 @@
 """Where each number of the gear mesh lies in its arrays."""
 
-from ...tribology.holding.memory import N_MEMORY
+from ...tribology.holding.memory import N_FIGURES, N_MEMORY
 
 # places: P_ of parameters
 P_GEAR_RATIO, P_PINION_TEETH, P_CENTRE_DISTANCE, P_NORMAL_MODULE, P_PRESSURE_ANGLE = range(0, 5)
@@ -174,13 +174,16 @@ NSTATE = S_MEMORY + N_MEMORY
 # the position at hand, the constants there; then, for both heats, the number of the hottest.
 W_HOTTEST, W_HERE, W_LOCAL, W_PLACE = N_FIELD, 2 * N_FIELD, 3 * N_FIELD, 3 * N_FIELD + D_POSITION
 # Where the loss heats: how the step began (HELD and so on), the bodies over the oil then [K],
-# duration [s]; friction of every position, in mixed friction the contact's share.
-W_BEGAN, W_FROM, W_DURATION, W_FRICTION = range(W_PLACE + 1, W_PLACE + 5)
+# duration [s]; speed over which the torque rises [rad/s]; friction of every position, in mixed
+# friction the contact's share.
+W_BEGAN, W_FROM, W_DURATION, W_WIDTH, W_FRICTION = range(W_PLACE + 1, W_PLACE + 6)
 W_CONTACT, W_PAR = W_FRICTION + N_PATH, W_FRICTION + 2 * N_PATH
 # Where stiffness shares the load: all constants with the shares at the load at hand; scratch for
 # solving the point again with others.
 W_AGAIN = W_PAR + NPAR
-NWORK = W_AGAIN + W_PAR + NSTATE
+W_MEMORY = W_AGAIN + W_PAR + NSTATE  # of the driveline, while a step is made
+W_TOLD = W_MEMORY + N_MEMORY  # numbers in what the mesh says of its speed
+NWORK = W_TOLD + N_FIGURES
 NOUT = 35
 IO_REGIME, IO_STATUS, NIOUT = range(3)
 

@@ -7,7 +7,8 @@ from ...numerics.jit import Array, Ints, kernel
 from ...numerics.smoothing import floored, floored_slope, soft_size, soft_size_slope
 from ...numerics.status import BAD_INPUT, CHATTER, NOT_FINITE, OK
 from ...tribology.holding import memory as M
-from ...tribology.holding.drag import hold_drag, slope_of_share, slope_over_capacity
+from ...tribology.holding.drag import keep, wants_capacity, width_at
+from ...tribology.holding.figures import fill_figures
 from ...tribology.holding.memory import Coupling
 from ...tribology.holding.reversals import chatters
 from . import layout as L
@@ -18,7 +19,7 @@ from .mesh_point import LEAST_LINE_LOAD
 from .operating_point import point_changes, solve_point
 
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
-NOUT, NIOUT = L.NOUT, L.NIOUT
+NOUT, NIOUT, W_TOLD = L.NOUT, L.NIOUT, L.W_TOLD
 SHARE_STEP = 1e-5  # of the load, for the slope of the shares
 
 
@@ -32,16 +33,18 @@ def regime_of(film_ratio: float) -> int:
 
 @kernel
 def _solve(
-    par: Array, load: float, speed: float, oil: float, state: Array, dt: float, work: Array
-) -> int:
+    par: Array, load: float, speed: float, oil: float, width: float, state: Array, dt: float,
+    work: Array,
+) -> int:  # fmt: skip
     """Fill the outputs but the oil's energy with these constants; return 0, an advice or a failure.
 
-    The loss grows from zero load with a continuous slope, over twice the least line load.
+    The loss grows from zero load with a continuous slope, over twice the least line load, and from
+    rest over the speed ``width`` [rad/s].
     """
     pressed = soft_size(load, 2.0 * LEAST_LINE_LOAD / par[L.D_LINE])
-    smooth_sign = math.tanh(speed / par[L.P_SPEED_SMOOTHING])
+    smooth_sign = math.tanh(speed / width)
     status = solve_point(par, load, speed, oil, pressed * smooth_sign * speed, state, dt, work)
-    work[L.F_SMOOTH_SIGN] = smooth_sign
+    work[L.F_SMOOTH_SIGN], work[L.W_WIDTH] = smooth_sign, width
     work[L.F_TORQUE] = work[L.F_MEAN_FRICTION] * par[L.D_LOSS] * pressed * smooth_sign
     work[L.F_POWER] = work[L.F_TORQUE] * speed
     return status
@@ -79,28 +82,44 @@ def step(
     if not (are_finite(inp) and oil > 0.0 and math.isfinite(dt) and dt >= 0.0):
         iout[L.IO_STATUS] = BAD_INPUT
         return BAD_INPUT
+    mem, way = work[L.W_MEMORY : L.W_MEMORY + M.N_MEMORY], coupling_of(par)
+    copy(state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY], mem)
+    if wants_capacity(way, mem, speed, dt):
+        _solve(shared(par, load, work), load, speed, oil, way[3], state, 0.0, work)
+        mem[M.CAPACITY] = capacity_of(work)
+    width = width_at(way, mem, speed, dt)
+    status = step_over(par, inp, width, state, work, out, iout, dt)
+    if status >= 10:
+        return status
+    if dt > 0.0:
+        keep(way, mem, speed, dt, out[L.F_TORQUE], capacity_of(work))
+        copy(mem, state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY])
+    fill_figures(way, mem, work[L.W_TOLD : L.W_TOLD + M.N_FIGURES])
+    if chatters(mem):
+        iout[L.IO_STATUS] = CHATTER
+    return OK
+
+
+@kernel
+def step_over(
+    par: Array, inp: Array, width: float, state: Array, work: Array, out: Array, iout: Ints,
+    dt: float,
+) -> int:  # fmt: skip
+    """Step as ``step`` with a friction that rises over the speed ``width`` [rad/s]."""
+    load, speed, oil = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL]
     here = shared(par, load, work)
-    status = _solve(here, load, speed, oil, state, dt, work)
+    status = _solve(here, load, speed, oil, width, state, dt, work)
     work[L.F_OIL_ENERGY] = state[L.S_OIL_ENERGY] + work[L.F_OIL_HEAT] * dt
     iout[L.IO_REGIME] = regime_of(work[L.F_RATIO])
     copy(work, out)
     if not are_finite(out):
         status = NOT_FINITE
-    mem = state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY]
-    if status < 10:
-        given, _ = hold_drag(coupling_of(par), mem, speed, dt, work[L.F_TORQUE], capacity_of(work))
-        less = (given - work[L.F_TORQUE]) * speed  # of heat than sliding would make
-        out[L.F_TORQUE], out[L.F_POWER] = given, given * speed
-        out[L.F_OIL_HEAT] += less
-        out[L.F_OIL_ENERGY] += less * dt
-        if chatters(mem):
-            status = CHATTER
     if dt > 0.0 and status < 10:
         state[L.S_STARTED] = 1.0
         state[L.S_BULK], state[L.S_STORED] = work[L.F_BULK], work[L.F_STORED]
         state[L.S_OIL_ENERGY] = out[L.F_OIL_ENERGY]
     iout[L.IO_STATUS] = status
-    return status if status >= 10 else 0
+    return status if status >= 10 else OK
 
 
 @kernel
@@ -118,21 +137,6 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
             _add_sharing(par, torque, speed, oil, work, seed[L.I_LOAD], dout)
     else:
         _changes(par, torque, speed, oil, work, seed, dout)
-    mem, own = state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY], work[L.F_TORQUE]
-    way, capacity = coupling_of(par), capacity_of(work)
-    given, share = hold_drag(way, mem, speed, 0.0, own, capacity)
-    if share != 1.0:
-        by_speed = slope_of_share(way, mem, speed, 0.0, capacity)
-        by_size = slope_over_capacity(way, mem, speed, 0.0, capacity)
-        smooth = work[L.F_SMOOTH_SIGN]
-        if by_size != 0.0:
-            faster = (1.0 - smooth) * (1.0 + smooth) / (smooth * par[L.P_SPEED_SMOOTHING])
-            by_speed -= by_size * faster
-        slope = by_speed * seed[L.I_SPEED]
-        rise, before = (share + by_size) * dout[L.F_TORQUE] + own * slope, dout[L.F_POWER]
-        dout[L.F_TORQUE] = rise
-        dout[L.F_POWER] = rise * speed + given * seed[L.I_SPEED]
-        dout[L.F_OIL_HEAT] += dout[L.F_POWER] - before
     return OK if are_finite(dout) else NOT_FINITE
 
 
@@ -144,7 +148,7 @@ def _changes(
     width = 2.0 * LEAST_LINE_LOAD / par[L.D_LINE]
     pressed, smooth = soft_size(torque, width), work[L.F_SMOOTH_SIGN]
     heavier, friction = soft_size_slope(torque, width), work[L.F_MEAN_FRICTION]
-    steep = (1.0 - smooth) * (1.0 + smooth) / par[L.P_SPEED_SMOOTHING]
+    steep = (1.0 - smooth) * (1.0 + smooth) / work[L.W_WIDTH]
     # what the mesh transmits [W] as it counts for the loss, and its change
     drive = pressed * smooth * speed
     more = heavier * seed[L.I_LOAD] * smooth * speed
@@ -181,7 +185,8 @@ def _add_sharing(
         clear(state)
         if work[L.W_BEGAN] == L.HELD:
             state[L.S_STARTED], state[L.S_BULK] = 1.0, oil + work[L.W_FROM]
-        _solve(here, torque, speed, oil, state, work[L.W_DURATION], again)
+        width = work[L.W_WIDTH]
+        _solve(here, torque, speed, oil, width, state, work[L.W_DURATION], again)
         for k in range(L.NOUT):
             if k != L.F_STORED and k != L.F_OIL_ENERGY:
                 dout[k] += weight * again[k]

@@ -8,12 +8,14 @@ import math
 
 import numpy as np
 
-from ...numerics.arrays import are_finite, clear
+from ...numerics.arrays import are_finite, clear, copy
 from ...numerics.jit import Array, Ints, kernel
 from ...numerics.smoothing import soft_size, soft_size_slope
-from ...numerics.status import BAD_INPUT, NOT_FINITE, OK, OUTSIDE_VERIFIED
+from ...numerics.status import BAD_INPUT, CHATTER, NOT_FINITE, OK, OUTSIDE_VERIFIED
 from ...tribology.holding import memory as M
-from ...tribology.holding.drag import hold_drag, slope_of_share
+from ...tribology.holding.drag import keep, width_at
+from ...tribology.holding.figures import fill_figures
+from ...tribology.holding.reversals import chatters
 from ...tribology.viscosity import viscosity
 from .loss_laws import bearing_drag as bearing_drag
 from .loss_laws import (
@@ -74,10 +76,13 @@ NSTATE = S_MEMORY + SPEEDS * M.N_MEMORY
 NIOUT = SHAFTS + 1  # the regime of each shaft's gear, the status
 SOURCES = 4  # of torque: bearing, churning, pump, seal; the order of their powers in the outputs
 # `work`: torques by speed and source, then their slopes over speed and over temperature; that of
-# the planet's torque over the tooth force
+# the planet's torque over the tooth force; speeds over which the torques rise
 W_TORQUE, W_BY_SPEED, W_BY_OIL = 0, SPEEDS * SOURCES, 2 * SPEEDS * SOURCES
 W_BY_FORCE = 3 * SPEEDS * SOURCES
-NWORK = W_BY_FORCE + 1
+W_WIDTH = W_BY_FORCE + 1
+W_MEMORY = W_WIDTH + SPEEDS  # of the driveline, while a step is made
+W_TOLD = W_MEMORY + SPEEDS * M.N_MEMORY  # numbers in what is said of a speed
+NWORK = W_TOLD + M.N_FIGURES
 LIGHT = 1.0  # N, tooth force over which the corner at none is rounded
 COLDEST, HOTTEST = 253.15, 423.15  # K, between which the laws are meant
 
@@ -144,15 +149,16 @@ def put(work: Array, at: int, sign: float, drag: tuple[float, float, float], ste
 
 @kernel
 def resist(par: Array, inp: Array, work: Array) -> None:
-    """Fill ``work`` with the torques at these inputs and their slopes."""
-    clear(work)
+    """Fill ``work`` with the torques at these inputs and their slopes; the widths are in it."""
+    clear(work[:W_WIDTH])
     oil, force, smooth = inp[I_OIL], inp[I_FORCE], par[P_SPEED_SMOOTHING]
     nu, nu_slope = oil_viscosity(par, oil)
     for i in range(SPEEDS):
         speed, at = inp[np.uintp(i)], i * SOURCES
         turning = math.sqrt(speed * speed + smooth * smooth)
-        more, sign = speed / turning, math.tanh(speed / smooth)
-        steep, starving = (1.0 - sign) * (1.0 + sign) / smooth, par[np.uintp(D_STARVING + i)]
+        width = work[np.uintp(W_WIDTH + i)]
+        more, sign = speed / turning, math.tanh(speed / width)
+        steep, starving = (1.0 - sign) * (1.0 + sign) / width, par[np.uintp(D_STARVING + i)]
         if i == PLANET:
             load = 2.0 * soft_size(force, LIGHT)
             n, diameter = par[P_PLANET_BEARING_COUNT], par[P_PLANET_BEARING_DIAMETER]
@@ -186,30 +192,28 @@ def resist(par: Array, inp: Array, work: Array) -> None:
 
 
 @kernel
-def ease(par: Array, inp: Array, state: Array, work: Array, dt: float) -> None:
-    """Let the torques at each speed rise so near rest that their shaft does not chatter."""
-    own = par[P_SPEED_SMOOTHING]
-    way = (M.IDENTIFIED, 0.0, 0, own, False)
+def memory_of(work: Array, i: int) -> Array:
+    """Return what is remembered of a speed."""
+    place = W_MEMORY + i * M.N_MEMORY
+    return work[place : place + M.N_MEMORY]
+
+
+@kernel
+def keep_torques(par: Array, inp: Array, work: Array, dt: float) -> bool:
+    """Remember the torques that were given; tell if one of the speeds chatters."""
+    way, told = (M.IDENTIFIED, 0.0, 0, par[P_SPEED_SMOOTHING], False), False
     for i in range(SPEEDS):
-        speed, torque, at = inp[np.uintp(i)], 0.0, i * SOURCES
+        speed, torque, mem = inp[np.uintp(i)], 0.0, memory_of(work, i)
         for k in range(SOURCES):
-            torque += work[np.uintp(W_TORQUE + at + k)]
-        risen = math.tanh(abs(speed) / own)
+            torque += work[np.uintp(W_TORQUE + i * SOURCES + k)]
+        risen = math.tanh(abs(speed) / work[np.uintp(W_WIDTH + i)])
         capacity = abs(torque) / risen if risen > 0.0 else 0.0
-        place = S_MEMORY + i * M.N_MEMORY
-        mem = state[place : place + M.N_MEMORY]
-        _, share = hold_drag(way, mem, speed, dt, torque, capacity)
-        if share == 1.0:
-            continue
-        slope = slope_of_share(way, mem, speed, dt, capacity)
-        for k in range(SOURCES):
-            bend = slope * work[np.uintp(W_TORQUE + at + k)]
-            work[np.uintp(W_TORQUE + at + k)] *= share
-            work[np.uintp(W_BY_OIL + at + k)] *= share
-            by_speed = share * work[np.uintp(W_BY_SPEED + at + k)]
-            work[np.uintp(W_BY_SPEED + at + k)] = by_speed + bend
-        if i == PLANET:
-            work[W_BY_FORCE] *= share
+        if dt > 0.0:
+            keep(way, mem, speed, dt, torque, capacity)
+        if i == 0 or (chatters(mem) and not told):
+            fill_figures(way, mem, work[W_TOLD : W_TOLD + M.N_FIGURES])
+        told = told or chatters(mem)
+    return told
 
 
 @kernel
@@ -238,9 +242,12 @@ def step(
     if not (are_finite(inp) and oil > 0.0 and math.isfinite(dt) and dt >= 0.0):
         iout[SHAFTS] = BAD_INPUT
         return BAD_INPUT
+    way = (M.IDENTIFIED, 0.0, 0, par[P_SPEED_SMOOTHING], False)
+    copy(state[S_MEMORY:NSTATE], work[W_MEMORY:W_TOLD])
+    for i in range(SPEEDS):
+        speed = inp[np.uintp(i)]
+        work[np.uintp(W_WIDTH + i)] = width_at(way, memory_of(work, i), speed, dt)
     resist(par, inp, work)
-    if are_finite(work):
-        ease(par, inp, state, work, dt)
     clear(out)
     for i in range(SPEEDS):
         speed = inp[np.uintp(i)]
@@ -257,8 +264,11 @@ def step(
         status = OUTSIDE_VERIFIED
     if not are_finite(out):
         status = NOT_FINITE
-    elif dt > 0.0:
+    elif keep_torques(par, inp, work, dt):
+        status = CHATTER
+    if dt > 0.0 and status < 10:
         state[0] = out[O_ENERGY]
+        copy(work[W_MEMORY:W_TOLD], state[S_MEMORY:NSTATE])
     iout[SHAFTS] = status
     return status if status >= 10 else 0
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...gearmesh.kernels import layout as G
 from ...gearmesh.kernels.mesh_point import viscosity_at
-from ...gearmesh.kernels.step import step as mesh_step
+from ...gearmesh.kernels.step import step_over
 from ...losses.kernels.loss_laws import bearing_drag, churning_drag, seal_drag
 from ...losses.kernels.skf_friction import SKF, skf_drag
 from ...numerics.jit import Array, Ints, kernel
@@ -30,11 +30,11 @@ def shaft_loss(work: Array, shaft: int) -> float:
 
 @kernel
 def march(
-    par: Array, inp: Array, state: Array, work: Array, iout: Ints, t: float, dt: float
+    par: Array, inp: Array, width: float, state: Array, work: Array, iout: Ints, dt: float
 ) -> int:
     """Fill torques, speeds and the pairs' outputs from input to output; return the worst status.
 
-    The losses of the shafts are as in ``work``.
+    The losses of the shafts are as in ``work``; friction rises over the speed ``width`` [rad/s].
     """
     torque, speed, worst = inp[L.I_TORQUE], inp[L.I_SPEED], OK
     meshes = int(par[L.P_MESHES])
@@ -50,14 +50,14 @@ def march(
         given[G.I_LOAD] = torque if driver == L.PINION else -torque * slower
         given[G.I_SPEED], given[G.I_OIL] = speed * turn, inp[L.I_OIL]
         out = work[L.W_OUT + i * G.NOUT : L.W_OUT + (i + 1) * G.NOUT]
-        status = mesh_step(
+        status = step_over(
             par[L.D_PAIR + i * G.NPAR : L.D_PAIR + (i + 1) * G.NPAR],
             given,
+            width,
             state[i * G.NSTATE : (i + 1) * G.NSTATE],
             work[L.W_PAIR : L.W_PAIR + G.NWORK],
             out,
             iout[i * G.NIOUT : (i + 1) * G.NIOUT],
-            t,
             dt,
         )
         worst = max(worst, status)
@@ -81,14 +81,14 @@ def fill_loads(par: Array, work: Array) -> None:
 
 
 @kernel
-def fill_losses(par: Array, oil: float, work: Array, share: float) -> float:
+def fill_losses(par: Array, oil: float, width: float, work: Array, share: float) -> float:
     """Move the loss torques by ``share`` towards those of the forces; return the largest move."""
     meshes, moved = int(par[L.P_MESHES]), 0.0
     pair = par[L.D_PAIR : L.D_PAIR + G.NPAR]
     nu, smooth = viscosity_at(pair, oil) / pair[G.P_OIL_DENSITY], pair[G.P_SPEED_SMOOTHING]
     for i in range(meshes + 1):
         speed, own = work[np.uintp(L.W_SPEED + i)], L.P_SHAFT + i * L.SHAFT_ROW
-        turning, sign = math.hypot(speed, smooth), math.tanh(speed / smooth)
+        turning, sign = math.hypot(speed, smooth), math.tanh(speed / width)
         at = L.W_LOSS + i * L.LOSSES
         for k in range(L.LOSSES):
             if k < L.ENDS:
@@ -165,24 +165,25 @@ def churning_torque(par: Array, meshes: int, shaft: int, turning: float, nu: flo
 
 @kernel
 def solve_chain(
-    par: Array, inp: Array, state: Array, work: Array, iout: Ints, t: float, dt: float
+    par: Array, inp: Array, width: float, state: Array, work: Array, iout: Ints, dt: float
 ) -> int:
     """Fill ``work`` with torques, forces and losses that agree; return 0 or a failure.
 
-    The state moves on by ``dt``. Losses grow with a small share of the forces, so that a few sweeps
-    settle them. Where the output drives and they grow faster than what it brings, the chain locks
-    itself and nothing settles; where the input drives they settle anyway, eased.
+    The state moves on by ``dt``; friction rises over the speed ``width`` [rad/s] of any shaft.
+    Losses grow with a small share of the forces, so that a few sweeps settle them. Where the output
+    drives and they grow faster than what it brings, the chain locks itself and nothing settles;
+    where the input drives they settle anyway, eased.
     """
     for k in range(L.SHAFTS * L.LOSSES):
         work[np.uintp(L.W_LOSS + k)] = 0.0
     settled, drives = False, inp[L.I_TORQUE] * inp[L.I_SPEED] > 0.0
     for n in range(SWEEPS):
-        status = march(par, inp, state, work, iout, t, 0.0)
+        status = march(par, inp, width, state, work, iout, 0.0)
         if status >= 10:
             return status
         fill_loads(par, work)
         share = EASED if n >= PLAIN and drives else 1.0
-        moved = fill_losses(par, inp[L.I_OIL], work, share)
+        moved = fill_losses(par, inp[L.I_OIL], width, work, share)
         size = abs(inp[L.I_TORQUE])
         for i in range(int(par[L.P_MESHES])):
             size = max(size, abs(work[np.uintp(L.W_TORQUE + i)]))
@@ -191,6 +192,6 @@ def solve_chain(
             break
     if not settled:
         return MAX_ITERATIONS
-    status = march(par, inp, state, work, iout, t, dt)
+    status = march(par, inp, width, state, work, iout, dt)
     fill_loads(par, work)
     return status

@@ -2,7 +2,7 @@
 
 from ...gearmesh.kernels import layout as G
 from ...losses.kernels import skf_series
-from ...tribology.holding.memory import N_MEMORY
+from ...tribology.holding.memory import N_FIGURES, N_MEMORY
 
 MESHES, SHAFTS, ENDS = 3, 4, 2  # at most; bearings of a shaft
 SERIES_ROW = skf_series.ROW  # type and constants of a bearing's series
@@ -141,7 +141,9 @@ W_SCRATCH = W_END + 1
 W_INP = W_SCRATCH + 3
 W_OUT = W_INP + G.NINP
 W_PAIR = W_OUT + MESHES * G.NOUT
-NWORK = W_PAIR + G.NWORK
+W_MEMORY = W_PAIR + G.NWORK  # of the driveline, while a step is made
+W_TOLD = W_MEMORY + N_MEMORY  # numbers in what the train says of its speed
+NWORK = W_TOLD + N_FIGURES
 PINION, GEAR = 1, 2  # who drives
 RIGHT, LEFT = 1, 2  # hand
 FIRST, SECOND, PUSHED = 1, 2, 3  # which bearing takes the axial force

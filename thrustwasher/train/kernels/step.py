@@ -13,18 +13,20 @@ from ...gearmesh.kernels.working_pair import section
 from ...losses.kernels.loss_laws import churning_constants, starved
 from ...losses.kernels.skf_friction import SKF, fill_series
 from ...losses.kernels.skf_series import NUMBERS
-from ...numerics.arrays import are_finite
+from ...numerics.arrays import are_finite, copy
 from ...numerics.jit import Array, Ints, kernel
-from ...numerics.status import BAD_INPUT, NOT_FINITE, OK, OUTSIDE_VERIFIED
+from ...numerics.status import BAD_INPUT, CHATTER, NOT_FINITE, OK, OUTSIDE_VERIFIED
 from ...tribology.holding import memory as M
-from ...tribology.holding.drag import hold_drag
+from ...tribology.holding.drag import keep, width_at
+from ...tribology.holding.figures import fill_figures
+from ...tribology.holding.reversals import chatters
 from . import layout as L
 from .bearing_life import equivalent_load, rating_life
-from .chain import solve_chain
+from .chain import shaft_loss, solve_chain
 from .tooth_forces import centres, induced_of
 
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
-NOUT, NIOUT = L.NOUT, L.NIOUT
+NOUT, NIOUT, W_TOLD = L.NOUT, L.NIOUT, L.W_TOLD
 HOLDS_NOT = 3.0  # the number of `holding = off`
 K_Z = (3.1, 4.4, 5.1, 6.0)  # of the types of bearings: SKF's constant of starvation
 COLDEST, HOTTEST = 253.15, 423.15  # K, between which the laws are meant
@@ -201,25 +203,29 @@ def fill_bearings(par: Array, work: Array, out: Array) -> None:
 
 
 @kernel
-def ease(par: Array, inp: Array, state: Array, work: Array, dt: float, ratio: float) -> float:
-    """Let all losses rise so near rest that the shaft does not chatter; return their share.
+def fastest_of(par: Array) -> float:
+    """Return the speed of the fastest shaft over that of the input."""
+    turn, most = 1.0, 1.0
+    for i in range(int(par[L.P_MESHES])):
+        turn /= abs(par[np.uintp(L.D_MESH + i * L.E_ROW + L.E_RATIO)])
+        most = max(most, turn)
+    return most
 
-    ``ratio``: speed of the input over that of the output, with its sign.
-    """
-    speed, loss = inp[L.I_SPEED], inp[L.I_TORQUE] - work[L.W_END] / ratio
-    own = par[L.D_PAIR + G.P_SPEED_SMOOTHING]
-    risen = math.tanh(abs(speed) / own)
-    capacity = abs(loss) / risen if risen > 0.0 else 0.0
-    mem = state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY]
-    way = (M.IDENTIFIED, 0.0, 0, own, False)
-    given, share = hold_drag(way, mem, speed, dt, loss, capacity)
-    if share != 1.0:
-        for k in range(L.MESHES):
-            work[np.uintp(L.W_FRICTION + k)] *= share
-        for k in range(L.SHAFTS * L.LOSSES):
-            work[np.uintp(L.W_LOSS + k)] *= share
-        work[L.W_END] = (inp[L.I_TORQUE] - given) * ratio
-    return share
+
+@kernel
+def capacity_of(par: Array, work: Array, width: float) -> float:
+    """Return all friction that has risen, at the input [N m]; 0 at rest."""
+    first, total = abs(work[L.W_SPEED]), 0.0
+    if first == 0.0:
+        return 0.0
+    for i in range(int(par[L.P_MESHES]) + 1):
+        speed, size = abs(work[np.uintp(L.W_SPEED + i)]), abs(shaft_loss(work, i))
+        if i < int(par[L.P_MESHES]):
+            size += abs(work[np.uintp(L.W_FRICTION + i)])
+        risen = math.tanh(speed / width)
+        if risen > 0.0:
+            total += size * speed / first / risen
+    return total
 
 
 @kernel
@@ -247,19 +253,21 @@ def step(
     for i in range(L.MESHES):
         iout[np.uintp(i * G.NIOUT + G.IO_REGIME)] = G.FILM
         iout[np.uintp(i * G.NIOUT + G.IO_STATUS)] = OK
-    status = solve_chain(par, inp, state, work, iout, t, dt)
+    # the fastest shaft comes nearest to chatter, and no shaft's friction rises over less
+    fastest, mem = fastest_of(par), work[L.W_MEMORY : L.W_MEMORY + M.N_MEMORY]
+    copy(state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY], mem)
+    way = (M.IDENTIFIED, 0.0, 0, par[L.D_PAIR + G.P_SPEED_SMOOTHING] / fastest, False)
+    width = fastest * width_at(way, mem, inp[L.I_SPEED], dt)
+    status = solve_chain(par, inp, width, state, work, iout, dt)
     for k in range(L.NOUT):
         out[np.uintp(k)] = 0.0
     out[L.O_PITTING] = out[L.O_ROOT] = out[L.O_SCUFFING] = G.NO_LIMIT
     out[L.O_LIFE] = 1e12
-    ratio, share = 1.0, 1.0
+    ratio = 1.0
     for i in range(meshes):
         ratio *= -par[np.uintp(L.D_MESH + i * L.E_ROW + L.E_RATIO)]
-    if status < 10 and math.isfinite(work[L.W_END]):
-        share = ease(par, inp, state, work, dt, ratio)
     fill_meshes(par, work, out)
     fill_bearings(par, work, out)
-    out[L.O_HEAT] -= (1.0 / share - 1.0) * out[L.O_MESH_LOSS]
     left, speed = work[L.W_END], work[np.uintp(L.W_SPEED + meshes)]
     out[L.O_LOSS_TORQUE] = inp[L.I_TORQUE] - left / ratio
     out[L.O_OUTPUT_TORQUE], out[L.O_OUTPUT_SPEED] = left, speed
@@ -277,5 +285,10 @@ def step(
         status = NOT_FINITE
     elif dt > 0.0 and status < 10:
         state[L.S_ENERGY] = out[L.O_ENERGY]
+        keep(way, mem, inp[L.I_SPEED], dt, out[L.O_LOSS_TORQUE], capacity_of(par, work, width))
+        copy(mem, state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY])
+    fill_figures(way, mem, work[L.W_TOLD : L.W_TOLD + M.N_FIGURES])
+    if status < 10 and chatters(mem):
+        status = CHATTER
     iout[L.IO_STATUS] = status
     return status if status >= 10 else 0

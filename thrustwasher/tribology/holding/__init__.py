@@ -8,6 +8,7 @@
 ``torque``      the torque that ends the slip with the step
 ``work``        the heat: the work that the shafts do to the unit
 ``drag``        friction that asks nothing and holds nothing, but comes to rest without chatter
+``figures``     the numbers in what a unit says when it cannot hold
 ``parameters``  the parameters that say how a unit holds
 ==============  ================================================================================
 """

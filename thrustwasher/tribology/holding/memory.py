@@ -76,6 +76,19 @@ torque there are sums of the least squares, and the work of the torques.
     106,
 )
 
+# Numbers in what a unit says when it cannot hold.
+(
+    T_TESTS,  # near zero slip in this engagement
+    T_NOISE,  # of the speed: standard deviation [rad/s]
+    T_MOVE,  # what the capacity moves the slip in a step, at most [rad/s]; 0: not known
+    T_SLIP,  # rad/s, where what was given was refuted
+    T_EXPECTED,  # rad/s, the largest one that was
+    T_REPEATS,  # steps over which the speed is the same, 0: it changes with every step
+    T_ENGAGEMENT,  # a number of its own
+    T_ANSWER,  # inertia that answered where another one was given, 0: none did [kg m2]
+    N_FIGURES,
+) = range(9)
+
 IDENTIFIED, GIVEN, OFF = 1, 2, 3  # how it holds
 NOT_LOCKED, BY_ASKING, BY_GIVEN, BY_TRUST = range(4)  # what a lock rests on
 

@@ -3,7 +3,8 @@
 Finite volumes in the plane, conduction across by resistances. Sources and conduction across use
 the same weights as force and torque, so that friction power in is heat out to rounding. A body
 that turns under the load has one balance per ring, the sum over its nodes; the places of its
-temperatures (see the layout) make it so.
+temperatures (see the layout) make it so. Near rest a washer may give a share of the torque of
+sliding; its oil and its asperities make that share of the heat.
 
 Film, where its oil carries heat: carried out - in + exchange with the walls = heat made in it,
 exchange 12 K_oil/h_T per area to the mean of both walls; its heat and that of the asperities
@@ -36,6 +37,13 @@ def far_rise(pt: Point) -> float:
 
 @kernel
 def set_steady(m: WasherModel, pt: Point, f: Fields) -> None:
+    """Let heat flow out as in steady state, and all friction of sliding make heat."""
+    f.small[L.GIVEN], f.small[L.GIVEN_SLOPE] = 1.0, 0.0
+    let_out(m, pt, f)
+
+
+@kernel
+def let_out(m: WasherModel, pt: Point, f: Fields) -> None:
     """Let heat flow out through carrier and gear as in steady state, none into the washer."""
     f.small[L.OUT_CARRIER] = m.carrier_conductivity / m.carrier_thickness
     f.small[L.OUT_WASHER] = 0.0
@@ -185,7 +193,7 @@ def _make_heat(m: WasherModel, pt: Point, temp: Array, f: Fields) -> None:
             shear = per_gap * f.mu[k] * v * v
             if by_pressure:
                 shear += f.made[k]
-            f.made[k] = m.film_heat_fraction * shear
+            f.made[k] = f.small[L.GIVEN] * m.film_heat_fraction * shear
             f.exchange[k] = m.film_exchange * per_gap
             if m.film_step > 0:
                 rise = temp[np.uintp(film + i)]
@@ -201,7 +209,7 @@ def heat_residual(m: WasherModel, pt: Point, temp: Array, f: Fields) -> float:
     """Fill ``f.heat`` [W], heat leaving each node less heat made; return the heat made [W]."""
     n_r = m.n_r
     omega = abs(pt.speed)
-    friction = f.small[L.FRICTION]
+    friction = f.small[L.GIVEN] * f.small[L.FRICTION]
     conduct(m, temp, f, f.heat)
     f.small[L.OUT_SIZE] = 0.0
     if f.small[L.OUT_WASHER] > 0.0 or far_rise(pt) != 0.0:  # in time, or not to the oil
@@ -304,8 +312,10 @@ def heat_change(
     omega, domega = abs(pt.speed), 0.0
     if pt.speed != 0.0:
         domega = change.speed if pt.speed > 0.0 else -change.speed
-    friction = f.small[L.FRICTION]
-    dfriction = f.small[L.FRICTION_SLOPE] * contact_change(f.small, dq)
+    given, dgiven = f.small[L.GIVEN], f.small[L.GIVEN_SLOPE] * change.speed
+    friction = given * f.small[L.FRICTION]
+    dfriction = given * f.small[L.FRICTION_SLOPE] * contact_change(f.small, dq)
+    dfriction += dgiven * f.small[L.FRICTION]
     conduct(m, dtemp, f, heat)
     # in time a rise above warmer oil is less: the body stays as warm as it was
     less_far = change.oil_temperature - change.far_face
@@ -353,7 +363,8 @@ def heat_change(
             )
             if by_pressure:
                 shear += f.doutlet[k]
-            shear *= m.film_heat_fraction
+            shear *= given * m.film_heat_fraction
+            shear += dgiven / given * f.made[k]
             rubbing = w1 * (friction * (dpc * v + f.pc[k] * dv) + dfriction * f.pc[k] * v)
             if cooled:
                 t = np.uintp(film + i)

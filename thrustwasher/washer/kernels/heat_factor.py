@@ -144,7 +144,7 @@ def _assemble(m: WasherModel, pt: Point, f: Fields, b: Blocks) -> None:
     per_oil = 1.0 / m.oil_conductivity
     omega = abs(pt.speed)
     cooled = m.film_step > 0
-    split = m.heat_split
+    split, heated = m.heat_split, f.small[L.GIVEN] * m.film_heat_fraction
     for j in range(n_t):
         jn = j + 1 if j + 1 < n_t else 0
         here, on = _place(j, n_t) * m.per_column, _place(jn, n_t) * m.per_column
@@ -167,7 +167,7 @@ def _assemble(m: WasherModel, pt: Point, f: Fields, b: Blocks) -> None:
             _link(b, band, n, ic, iw, w1 / (f.ht[k] * per_oil + half))
             _add(b, band, n, ic, ic, w1 * out_c)
             _add(b, band, n, iw, iw, w1 * out_w)
-            s = -w1 * part * m.film_heat_fraction * f.dmu[k] * v * v / f.ht[k]
+            s = -w1 * part * heated * f.dmu[k] * v * v / f.ht[k]
             if cooled:
                 t = film + i
                 e = w1 * part * m.film_exchange / f.ht[k]

@@ -170,6 +170,8 @@ RIM_CHANGE = 131  # change of the heat that oil carries over the rims [W], of a 
 # In time: by what the rises outside of the three bodies fall per kelvin of the oil. Slopes of the
 # heat through the far faces of carrier and gear per area, over rise and oil [W/(m^2 K)].
 OUT_OIL, FAR_CARRIER, FAR_GEAR = 132, 135, 137
+# Of the torque of sliding the share that is given near rest, and its slope over the speed [s/rad].
+GIVEN, GIVEN_SLOPE = 139, 140
 N_SMALL = 144
 # Right sides and solutions of the film, node by node: the step at fixed positions, its slopes.
 AT_FIXED, OVER_POSITIONS = 0, 1

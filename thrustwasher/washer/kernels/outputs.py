@@ -3,12 +3,9 @@
 import numpy as np
 
 from ...numerics.arrays import are_finite
-from ...numerics.jit import Array, Ints, inlined, kernel
+from ...numerics.jit import Array, inlined, kernel
 from ...numerics.smoothing import sign_of
-from ...numerics.status import CHATTER, NOT_FINITE, OK
-from ...tribology.holding.drag import hold_drag, slope_of_share, slope_over_capacity
-from ...tribology.holding.memory import Coupling
-from ...tribology.holding.reversals import chatters
+from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
 from .constants import WasherModel
 from .gap import dry_friction, film_change
@@ -20,6 +17,14 @@ from .throughflow import find_flows, flows_change, supply_rise
 from .workspace import Fields, Point, Workspace, fields_of, model_of, vector
 
 MOST_MARGIN = 1000.0  # of `stick_margin`: nothing is to be held
+BY_HEAT = (  # outputs in proportion to the torque
+    L.O_TORQUE,
+    L.O_POWER,
+    L.O_COEFFICIENT,
+    L.O_OIL_HEAT,
+    L.O_THROUGHFLOW_HEAT,
+)
+RISES = (L.O_MEAN, L.O_PEAK, L.O_FILM_TEMPERATURE, L.O_OUTLET)  # over the oil as well
 
 
 @kernel
@@ -101,9 +106,9 @@ def outputs_at(w: Workspace, pt: Point) -> bool:
                 gone += m.oil_storage * f.rim[k] * f.liquid[k] * f.edge[k]
     if m.film_step == 0:
         film = mean
-    torque = viscous + rubbing
+    torque = f.small[L.GIVEN] * (viscous + rubbing)
     power = torque * pt.speed
-    kept_out = (1.0 - m.film_heat_fraction) * viscous * pt.speed
+    kept_out = (1.0 - m.film_heat_fraction) * f.small[L.GIVEN] * viscous * pt.speed
     storage = m.par[L.P_OIL_DENSITY] * m.par[L.P_OIL_HEAT_CAPACITY]
     out[L.O_TORQUE] = torque
     out[L.O_MEAN] = pt.oil_temperature + mean / area
@@ -223,6 +228,8 @@ def change_of_outputs(
             if max(carrier, washer) > hottest:
                 hottest = max(carrier, washer)
                 dhottest = dcarrier if carrier >= washer else dwasher
+    given, dgiven = f.small[L.GIVEN], f.small[L.GIVEN_SLOPE] * change.speed
+    torque = given * torque + dgiven / given * out[L.O_TORQUE]
     dout[L.O_TORQUE] = torque
     dout[L.O_MEAN] = change.oil_temperature + mean / area
     peak = out[L.O_PEAK] > out[L.O_MEAN]
@@ -244,7 +251,8 @@ def change_of_outputs(
     if m.film_step > 0:
         gone = f.small[L.RIM_CHANGE]
     elif pt.speed != 0.0:
-        gone = kept_out + out[L.O_THROUGHFLOW_HEAT] * change.speed / pt.speed
+        faster = change.speed / pt.speed + dgiven / given
+        gone = given * kept_out + out[L.O_THROUGHFLOW_HEAT] * faster
     dout[L.O_THROUGHFLOW_HEAT] = gone
     dout[L.O_OIL_HEAT] = gone + faces
     dout[L.O_OUTLET] = change.oil_temperature
@@ -284,64 +292,36 @@ def keep_book(out: Array, state: Array) -> None:
 
 
 @kernel
-def hold_outputs(
-    way: Coupling, mem: Array, speed: float, dt: float, out: Array, iout: Ints
-) -> None:
-    """Let what hangs on the torque of sliding belong to that of a washer near rest.
+def lessen(share: float, oil: float, out: Array) -> None:
+    """Let outputs of a look-up, those of sliding, be those of a share of the torque near rest.
 
-    What a torque below that of sliding makes less of heat reaches the oil less; gap 2 holds what it
-    holds.
+    Rises over the ``oil`` [K] are as large as the heat that makes them.
     """
-    torque = out[L.O_TORQUE]
-    given, _ = hold_drag(way, mem, speed, dt, torque, abs(torque))
-    if given != torque:
-        if torque != 0.0:
-            share = abs(given / torque)
-            out[L.O_COEFFICIENT] *= share
-            if out[L.O_STICK_MARGIN] < MOST_MARGIN * share:
-                out[L.O_STICK_MARGIN] /= share
-            else:
-                out[L.O_STICK_MARGIN] = MOST_MARGIN
-        out[L.O_TORQUE], out[L.O_POWER] = given, given * speed
-        out[L.O_OIL_HEAT] += (given - torque) * speed
-        out[L.O_ENERGY] += (given - torque) * speed * dt
-        out[L.O_OIL_ENERGY] = out[L.O_ENERGY] - out[L.O_STORED_HEAT]
-    if chatters(mem):
-        iout[L.IO_STATUS] = CHATTER
+    for k in range(len(BY_HEAT)):
+        out[BY_HEAT[k]] *= share
+    for k in range(len(RISES)):
+        out[RISES[k]] = oil + share * (out[RISES[k]] - oil)
+    if out[L.O_STICK_MARGIN] < MOST_MARGIN * share:
+        out[L.O_STICK_MARGIN] /= share
+    else:
+        out[L.O_STICK_MARGIN] = MOST_MARGIN
 
 
 @kernel
-def _hold_changes(own: Array, given: float, rise: float, dout: Array) -> None:
-    """Change what hangs on the torque, ``own`` and ``dout`` of sliding, to a torque that holds.
-
-    ``rise``: its change [N m].
-    """
-    if own[L.O_TORQUE] == 0.0 or given == 0.0:
-        return
-    share = abs(given / own[L.O_TORQUE])
-    more = rise / given - dout[L.O_TORQUE] / own[L.O_TORQUE]
-    dout[L.O_COEFFICIENT] = share * (dout[L.O_COEFFICIENT] + own[L.O_COEFFICIENT] * more)
-    margin, dmargin = own[L.O_STICK_MARGIN], dout[L.O_STICK_MARGIN]
-    dout[L.O_STICK_MARGIN] = 0.0
-    if margin < MOST_MARGIN * share:
-        dout[L.O_STICK_MARGIN] = (dmargin - margin * more) / share
-
-
-@kernel
-def hold_slopes(
-    way: Coupling, mem: Array, speed: float, change: float, own: Array, dout: Array
+def lessen_slopes(
+    share: float, rise: float, oil: float, doil: float, own: Array, dout: Array
 ) -> None:
-    """Turn the slopes of the outputs to those of a torque that rises over a wider speed.
+    """Turn the changes of a look-up's outputs, ``own``, to those of a share of the torque.
 
-    ``change`` of the speed; ``own``: outputs of sliding.
+    ``rise``: relative change of the share; ``doil``: change of the ``oil`` [K].
     """
-    torque = own[L.O_TORQUE]
-    given, share = hold_drag(way, mem, speed, 0.0, torque, abs(torque))
-    if share != 1.0 and torque != 0.0:
-        slope = slope_of_share(way, mem, speed, 0.0, abs(torque))
-        share += slope_over_capacity(way, mem, speed, 0.0, abs(torque))
-        rise, before = share * dout[L.O_TORQUE] + torque * slope * change, dout[L.O_POWER]
-        _hold_changes(own, given, rise, dout)
-        dout[L.O_TORQUE] = rise
-        dout[L.O_POWER] = rise * speed + given * change
-        dout[L.O_OIL_HEAT] += dout[L.O_POWER] - before
+    for k in range(len(BY_HEAT)):
+        at = BY_HEAT[k]
+        dout[at] = share * (dout[at] + rise * own[at])
+    for k in range(len(RISES)):
+        at = RISES[k]
+        dout[at] = doil + share * (dout[at] - doil + rise * (own[at] - oil))
+    margin = own[L.O_STICK_MARGIN]
+    dout[L.O_STICK_MARGIN] = (dout[L.O_STICK_MARGIN] - rise * margin) / share
+    if not margin < MOST_MARGIN * share:
+        dout[L.O_STICK_MARGIN] = 0.0

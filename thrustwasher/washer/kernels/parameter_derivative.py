@@ -24,7 +24,7 @@ from .directional_derivative import (
 )
 from .film import film_solve, hold_pressure, let_flows_follow
 from .gap import dry_friction
-from .heat import contact_change, heat_change, let_film_follow, set_steady
+from .heat import contact_change, heat_change, let_film_follow, let_out
 from .heat_factor import solve_heat
 from .layout import ON_GEAR, ON_WASHER
 from .newton import (
@@ -53,7 +53,7 @@ def residuals_here(w: Workspace, pt: Point, forces: Array, heat: Array) -> bool:
     The film is settled; ``w.outputs`` are those of this state. Returns True if they are finite.
     """
     m, f = model_of(w), fields_of(w)
-    set_steady(m, pt, f)
+    let_out(m, pt, f)
     evaluate(m, pt, w.q, f, False)
     copy(vector(f.small, L.FORCES), forces)
     add_pressure(m, f.p, forces)
@@ -68,7 +68,7 @@ def factor_for_parameters(w: Workspace, pt: Point, mode: float) -> int:
     Returns SINGULAR at a fold if the load is held (``mode`` LOAD).
     """
     m, f = model_of(w), fields_of(w)
-    set_steady(m, pt, f)
+    let_out(m, pt, f)
     evaluate(m, pt, w.q, f, False)
     if not outputs_at(w, pt) or not make_factor(m, pt, w.q, f.temp, f, EXACT):
         return SINGULAR

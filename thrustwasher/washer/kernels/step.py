@@ -5,8 +5,10 @@ The map is a look-up; the other levels are one kernel on meshes.
 
 from ...numerics.arrays import clear, copy
 from ...numerics.jit import Array, Ints, inlined, kernel
-from ...numerics.status import BAD_INPUT, NO_BRANCH, NOT_FINITE, OK, SINGULAR
-from ...tribology.holding.memory import N_MEMORY, Coupling
+from ...numerics.status import BAD_INPUT, CHATTER, NO_BRANCH, NOT_FINITE, OK, SINGULAR
+from ...tribology.holding.drag import keep, risen, wants_capacity, width_at
+from ...tribology.holding.figures import fill_figures
+from ...tribology.holding.memory import CAPACITY, N_FIGURES, N_MEMORY, Coupling
 from ...tribology.holding.reversals import chatters
 from . import layout as L
 from .constants import derive_grid, size_of_par
@@ -16,7 +18,7 @@ from .ladder import set_held, start_terms, stored_heat
 from .layout import N_PARAM, NINP, NIOUT, NOUT
 from .map.map_layout import DATA, MAGIC, PARAMS, ROOM, SIZE
 from .map.map_step import N_MAP_WORK, NOT_HERE, map_sens, map_step
-from .outputs import book, hold_outputs, hold_slopes, keep_book, outputs_at, stick_margin
+from .outputs import book, keep_book, lessen, lessen_slopes, outputs_at
 from .parameter_derivative import SHARES, add_share_slope
 from .regime_and_status import (
     BOUNDARY,
@@ -45,7 +47,9 @@ NPAR = size_of_par(*FINE_GRID)
 NSTATE = size_of_state(*FINE_GRID)
 MAP_WORK = L.N_HEAD + size_of_work(*FINE_GRID)  # behind the fields: scratch of a look-up, then
 BY_MAP = MAP_WORK + N_MAP_WORK  # 1 if the last solution was looked up, then the map itself
-TABLE_AT = BY_MAP + 1
+W_MEMORY = BY_MAP + 1  # of the driveline, while a step is made
+W_TOLD = W_MEMORY + N_MEMORY  # numbers in what the washer says of its speed
+TABLE_AT = W_TOLD + N_FIGURES
 TABLE = {
     "AT": TABLE_AT,
     "ROOM": ROOM,
@@ -120,29 +124,40 @@ def coupling_of(par: Array) -> Coupling:
 def step(
     par: Array, inp: Array, state: Array, work: Array, out: Array, iout: Ints, t: float, dt: float
 ) -> int:
-    """Advance by ``dt``, write the outputs: those of sliding, held where the shaft could stand."""
-    status = slide(par, inp, state, work, out, iout, t, dt)
+    """Advance by ``dt``, write the outputs; near rest with a share of the torque of sliding."""
+    mem, way, speed = work[W_MEMORY:W_TOLD], coupling_of(par), inp[L.I_SPEED]
+    if is_bad(inp):
+        return slide(par, inp, state, work, out, iout, t, dt, 1.0, 0.0)
+    copy(state[L.S_MEMORY : L.S_MEMORY + N_MEMORY], mem)
+    if wants_capacity(way, mem, speed, dt):
+        status = slide(par, inp, state, work, out, iout, t, 0.0, 1.0, 0.0)
+        if status != OK:
+            return status
+        mem[CAPACITY] = abs(out[L.O_TORQUE])
+    share, slope = risen(speed, width_at(way, mem, speed, dt))
+    status = slide(par, inp, state, work, out, iout, t, dt, share, slope)
     if status != OK:
         return status
-    mem = state[L.S_MEMORY : L.S_MEMORY + N_MEMORY]
-    torque = out[L.O_TORQUE]
-    hold_outputs(coupling_of(par), mem, inp[L.I_SPEED], dt, out, iout)
-    if out[L.O_TORQUE] != torque:
-        if torque == 0.0 and work[BY_MAP] != 1.0:
-            w = workspace_of(par, work)
-            out[L.O_STICK_MARGIN] = stick_margin(model_of(w), fields_of(w), out[L.O_TORQUE])
-        if dt > 0.0:
-            keep_book(out, state)
-    if chatters(mem) and par[L.P_THERMAL_MODE] == L.TRANSIENT and dt > 0.0:
-        out[L.O_ADVISED] = min(out[L.O_ADVISED], LESS * dt)
+    if dt > 0.0:
+        torque = out[L.O_TORQUE]
+        keep(way, mem, speed, dt, torque, abs(torque) / share)
+        copy(mem, state[L.S_MEMORY : L.S_MEMORY + N_MEMORY])
+    fill_figures(way, mem, work[W_TOLD:TABLE_AT])
+    if chatters(mem):
+        iout[L.IO_STATUS] = CHATTER
+        if par[L.P_THERMAL_MODE] == L.TRANSIENT and dt > 0.0:
+            out[L.O_ADVISED] = min(out[L.O_ADVISED], LESS * dt)
     return status
 
 
 @kernel
 def slide(
-    par: Array, inp: Array, state: Array, work: Array, out: Array, iout: Ints, t: float, dt: float
-) -> int:
+    par: Array, inp: Array, state: Array, work: Array, out: Array, iout: Ints, t: float, dt: float,
+    share: float, slope: float,
+) -> int:  # fmt: skip
     """Advance by ``dt`` (quasi-steady: solve at the present inputs) and write the outputs.
+
+    Torque and heat are ``share`` of those of sliding, which has a ``slope`` over the speed.
 
     ``inp`` is load, speed, tilt, oil temperature, that of the gear's far face (0: the oil's); a
     sixth entry, if there is one, names the wanted branch, otherwise the one that ``state``
@@ -171,6 +186,8 @@ def slide(
             dt,
         )
         if status == OK:
+            if share != 1.0:
+                lessen(share, pt.oil_temperature, out)
             book(out[L.O_POWER] * dt, 0.0, dt, state, out)
             if dt > 0.0:
                 keep_book(out, state)
@@ -181,7 +198,9 @@ def slide(
             wanted = state[L.S_MAP_BRANCH]
     in_time = par[L.P_THERMAL_MODE] == L.TRANSIENT
     fresh = state[L.S_VALID] != 1.0
-    set_steady(model_of(w), pt, fields_of(w))
+    f = fields_of(w)
+    set_steady(model_of(w), pt, f)
+    f.small[L.GIVEN], f.small[L.GIVEN_SLOPE] = share, slope
     if in_time and fresh and par[L.P_THERMAL_START] == L.FROM_OIL:
         start_cold(w)
     status = OK
@@ -222,20 +241,6 @@ def slide(
 
 @kernel
 def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: Array) -> int:
-    """Fill ``dout`` (NOUT,) as ``slide_sens`` does; where the washer holds, with its slope.
-
-    That of the torque over the speed is then the law's: it ends the speed with the step.
-    """
-    status = slide_sens(par, inp, state, work, seed, dout)
-    mem = state[L.S_MEMORY : L.S_MEMORY + N_MEMORY]
-    if status == OK:
-        own = workspace_of(par, work).outputs
-        hold_slopes(coupling_of(par), mem, inp[L.I_SPEED], seed[L.I_SPEED], own, dout)
-    return status
-
-
-@kernel
-def slide_sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: Array) -> int:
     """Fill ``dout`` (NOUT,), the derivative of the real outputs along ``seed`` (NSEED,).
 
     ``seed`` holds changes of the inputs, then, if it is so long, of the tunable shares of heat.
@@ -246,7 +251,13 @@ def slide_sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, d
     fidelity = par[L.P_FIDELITY]
     pt, change, w = point_of(par, inp), change_of(par, inp, seed), workspace_of(par, work)
     if fidelity == L.MAP and work[BY_MAP] == 1.0:
-        return map_sens(inp, seed, w.outputs, work[MAP_WORK:BY_MAP], work[TABLE_AT:], dout)
+        status = map_sens(inp, seed, w.outputs, work[MAP_WORK:BY_MAP], work[TABLE_AT:], dout)
+        mem = state[L.S_MEMORY : L.S_MEMORY + N_MEMORY]
+        share, slope = risen(pt.speed, width_at(coupling_of(par), mem, pt.speed, 0.0))
+        if status == OK and share != 1.0:
+            rise, doil = slope * change.speed / share, change.oil_temperature
+            lessen_slopes(share, rise, pt.oil_temperature, doil, w.outputs, dout)
+        return status
     if pt.speed == 0.0 and seed[L.I_SPEED] != 0.0 and w.outputs[L.O_CONTACT_LOAD] > 0.0:
         return SINGULAR
     status, by_inputs = OK, False

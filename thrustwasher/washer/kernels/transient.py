@@ -15,7 +15,7 @@ from . import ladder
 from . import layout as L
 from .branch import DESCENT, ENTRY_RATIO, FILM_RATIO, descend, settle
 from .continuation import BUDGET, enter_curve, note, recall, remember, walk_down, walk_to
-from .heat import set_steady
+from .heat import let_out
 from .newton import FILM, LOAD, NO_FLOOR, evaluate_here, is_spent, newton, smooth_film
 from .outputs import outputs_at
 from .solve import recall_state, scan_holds
@@ -173,7 +173,7 @@ def look_for_folds(w: Workspace, pt: Point, state: Array) -> None:
     out, branch = f.small[L.OUT_CARRIER : L.OUT_SIZE], w.found[L.BRANCH]
     carrier, washer, gear = out[0], out[1], out[2]
     copy(f.outward, f.begin)
-    set_steady(m, pt, f)
+    let_out(m, pt, f)
     w.info[L.BUDGET] = w.info[L.ITERATIONS] + BUDGET
     status = descend(w, pt, L.CONTACT_BRANCH)
     w.info[L.BUDGET], w.found[L.BRANCH] = 0.0, branch

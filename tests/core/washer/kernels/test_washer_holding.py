@@ -78,3 +78,30 @@ def test_slopes_of_a_washer_near_rest_are_those_of_its_outputs(name):
     assert washer.k.sens(washer.par, inp, washer.state, washer.work, seed, dout) == Status.OK
     slope = dout[washer.reals.index(name)]
     assert slope == pytest.approx((found[1] - found[0]) / (2.0 * step), rel=1e-4)
+
+
+@pytest.mark.parametrize("changes", [{}, {"thermal_mode": "transient"}])
+def test_slopes_near_rest_are_those_of_one_torque_in_the_film_too(changes):
+    """Friction, heat and temperatures over speed and oil, at a part of the torque."""
+    washer = Part("washer", "field", **changes)
+    washer.par[L.P_HOLDING : L.P_COUPLING_AGE + 1] = M.GIVEN, 1e-5, 0.0
+    for _ in range(3):
+        assert washer.step(at(40.0), H) == Status.OK
+    sliding, size = Part("washer", "field", **changes), {L.I_SPEED: 0.4, L.I_OIL: 0.2}
+    assert sliding.step(at(40.0), H) == Status.OK
+    assert 0.01 < washer["friction_torque"] / sliding["friction_torque"] < 0.5
+    for place, step in size.items():
+        found = []
+        for shift in (-step, step, 0.0):
+            inputs = list(at(40.0))
+            inputs[place] += shift
+            assert washer.step(inputs) == Status.OK
+            found.append(washer.out.copy())
+        dout, seed, inp = np.zeros(washer.k.NOUT), np.zeros(washer.k.NSEED), np.zeros(washer.k.NINP)
+        inp[:4], seed[place] = at(40.0), 1.0
+        assert washer.k.sens(washer.par, inp, washer.state, washer.work, seed, dout) == Status.OK
+        for name in ("friction_torque", "friction_power", "oil_heat", "friction_coefficient"):
+            i = washer.reals.index(name)
+            assert dout[i] == pytest.approx((found[1][i] - found[0][i]) / (2.0 * step), rel=3e-2), (
+                name
+            )

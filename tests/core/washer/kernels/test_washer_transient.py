@@ -205,13 +205,7 @@ def test_a_look_without_time_moves_no_temperature_and_no_memory():
     assert (w.state == kept).all()
 
 
-# ``holding`` lessens the torque after reversals, not the heat of the film that makes it
-ALONE = replace(IN_TIME, holding="off")
-
-
-@pytest.mark.parametrize(
-    "params", [ALONE, replace(DRY, holding="off"), replace(ALONE, conduction="rotating")]
-)
+@pytest.mark.parametrize("params", [IN_TIME, DRY, replace(IN_TIME, conduction="rotating")])
 def test_it_goes_through_whatever_comes(params):
     rng, w = np.random.default_rng(7), Washer(params)
     inputs = [300.0, 545.0, 2e-3, OIL]

@@ -81,8 +81,7 @@ def share_asked(mem: Array, slip: float, near: bool, proved: bool, faint: bool) 
     early = 1.0 <= mem[M.CLOSED] <= FIRST_STEPS
     if proved or mem[M.COUNT] < 1.0 or not (near or early):
         return 0.0
-    made = max(mem[M.HEAT], mem[M.WORK + N_AGES])  # booked, or by the power while no age is known
-    if not (mem[M.ASKED] < FREE or mem[M.SPENT] < SHARE * made):
+    if not (mem[M.ASKED] < FREE or mem[M.SPENT] < SHARE * mem[M.HEAT]):
         return 0.0
     if faint or not near:
         return FAINT

@@ -60,7 +60,7 @@ torque there are sums of the least squares, and the work of the torques.
     LONGEST,  # step [s], of late
     CAPACITY,  # after the last step [N m]
     DEBT,  # negative work that is not paid back [J]
-    WORK,  # of the torques [J], were they of each age; of none; what was booked without one
+    WORK,  # of the torques [J], were they of each age; that of their power where they were given
     HEAT_AGE,  # the age that heat is booked with, and one more; 0: not yet
     HEAT_INERTIA,  # kg m2, the one it is foreseen with
     OWED,  # heat that was booked and is not due [J]
@@ -72,8 +72,8 @@ torque there are sums of the least squares, and the work of the torques.
 ) = (
     *(0, 1, 6, 11, 16, 21, 24, 27, 30, 33, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46),
     *(47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 68, 69, 70),
-    *(71, 72, 73, 76, 77, 79, 80, 81, 82, 83, 84, 85, 86, 87, 92, 93, 94, 95, 96, 97, 98),
-    106,
+    *(71, 72, 73, 76, 77, 79, 80, 81, 82, 83, 84, 85, 86, 87, 91, 92, 93, 94, 95, 96, 97),
+    105,
 )
 
 IDENTIFIED, GIVEN, OFF = 1, 2, 3  # how it holds

@@ -179,7 +179,7 @@ def refuse(coupling: Coupling, mem: Array) -> None:
         forget(mem)
         mem[M.TURN] = 0.0
     mem[M.HEAT_AGE] = 0.0
-    for k in range(N_AGES + 2):
+    for k in range(N_AGES + 1):
         mem[np.uintp(M.WORK + k)] = 0.0
 
 

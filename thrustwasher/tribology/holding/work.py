@@ -1,10 +1,9 @@
 # mypy: disable-error-code="no-any-return"
 """The heat of a unit between two shafts: the work that they do to it.
 
-While nobody knows when a torque acts the least counts that any age would have made; once the slip
-has not answered, or after many steps, the power that the torque had where it was given (trapezoidal
-rule). Once the age is known the difference is owed, and paid by heat to come: heat never falls.
-Negative work is a debt that positive work pays first.
+While nobody knows when a torque acts it is the power that the torque had where it was given
+(trapezoidal rule). Once the age is known the difference is owed, and paid by heat to come: heat
+never falls. Negative work is a debt that positive work pays first.
 
 The torque of the initialization may have acted over the first steps, or not: their slip tells.
 """
@@ -14,15 +13,7 @@ import numpy as np
 from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import sign_of
 from . import memory as M
-from .asking import FREE, N_AGES
-
-MANY = 400.0  # steps: an age, at most two steps, makes a difference of half a per cent
-
-
-@kernel
-def _is_open(mem: Array) -> bool:
-    """Tell if the age may still be found soon enough to matter."""
-    return mem[M.ASKED] < 1.5 * FREE and mem[M.COUNT] < MANY
+from .asking import N_AGES
 
 
 @kernel
@@ -61,10 +52,9 @@ def book(mem: Array, slip: float, age: int, inertia: float) -> None:
         return
     basis = int(mem[M.HEAT_AGE]) - 1
     if age != basis:
-        if basis >= 0 and age >= 0:
-            mem[M.OWED] += mem[np.uintp(M.WORK + basis)] - mem[np.uintp(M.WORK + age)]
-        elif age >= 0:
-            mem[M.OWED] += mem[M.WORK + N_AGES + 1] - mem[np.uintp(M.WORK + age)]
+        if age >= 0:
+            booked = basis if basis >= 0 else N_AGES
+            mem[M.OWED] += mem[np.uintp(M.WORK + booked)] - mem[np.uintp(M.WORK + age)]
         mem[M.HEAT_AGE] = float(age + 1)
     turned = 0.5 * (mem[M.SLIP] + slip) * mem[M.STEP]
     for k in range(N_AGES):
@@ -74,25 +64,15 @@ def book(mem: Array, slip: float, age: int, inertia: float) -> None:
     elif age > 0 and mem[M.FIRST] != 0.0:
         _before_the_start(mem, age, inertia)
     if age < 0:
-        made = 0.5 * (mem[M.STEP] + mem[M.STEP + 1]) * abs(mem[M.TORQUE] * mem[M.SLIP])
+        made = 0.5 * (mem[M.STEP] + mem[M.STEP + 1]) * mem[M.TORQUE] * mem[M.SLIP]
         mem[M.WORK + N_AGES] += made
-        due = mem[M.WORK + N_AGES]
-        if _is_open(mem):
-            for k in range(N_AGES):
-                if mem[np.uintp(M.WORK + k)] < due:
-                    due, mem[M.RISES] = mem[np.uintp(M.WORK + k)], mem[np.uintp(M.TORQUE + k)]
-        if due <= mem[M.WORK + N_AGES + 1]:
-            mem[M.RISES] = 0.0
-        made = max(0.0, due - mem[M.WORK + N_AGES + 1])
-        mem[M.WORK + N_AGES + 1] += made
-        mem[M.HEAT] += made
-        return
-    made = mem[np.uintp(M.TORQUE + age)] * turned
+    else:
+        made = mem[np.uintp(M.TORQUE + age)] * turned
     paid = min(max(made, 0.0), mem[M.DEBT])
     mem[M.DEBT] += max(-made, 0.0) - paid
     rest = max(made, 0.0) - paid - mem[M.OWED]
     mem[M.HEAT] += max(rest, 0.0)
-    if rest > 0.0:
+    if age >= 0 and rest > 0.0:
         mem[M.RISES] = mem[np.uintp(M.TORQUE + age)]
     mem[M.OWED] = max(-rest, 0.0)
 
@@ -109,8 +89,6 @@ def foreseen(mem: Array, slip: float, h: float, torque: float) -> float:
             change -= (acting - mem[np.uintp(M.TORQUE + age)]) / inertia * h
     change = min(abs(slip), max(-abs(slip), change))  # a short step says little of a long one
     made = max(acting * (slip + 0.5 * change) * h, 0.0)
-    if age < 0 and _is_open(mem):
-        return 0.0
     if age < 0:  # half of the last step is not booked yet
-        return made + 0.5 * mem[M.STEP] * abs(torque * slip)
+        made += 0.5 * mem[M.STEP] * max(torque * slip, 0.0)
     return max(made - mem[M.DEBT] - mem[M.OWED], 0.0)

@@ -30,7 +30,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 NUMBAS = "NUMBA_CACHE_DIR"
 KEPT_VERSIONS = 5
 PACKAGE = Path(__file__).parents[1]
-KERNELS = ("numerics", "tribology", "**/kernels", "**/kernels/map")  # folders of kernels
+KERNELS = ("numerics", "tribology/**", "**/kernels", "**/kernels/map")  # folders of kernels
 WAYS = ("native", "jit", "python")
 
 

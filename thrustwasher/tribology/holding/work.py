@@ -2,8 +2,9 @@
 """The heat of a unit between two shafts: the work that they do to it.
 
 While nobody knows when a torque acts it is the power that the torque had where it was given
-(trapezoidal rule). Once the age is known the difference is owed, and paid by heat to come: heat
-never falls. Negative work is a debt that positive work pays first.
+(trapezoidal rule); in the first dozen steps, after which exact speeds have told the age, the least
+that any age would have made. Once the age is known a difference is owed, and paid by heat to come:
+heat never falls. Negative work is a debt that positive work pays first.
 
 The torque of the initialization may have acted over the first steps, or not: their slip tells.
 """
@@ -14,6 +15,14 @@ from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import sign_of
 from . import memory as M
 from .asking import N_AGES
+
+YOUNG = 12.0  # steps of an engagement in which the least counts
+
+
+@kernel
+def _is_young(mem: Array) -> bool:
+    """Tell if exact speeds may still tell the age."""
+    return mem[M.CLOSED] <= YOUNG
 
 
 @kernel
@@ -38,6 +47,7 @@ def _before_the_start(mem: Array, age: int, inertia: float) -> None:
         if abs(acted - first) < abs(acted):
             made = first * mem[np.uintp(M.FIRST + 5 + k)]
             mem[np.uintp(M.WORK + age)] += made
+            mem[M.WORK + N_AGES + 1] += made
             mem[M.OWED] -= made
 
 
@@ -53,8 +63,8 @@ def book(mem: Array, slip: float, age: int, inertia: float) -> None:
     basis = int(mem[M.HEAT_AGE]) - 1
     if age != basis:
         if age >= 0:
-            booked = basis if basis >= 0 else N_AGES
-            mem[M.OWED] += mem[np.uintp(M.WORK + booked)] - mem[np.uintp(M.WORK + age)]
+            mem[M.OWED] += mem[M.WORK + N_AGES + 1] - mem[np.uintp(M.WORK + age)]
+            mem[M.WORK + N_AGES + 1] = mem[np.uintp(M.WORK + age)]
         mem[M.HEAT_AGE] = float(age + 1)
     turned = 0.5 * (mem[M.SLIP] + slip) * mem[M.STEP]
     for k in range(N_AGES):
@@ -63,11 +73,17 @@ def book(mem: Array, slip: float, age: int, inertia: float) -> None:
         _note_first(mem, slip)
     elif age > 0 and mem[M.FIRST] != 0.0:
         _before_the_start(mem, age, inertia)
-    if age < 0:
-        made = 0.5 * (mem[M.STEP] + mem[M.STEP + 1]) * mem[M.TORQUE] * mem[M.SLIP]
-        mem[M.WORK + N_AGES] += made
-    else:
+    power = mem[M.TORQUE] * mem[M.SLIP]
+    mem[M.WORK + N_AGES] += 0.5 * (mem[M.STEP] + mem[M.STEP + 1]) * power
+    if age >= 0:
         made = mem[np.uintp(M.TORQUE + age)] * turned
+    else:
+        due = mem[M.WORK + N_AGES]
+        if _is_young(mem):
+            for k in range(N_AGES):
+                due = min(due, mem[np.uintp(M.WORK + k)])
+        made = max(0.0, due - mem[M.WORK + N_AGES + 1])
+    mem[M.WORK + N_AGES + 1] += made
     paid = min(max(made, 0.0), mem[M.DEBT])
     mem[M.DEBT] += max(-made, 0.0) - paid
     rest = max(made, 0.0) - paid - mem[M.OWED]
@@ -89,6 +105,8 @@ def foreseen(mem: Array, slip: float, h: float, torque: float) -> float:
             change -= (acting - mem[np.uintp(M.TORQUE + age)]) / inertia * h
     change = min(abs(slip), max(-abs(slip), change))  # a short step says little of a long one
     made = max(acting * (slip + 0.5 * change) * h, 0.0)
+    if age < 0 and mem[M.COUNT] > 0.0 and _is_young(mem):
+        return 0.0
     if age < 0:  # half of the last step is not booked yet
         made += 0.5 * mem[M.STEP] * max(torque * slip, 0.0)
     return max(made - mem[M.DEBT] - mem[M.OWED], 0.0)

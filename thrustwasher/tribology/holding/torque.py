@@ -53,7 +53,10 @@ SMOOTH = 1e-3  # of the largest slip: over which the torque of an unknown plant 
 FEW, ALL = 0.03, 1.0  # of the last swings: at most; where the plant is nearly proved
 NEARLY = 7.0  # standard deviations of an answer
 START = 0.01  # of the capacity: what a pack that is stuck at the start gives more in each step
+EARLY = 5.0  # steps of slip in which the pack's own torque hardly changes it
 FEELS = 12.0  # steps of slip after which it is stuck no more
+TURNS = 1.2  # times the mean change of the slip: by more a shaft that was at rest changes none
+EASILY = 1.9  # times the torque that is to be held: with that a pack that was stuck ends its slip
 FULL = 0.5  # of the capacity: one that gives it is stuck no more
 VAGUE, BADLY = 0.03, 0.15  # relative error of the inertia: above it the slip is ended in part
 STEADY, CAREFUL, SLOWEST = 1.0, 0.5, 0.3  # share of the slip that is ended in a step
@@ -65,9 +68,9 @@ SMALL = 1e-3  # of the largest slip: a pack that slips by less is locked
 ANSWERS, SAID = 4.0, 34.0  # steps after the last question: an answer may come, it is told
 ANSWERED = 2.0  # what was given is refuted by an answer: the driveline is another one
 OFTEN = 5.0  # times that the slip came to the bit again, over the same number of steps: it is held
-DROWNED = 0.3  # x
-SURELY = 7.0  # x
-ESCAPED = 3.0  # x
+DROWNED = 0.3  # of the slip that capacity makes in a step: noise in which nothing is held
+SURELY = 7.0  # ln of the likelihood, 1000: with it an answer confirms or refutes
+ESCAPED = 3.0  # doubts: a slip that is held and leaves its reach
 MANY = 3.5  # reversals of late
 
 
@@ -190,17 +193,18 @@ def book_heat(coupling: Coupling, mem: Array, slip: float) -> None:
 @kernel
 def refuse(coupling: Coupling, mem: Array) -> None:
     """Forget the plant, or refuse the one that was given until the pack was open."""
-    was_right = coupling[0] == M.IDENTIFIED or mem[M.CONFIRMED] > 0.0
+    if coupling[0] == M.GIVEN and mem[M.CONFIRMED] == 0.0:  # its age was no better
+        late = mem[M.WORK + N_AGES] - mem[M.WORK + N_AGES + 1]
+        mem[M.OWED] -= max(0.0, late)
     if coupling[0] == M.GIVEN:
         mem[M.REFUSED], mem[M.CAREFUL] = 1.0, ANSWERED if mem[M.KNOWN] > 0.0 else 0.0
         mem[M.KNOWN] = mem[M.DOUBT] = mem[M.HELD] = 0.0
     else:
         forget(mem)
         mem[M.TURN] = 0.0
-    if was_right:  # what was booked stays
-        mem[M.HEAT_AGE] = 0.0
-        for k in range(N_AGES + 2):
-            mem[np.uintp(M.WORK + k)] = 0.0
+    mem[M.HEAT_AGE] = 0.0
+    for k in range(N_AGES + 2):
+        mem[np.uintp(M.WORK + k)] = 0.0
 
 
 @kernel
@@ -246,7 +250,7 @@ def _reach(coupling: Coupling, mem: Array, slip: float, made: float) -> float:
     """Return the slip [rad/s] up to which a torque other than that of sliding is given."""
     late = 1.0 + age_of(coupling, mem)
     reach = 2.0 * late * made + 4.0 * mem[M.NOISE]
-    if mem[M.HELD] == 0.0 and mem[M.COUNT] > 0.0:
+    if mem[M.HELD] == 0.0 and mem[M.COUNT] > 0.0 and mem[M.STUCK] == 0.0:
         move = REACH * late * largest_move(mem, slip)
         reach = min(reach, move + SMALL * mem[M.MOST_SLIP])
     return reach
@@ -308,14 +312,17 @@ def _of_unknown(
         width = max(width, broad)
     width = max(max(width, min(wide * swing, broad)), 1e-300)
     share = math.tanh(slip / width)
+    if not capacity > 0.0 and slip != 0.0:
+        mem[M.STUCK] = 0.0  # nothing held it
     if mem[M.STUCK] > 0.0 and mem[M.COUNT] > 0.0 and capacity > 0.0:
         mem[M.FELT] += 1.0 if slip != 0.0 else 0.0
-        if mem[M.FELT] > FEELS:
-            mem[M.STUCK] = 0.0
+        turns = abs(slip - 2.0 * mem[M.SLIP] + mem[M.SLIP + 1])
+        odd = mem[M.FELT] <= EARLY and mem[M.FELT] * turns > TURNS * mem[M.MOST_SLIP]
+        if mem[M.FELT] > FEELS or odd:
+            mem[M.STUCK] = 0.0  # no shaft that a steady torque sets in motion
         last = abs(mem[M.TORQUE]) / capacity
-        most = 2.0 * last + START
-        if share * mem[M.TORQUE] < 0.0 or abs(slip) < abs(mem[M.SLIP]):
-            most = last + 0.5 * START
+        grows = mem[M.FELT] * (abs(slip) - abs(mem[M.SLIP])) / max(mem[M.MOST_SLIP], 1e-300)
+        most = last + START * min(1.0, max(0.0, grows))
         if abs(share) > most:
             return math.copysign(most, share), 0.0
         if abs(share) > FULL:
@@ -357,6 +364,12 @@ def decide(
             number = 0.0 if drives else number
             if mem[M.DOUBT] > 6.0 + 2.0 * age_of(coupling, mem):
                 refuse(coupling, mem)
+        if mem[M.STUCK] > 0.0 and not slides and coupling[0] == M.IDENTIFIED:
+            most = EASILY * abs(inertia_of(coupling, mem) * mem[M.OUTSIDE])
+            if abs(number) > most:
+                number, slope = math.copysign(most, number), 0.0
+            elif mem[M.HELD] > 3.0 + age_of(coupling, mem):
+                mem[M.STUCK] = 0.0
         if not slides and abs(number) < capacity:
             _verify(coupling, mem, slip, made)
         _count_reversals(coupling, mem)

@@ -79,7 +79,7 @@ def test_a_driveline_that_was_given_and_is_not_there_makes_no_heat_wrong(kind):
         slid = unit.capacity * np.abs(slip).sum() * h
         assert sum(work) == pytest.approx(slid, rel=0.02)
         assert -sum(w for w in work if w < 0.0) < 0.005 * slid
-        assert unit.energy == pytest.approx(slid, rel=0.025)
+        assert unit.energy == pytest.approx(slid, rel=0.03)  # at the age that is given
 
 
 def test_heat_is_booked_as_it_arises():

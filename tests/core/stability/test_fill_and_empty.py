@@ -19,7 +19,8 @@ SHOWN = ("torque_capacity", "film_ratio", "temperature", "energy")
 
 def run(step, parts, loads=(PRESSED, 0.0, PRESSED, 0.0), **params):
     """Return what is shown after each load, held for ``step`` in so many parts."""
-    pack = DirectInstance(SPEC, parameters={"initial_film": 2.5e-4, **params})
+    # a pack that asks lowers its torque in some steps, be they long or short
+    pack = DirectInstance(SPEC, parameters={"initial_film": 2.5e-4, "holding": "off", **params})
     pack.initialize(0.0, {"load": 0.0, "speed": SLIP, "oil_temperature": OIL})
     shown, t = [], 0.0
     for load in loads:

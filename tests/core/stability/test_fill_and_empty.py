@@ -19,6 +19,7 @@ SHOWN = ("torque_capacity", "film_ratio", "temperature", "energy")
 
 def run(step, parts, loads=(PRESSED, 0.0, PRESSED, 0.0), **params):
     """Return what is shown after each load, held for ``step`` in so many parts."""
+    # a pack that asks lowers its torque in some steps, be they long or short
     pack = DirectInstance(SPEC, parameters={"initial_film": 2.5e-4, "holding": "off", **params})
     pack.initialize(0.0, {"load": 0.0, "speed": SLIP, "oil_temperature": OIL})
     shown, t = [], 0.0
@@ -74,7 +75,6 @@ def test_looking_ahead_over_ten_seconds_it_says_that_it_is_too_hot():
             "initial_film": 2.5e-4,
             "input_profile": "linear",
             "starts_pressed": True,
-            "holding": "off",
         },
     )
     pack.initialize(0.0, {"load": PRESSED, "speed": SLIP, "oil_temperature": OIL})

@@ -73,18 +73,17 @@ def is_clean(mem: Array, slip: float) -> bool:
 
 
 @kernel
-def share_asked(mem: Array, slip: float, near: bool, proved: bool, faint: bool) -> float:
+def share_asked(mem: Array, slip: float, near: bool, proved: bool) -> float:
     """Return the share of the torque that a bit takes away now, 0 where nothing is to be asked.
 
-    ``proved``: the plant is known well. ``faint``: the least share will do.
+    ``proved``: the plant is known well.
     """
     early = 1.0 <= mem[M.CLOSED] <= FIRST_STEPS
     if proved or mem[M.COUNT] < 1.0 or not (near or early):
         return 0.0
-    made = max(mem[M.HEAT], mem[M.WORK + N_AGES])  # booked, or by the power while no age is known
-    if not (mem[M.ASKED] < FREE or mem[M.SPENT] < SHARE * made):
+    if not (mem[M.ASKED] < FREE or mem[M.SPENT] < SHARE * mem[M.HEAT]):
         return 0.0
-    if faint or not near:
+    if not near:
         return FAINT
     rate = max(rate_of(mem, slip), 1e-300)
     return min(DEEPEST, max(FAINT, CLEAR * math.sqrt(mem[M.ROUGH]) / rate))

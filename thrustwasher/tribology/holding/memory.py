@@ -36,6 +36,8 @@ torque there are sums of the least squares, and the work of the torques.
     OUTSIDE,  # acceleration of the slip by all other torques [rad/s2]
     DOUBT,
     REFUSED,  # 1: the values that were given are refuted in this engagement
+    CONFIRMED,  # 1: the slip has answered as what was given says, in this engagement
+    LOST,  # 1: the noise of the speeds is too large to hold by what was given
     CAREFUL,  # 1: what was given ends the slip in part; 2: an answer refuted it
     STUCK,  # the pack was stuck at the start
     FELT,  # steps of slip since then
@@ -60,7 +62,7 @@ torque there are sums of the least squares, and the work of the torques.
     LONGEST,  # step [s], of late
     CAPACITY,  # after the last step [N m]
     DEBT,  # negative work that is not paid back [J]
-    WORK,  # of the torques [J], were they of each age; of none; what was booked without one
+    WORK,  # of the torques [J], were they of each age; by the power where they were given; counted
     HEAT_AGE,  # the age that heat is booked with, and one more; 0: not yet
     HEAT_INERTIA,  # kg m2, the one it is foreseen with
     OWED,  # heat that was booked and is not due [J]
@@ -71,9 +73,11 @@ torque there are sums of the least squares, and the work of the torques.
     N_MEMORY,
 ) = (
     *(0, 1, 6, 11, 16, 21, 24, 27, 30, 33, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46),
-    *(47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 68, 69, 70),
-    *(71, 72, 73, 76, 77, 79, 80, 81, 82, 83, 84, 85, 86, 87, 92, 93, 94, 95, 96, 97, 98),
-    106,
+    *(47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 70),
+    *(71, 72, 73, 74, 75, 78, 79, 81, 82, 83, 84, 85, 86, 87, 88, 89, 94, 95, 96, 97, 98),
+    99,
+    100,
+    108,
 )
 
 # Numbers in what a unit says when it cannot hold.

@@ -32,7 +32,8 @@ LEVER = 0.1  # of the coded part's squares: from there on the other part is judg
 ALIKE_LEAST, ALIKE_MOST = 0.5, 2.0  # its slope over that of the coded part
 SEEN = 4.0  # steps that a sample is made of
 CERTAIN = 4.0  # standard deviations, neighbouring samples going together
-LESS, MORE = 0.5, 1.4  # times the answer that was given: it is refuted
+WEAK = 0.25  # times that answer: less is none
+LESS, MORE = 0.4, 1.4  # times the answer that was given: it is refuted
 ENOUGH = 8.0  # weight of samples from which on they bound the answer
 FADED = 0.9  # of the mean square of the slip's third difference, at each new one
 
@@ -178,6 +179,22 @@ def _judge(mem: Array) -> None:
         mem[M.REVERSALS] = mem[M.DOUBT] = 0.0
     mem[M.KNOWN], mem[M.INERTIA], mem[M.AGE] = 1.0, 1.0 / answer, float(age)
     mem[M.ERROR], mem[M.NOISE] = error, math.sqrt(left / (n - 1.0) / 20.0) * mem[M.STEP]
+
+
+@kernel
+def evidence(mem: Array, inertia: float, age: int) -> float:
+    """Return ln of the likelihood of an answer as of ``inertia`` [kg m2] over that of none."""
+    n = mem[M.WEIGHT]
+    if n < ENOUGH:
+        return 0.0
+    _, left, answer, by_rest, own = fit(mem, age)
+    if own == 0.0:
+        return 0.0
+    spread = ALIKE * left / (n - 2.0)
+    found = own * (2.0 * answer - 1.0 / inertia) / inertia / (2.0 * spread + 1e-300)
+    if found < 0.0:  # a weak answer is another matter
+        return found if answer < WEAK / inertia else 0.0
+    return found if _is_alike(mem, age, answer, by_rest) else 0.0
 
 
 @kernel

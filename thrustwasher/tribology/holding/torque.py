@@ -41,7 +41,7 @@ from .asking import (
     share_asked,
 )
 from .memory import Coupling
-from .plant import SEEN, excludes, forget, largest_answer, learn
+from .plant import SEEN, evidence, excludes, forget, largest_answer, learn
 from .reversals import calm, chatters, count_repeats, watch
 from .work import book
 
@@ -53,7 +53,10 @@ SMOOTH = 1e-3  # of the largest slip: over which the torque of an unknown plant 
 FEW, ALL = 0.03, 1.0  # of the last swings: at most; where the plant is nearly proved
 NEARLY = 7.0  # standard deviations of an answer
 START = 0.01  # of the capacity: what a pack that is stuck at the start gives more in each step
+EARLY = 5.0  # steps of slip in which the pack's own torque hardly changes it
 FEELS = 12.0  # steps of slip after which it is stuck no more
+TURNS = 1.2  # times the mean change of the slip: by more a shaft that was at rest changes none
+EASILY = 1.9  # times the torque that is to be held: with that a pack that was stuck ends its slip
 FULL = 0.5  # of the capacity: one that gives it is stuck no more
 VAGUE, BADLY = 0.03, 0.15  # relative error of the inertia: above it the slip is ended in part
 STEADY, CAREFUL, SLOWEST = 1.0, 0.5, 0.3  # share of the slip that is ended in a step
@@ -65,6 +68,9 @@ SMALL = 1e-3  # of the largest slip: a pack that slips by less is locked
 ANSWERS, SAID = 4.0, 34.0  # steps after the last question: an answer may come, it is told
 ANSWERED = 2.0  # what was given is refuted by an answer: the driveline is another one
 OFTEN = 5.0  # times that the slip came to the bit again, over the same number of steps: it is held
+DROWNED = 0.3  # of the slip that capacity makes in a step: noise in which nothing is held
+SURELY = 7.0  # ln of the likelihood, 1000: with it an answer confirms or refutes
+ESCAPED = 3.0  # doubts: a slip that is held and leaves its reach
 MANY = 3.5  # reversals of late
 
 
@@ -76,9 +82,25 @@ def is_given(coupling: Coupling, mem: Array) -> bool:
 
 
 @kernel
+def is_unproved(coupling: Coupling, mem: Array) -> bool:
+    """Tell if the slip has still to answer as what was given says."""
+    mode, _, _, _, probing = coupling
+    return mode == M.GIVEN and probing and mem[M.CONFIRMED] == 0.0
+
+
+@kernel
+def is_deaf(coupling: Coupling, mem: Array) -> bool:
+    """Tell if the slip has not answered what was asked of it."""
+    heard = mem[M.CONFIRMED] if coupling[0] == M.GIVEN else mem[M.KNOWN]
+    return heard == 0.0 and mem[M.ASKED] >= FREE
+
+
+@kernel
 def knows(coupling: Coupling, mem: Array) -> bool:
-    """Tell if the driveline is known."""
-    return is_given(coupling, mem) or (mem[M.KNOWN] > 0.0 and coupling[0] == M.IDENTIFIED)
+    """Tell if the driveline is known: proved, or given, neither refuted nor lost in noise."""
+    if coupling[0] == M.IDENTIFIED:
+        return mem[M.KNOWN] > 0.0
+    return is_given(coupling, mem) and mem[M.LOST] == 0.0
 
 
 @kernel
@@ -124,12 +146,6 @@ def slope_of_bound(coupling: Coupling, mem: Array, capacity: float, h: float) ->
 
 
 @kernel
-def is_deaf(mem: Array) -> bool:
-    """Tell if the slip has not answered what was asked of it."""
-    return mem[M.KNOWN] == 0.0 and mem[M.ASKED] >= FREE
-
-
-@kernel
 def basis_of(coupling: Coupling, locked: bool) -> int:
     """Return what a lock rests on: nothing, what was asked, what was given, what was trusted."""
     mode, _, _, _, probing = coupling
@@ -156,15 +172,20 @@ def notice(coupling: Coupling, mem: Array, slip: float) -> None:
     learn(mem, slip, 1.0 / coupling[1] if given else 0.0, age if given else 0)
     if given:
         mem[M.NOISE] = math.sqrt(mem[M.ROUGH] / 20.0)
-        if probing and excludes(mem, coupling[1], age):
-            refuse(coupling, mem)
+        if probing:
+            found = evidence(mem, coupling[1], age)
+            if found > SURELY:
+                mem[M.CONFIRMED] = 1.0
+            if found < -SURELY or excludes(mem, coupling[1], age):
+                refuse(coupling, mem)
 
 
 @kernel
 def book_heat(coupling: Coupling, mem: Array, slip: float) -> None:
     """Book the heat of the step that ended at ``slip`` [rad/s]."""
     age, inertia = age_of(coupling, mem), inertia_of(coupling, mem)
-    if age < 0 and coupling[0] == M.IDENTIFIED:  # that which was known last
+    kept = coupling[0] == M.IDENTIFIED or mem[M.CONFIRMED] > 0.0
+    if age < 0 and kept and mem[M.REFUSED] == 0.0:  # that which was known last
         age, inertia = int(mem[M.HEAT_AGE]) - 1, mem[M.HEAT_INERTIA]
     book(mem, slip, age, inertia)
 
@@ -172,6 +193,9 @@ def book_heat(coupling: Coupling, mem: Array, slip: float) -> None:
 @kernel
 def refuse(coupling: Coupling, mem: Array) -> None:
     """Forget the plant, or refuse the one that was given until the pack was open."""
+    if coupling[0] == M.GIVEN and mem[M.CONFIRMED] == 0.0:  # its age was no better
+        late = mem[M.WORK + N_AGES] - mem[M.WORK + N_AGES + 1]
+        mem[M.OWED] -= max(0.0, late)
     if coupling[0] == M.GIVEN:
         mem[M.REFUSED], mem[M.CAREFUL] = 1.0, ANSWERED if mem[M.KNOWN] > 0.0 else 0.0
         mem[M.KNOWN] = mem[M.DOUBT] = mem[M.HELD] = 0.0
@@ -226,7 +250,7 @@ def _reach(coupling: Coupling, mem: Array, slip: float, made: float) -> float:
     """Return the slip [rad/s] up to which a torque other than that of sliding is given."""
     late = 1.0 + age_of(coupling, mem)
     reach = 2.0 * late * made + 4.0 * mem[M.NOISE]
-    if mem[M.HELD] == 0.0 and mem[M.COUNT] > 0.0:
+    if mem[M.HELD] == 0.0 and mem[M.COUNT] > 0.0 and mem[M.STUCK] == 0.0:
         move = REACH * late * largest_move(mem, slip)
         reach = min(reach, move + SMALL * mem[M.MOST_SLIP])
     return reach
@@ -288,14 +312,17 @@ def _of_unknown(
         width = max(width, broad)
     width = max(max(width, min(wide * swing, broad)), 1e-300)
     share = math.tanh(slip / width)
+    if not capacity > 0.0 and slip != 0.0:
+        mem[M.STUCK] = 0.0  # nothing held it
     if mem[M.STUCK] > 0.0 and mem[M.COUNT] > 0.0 and capacity > 0.0:
         mem[M.FELT] += 1.0 if slip != 0.0 else 0.0
-        if mem[M.FELT] > FEELS:
-            mem[M.STUCK] = 0.0
+        turns = abs(slip - 2.0 * mem[M.SLIP] + mem[M.SLIP + 1])
+        odd = mem[M.FELT] <= EARLY and mem[M.FELT] * turns > TURNS * mem[M.MOST_SLIP]
+        if mem[M.FELT] > FEELS or odd:
+            mem[M.STUCK] = 0.0  # no shaft that a steady torque sets in motion
         last = abs(mem[M.TORQUE]) / capacity
-        most = 2.0 * last + START
-        if share * mem[M.TORQUE] < 0.0 or abs(slip) < abs(mem[M.SLIP]):
-            most = last + 0.5 * START
+        grows = mem[M.FELT] * (abs(slip) - abs(mem[M.SLIP])) / max(mem[M.MOST_SLIP], 1e-300)
+        most = last + START * min(1.0, max(0.0, grows))
         if abs(share) > most:
             return math.copysign(most, share), 0.0
         if abs(share) > FULL:
@@ -316,17 +343,33 @@ def decide(
         forget(mem)
         calm(mem)
         mem[M.ASKED] = mem[M.CLOSED] = mem[M.TURN] = 0.0
-        mem[M.REFUSED] = mem[M.CAREFUL] = mem[M.REPEATS] = 0.0
+        mem[M.REFUSED] = mem[M.CONFIRMED] = mem[M.CAREFUL] = mem[M.REPEATS] = 0.0
         mem[M.LEAST] = capacity
     elif capacity > CLOSED * mem[M.LEAST]:
         mem[M.ASKED], mem[M.CLOSED] = 0.0, min(mem[M.CLOSED], SEEN)
         mem[M.LEAST] = capacity
+    mem[M.LOST] = 0.0
+    if is_given(coupling, mem) and coupling[4] and h > 0.0 and capacity > 0.0:
+        if mem[M.NOISE] * coupling[1] > DROWNED * capacity * h:
+            mem[M.LOST] = 1.0
     slides, number, slope, coded, made = True, 0.0, 0.0, 0.0, 0.0
     if knows(coupling, mem) and h > 0.0:
         made = capacity * h / inertia_of(coupling, mem)
         gain = gain_of(coupling, mem, made)
         number, slope, mem[M.OUTSIDE] = _wanted(coupling, mem, slip, h, gain)
         slides = abs(slip) > _reach(coupling, mem, slip, made)
+        drives = not slides and number * slip < 0.0 and abs(number) > capacity
+        if ((slides and mem[M.HELD] > 0.0) or drives) and is_unproved(coupling, mem):
+            mem[M.DOUBT] += ESCAPED
+            number = 0.0 if drives else number
+            if mem[M.DOUBT] > 6.0 + 2.0 * age_of(coupling, mem):
+                refuse(coupling, mem)
+        if mem[M.STUCK] > 0.0 and not slides and coupling[0] == M.IDENTIFIED:
+            most = EASILY * abs(inertia_of(coupling, mem) * mem[M.OUTSIDE])
+            if abs(number) > most:
+                number, slope = math.copysign(most, number), 0.0
+            elif mem[M.HELD] > 3.0 + age_of(coupling, mem):
+                mem[M.STUCK] = 0.0
         if not slides and abs(number) < capacity:
             _verify(coupling, mem, slip, made)
         _count_reversals(coupling, mem)
@@ -353,7 +396,7 @@ def _slide(
     if not known:
         share, slope = _of_unknown(coupling, mem, slip, h, capacity)
     given = is_given(coupling, mem)
-    near = is_near(mem, slip, NEAR_GIVEN if given else NEAR)
+    near = is_near(mem, slip, NEAR_GIVEN if given and is_clean(mem, slip) else NEAR)
     unclear = mem[M.ASKED] == 0.0 and is_clean(mem, slip)  # what was asked from afar
     from_afar = mem[M.AWAY] > FIRST_STEPS and (mem[M.KNOWN] > 0.0 or unclear)
     if near and from_afar and not given:
@@ -362,7 +405,7 @@ def _slide(
     if not probing or mem[M.REFUSED] > 0.0 or (given and not near):
         return share, slope, 0.0
     proved = mem[M.KNOWN] > 0.0 and mem[M.ERROR] <= SURE
-    depth = share_asked(mem, slip, near, proved, given)
+    depth = share_asked(mem, slip, near, proved)
     if mem[M.STUCK] > 0.0 and depth > 0.0:
         depth = DEEPEST  # of a torque that is small yet
     if depth == 0.0:
@@ -415,7 +458,7 @@ def told_of(coupling: Coupling, mem: Array, advice: int) -> int:
         return REFUTED
     if mem[M.REPEATS] >= OFTEN:
         return CHATTER
-    if coupling[0] == M.IDENTIFIED and is_deaf(mem):
+    if is_deaf(coupling, mem):
         since = mem[M.COUNT] - mem[M.TOLD]
         return UNANSWERED if advice == OK and ANSWERS < since < SAID else advice
     return CHATTER if chatters(mem) else advice

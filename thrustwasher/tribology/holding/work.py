@@ -1,10 +1,10 @@
 # mypy: disable-error-code="no-any-return"
 """The heat of a unit between two shafts: the work that they do to it.
 
-While nobody knows when a torque acts the least counts that any age would have made; once the slip
-has not answered, or after many steps, the power that the torque had where it was given (trapezoidal
-rule). Once the age is known the difference is owed, and paid by heat to come: heat never falls.
-Negative work is a debt that positive work pays first.
+While nobody knows when a torque acts it is the power that the torque had where it was given
+(trapezoidal rule); in the first dozen steps, after which exact speeds have told the age, the least
+that any age would have made. Once the age is known a difference is owed, and paid by heat to come:
+heat never falls. Negative work is a debt that positive work pays first.
 
 The torque of the initialization may have acted over the first steps, or not: their slip tells.
 """
@@ -14,15 +14,15 @@ import numpy as np
 from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import sign_of
 from . import memory as M
-from .asking import FREE, N_AGES
+from .asking import N_AGES
 
-MANY = 400.0  # steps: an age, at most two steps, makes a difference of half a per cent
+YOUNG = 12.0  # steps of an engagement in which the least counts
 
 
 @kernel
-def _is_open(mem: Array) -> bool:
-    """Tell if the age may still be found soon enough to matter."""
-    return mem[M.ASKED] < 1.5 * FREE and mem[M.COUNT] < MANY
+def _is_young(mem: Array) -> bool:
+    """Tell if exact speeds may still tell the age."""
+    return mem[M.CLOSED] <= YOUNG
 
 
 @kernel
@@ -47,6 +47,7 @@ def _before_the_start(mem: Array, age: int, inertia: float) -> None:
         if abs(acted - first) < abs(acted):
             made = first * mem[np.uintp(M.FIRST + 5 + k)]
             mem[np.uintp(M.WORK + age)] += made
+            mem[M.WORK + N_AGES + 1] += made
             mem[M.OWED] -= made
 
 
@@ -61,10 +62,9 @@ def book(mem: Array, slip: float, age: int, inertia: float) -> None:
         return
     basis = int(mem[M.HEAT_AGE]) - 1
     if age != basis:
-        if basis >= 0 and age >= 0:
-            mem[M.OWED] += mem[np.uintp(M.WORK + basis)] - mem[np.uintp(M.WORK + age)]
-        elif age >= 0:
+        if age >= 0:
             mem[M.OWED] += mem[M.WORK + N_AGES + 1] - mem[np.uintp(M.WORK + age)]
+            mem[M.WORK + N_AGES + 1] = mem[np.uintp(M.WORK + age)]
         mem[M.HEAT_AGE] = float(age + 1)
     turned = 0.5 * (mem[M.SLIP] + slip) * mem[M.STEP]
     for k in range(N_AGES):
@@ -73,26 +73,22 @@ def book(mem: Array, slip: float, age: int, inertia: float) -> None:
         _note_first(mem, slip)
     elif age > 0 and mem[M.FIRST] != 0.0:
         _before_the_start(mem, age, inertia)
-    if age < 0:
-        made = 0.5 * (mem[M.STEP] + mem[M.STEP + 1]) * abs(mem[M.TORQUE] * mem[M.SLIP])
-        mem[M.WORK + N_AGES] += made
+    power = mem[M.TORQUE] * mem[M.SLIP]
+    mem[M.WORK + N_AGES] += 0.5 * (mem[M.STEP] + mem[M.STEP + 1]) * power
+    if age >= 0:
+        made = mem[np.uintp(M.TORQUE + age)] * turned
+    else:
         due = mem[M.WORK + N_AGES]
-        if _is_open(mem):
+        if _is_young(mem):
             for k in range(N_AGES):
-                if mem[np.uintp(M.WORK + k)] < due:
-                    due, mem[M.RISES] = mem[np.uintp(M.WORK + k)], mem[np.uintp(M.TORQUE + k)]
-        if due <= mem[M.WORK + N_AGES + 1]:
-            mem[M.RISES] = 0.0
+                due = min(due, mem[np.uintp(M.WORK + k)])
         made = max(0.0, due - mem[M.WORK + N_AGES + 1])
-        mem[M.WORK + N_AGES + 1] += made
-        mem[M.HEAT] += made
-        return
-    made = mem[np.uintp(M.TORQUE + age)] * turned
+    mem[M.WORK + N_AGES + 1] += made
     paid = min(max(made, 0.0), mem[M.DEBT])
     mem[M.DEBT] += max(-made, 0.0) - paid
     rest = max(made, 0.0) - paid - mem[M.OWED]
     mem[M.HEAT] += max(rest, 0.0)
-    if rest > 0.0:
+    if age >= 0 and rest > 0.0:
         mem[M.RISES] = mem[np.uintp(M.TORQUE + age)]
     mem[M.OWED] = max(-rest, 0.0)
 
@@ -109,8 +105,8 @@ def foreseen(mem: Array, slip: float, h: float, torque: float) -> float:
             change -= (acting - mem[np.uintp(M.TORQUE + age)]) / inertia * h
     change = min(abs(slip), max(-abs(slip), change))  # a short step says little of a long one
     made = max(acting * (slip + 0.5 * change) * h, 0.0)
-    if age < 0 and _is_open(mem):
+    if age < 0 and mem[M.COUNT] > 0.0 and _is_young(mem):
         return 0.0
     if age < 0:  # half of the last step is not booked yet
-        return made + 0.5 * mem[M.STEP] * abs(torque * slip)
+        made += 0.5 * mem[M.STEP] * max(torque * slip, 0.0)
     return max(made - mem[M.DEBT] - mem[M.OWED], 0.0)

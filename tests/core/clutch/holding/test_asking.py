@@ -62,8 +62,54 @@ def test_no_slip_that_is_prescribed_is_believed(kind, loads):
             assert unit.inertia == 0.0 and unit.age == -1 and not unit.locked
             heats.append(unit.energy)
         assert sums[0] == pytest.approx(sums[1], rel=0.01)
-        assert heats[-1] == pytest.approx(sums[1], rel=0.03)  # the ends of a series
+        assert heats[-1] == pytest.approx(sums[1], rel=0.015)  # the ends of a series
         assert all(b >= a for a, b in pairwise(heats))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_driveline_that_was_given_and_is_not_there_makes_no_heat_wrong(kind):
+    """Capacity would make 3 % of the largest slip in a step; ages 0, 1, 2 in turn."""
+    for seed in range(3):
+        slip, h = prescribed(kind, seed)
+        case = two_inertias(1)
+        inertia = case.gain * LOAD * h / (0.03 * np.abs(slip).max())
+        unit, work = Unit(case, (inertia, seed)), []
+        for s in slip:
+            work.append(unit.step(s, h, LOAD) * s * h)
+        slid = unit.capacity * np.abs(slip).sum() * h
+        assert sum(work) == pytest.approx(slid, rel=0.02)
+        assert -sum(w for w in work if w < 0.0) < 0.005 * slid
+        assert unit.energy == pytest.approx(slid, rel=0.03)  # at the age that is given
+
+
+def test_heat_is_booked_as_it_arises():
+    """In one step of 10 s, and while the load rises over a hundred short ones."""
+    case = two_inertias(1)
+    unit = Unit(case)
+    unit.step(100.0, 10.0, LOAD)
+    assert unit.energy == pytest.approx(unit.capacity * 1e3, rel=1e-6)
+    unit, h, slid = Unit(case), 1e-3, 0.0
+    for n in range(100):
+        slip = 200.0 - 0.2 * n
+        unit.step(slip, h, LOAD * n / 100.0)
+        slid += unit.capacity * slip * h
+    assert unit.energy == pytest.approx(slid, rel=0.01)
+
+
+@pytest.mark.parametrize("share", [5.4 / 165.0, 0.1])
+@pytest.mark.parametrize("age", [0, 1, 2])
+def test_a_pack_that_was_stuck_feels_its_way_to_twice_the_torque_it_holds(age, share):
+    class Case:
+        gain, loads = 165.0, (1.0,)
+
+    unit, slip, torques, h, inertia = Unit(Case(), starts_pressed=True), 0.0, [], 1e-3, 0.13
+    waiting, held = [0.0] * age, -share * 165.0
+    for _ in range(200):
+        torques.append(unit.step(slip, h, 1.0))
+        waiting.append(torques[-1])
+        slip += h * (held - waiting.pop(0)) / inertia
+    assert np.abs(torques).max() < 2.0 * abs(held)
+    assert torques[-1] == pytest.approx(held, rel=1e-9) and unit.locked
 
 
 def watched(case, unit):

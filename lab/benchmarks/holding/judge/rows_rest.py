@@ -217,13 +217,13 @@ def long_hold(fmu: str, seed: int, holding: str, step: float) -> list[Verdict]:
 
 
 REST: dict[str, Run] = {
-    "washer beside a locked pack": washer_beside,
+    "washer next to a locked pack": washer_beside,
     "train at rest": at_rest(("GearTrain",), False),
     "train under a small torque": at_rest(("GearTrain",), True),
     "losses at rest": at_rest(("DrivelineLosses",), False),
     "losses under a small torque": at_rest(("DrivelineLosses",), True),
     "train and losses at rest": at_rest(("GearTrain", "DrivelineLosses"), False),
-    "a pack slips beside a locked one": slipping_beside,
+    "a pack slips next to a locked one": slipping_beside,
     "state restored": restored,
 }
 SLOW: dict[str, Run] = {"a million held steps": long_hold}

@@ -108,7 +108,7 @@ TRACES = {
     "PWM": pwm,
     "triangle": triangle,
     "white noise": white,
-    "random walk": walk,
+    "random path": walk,
     "Ornstein-Uhlenbeck": ornstein,
     "stop, rest with noise": stop,
     "stop, rest, quantised": stop_quantised,

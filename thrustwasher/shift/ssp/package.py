@@ -35,6 +35,7 @@ def files(system: Structure, *, tool: str, date: str, fmi: int = 2) -> dict[str,
         "fmi": fmi,
         "places": BORDER["places"],
         "values_of": values_of,
+        "units_of": units_of,
         "units": {name: exponents(name) for name in units},
     }
     return {
@@ -63,6 +64,15 @@ def values_of(part: Component) -> Iterator[tuple[str, str, dict[str, str]]]:
         else:
             attributes["value"] = str(bool(value)).lower() if kind == "boolean" else str(int(value))
         yield name, kind.capitalize(), attributes
+
+
+def units_of(part: Component) -> dict[str, Mapping[str, int]]:
+    """Return the units that the values of a part refer to, each with the powers of its base units.
+
+    SSP 1.0 and 2.0, section 6: a set of values defines all of them itself.
+    """
+    names = (attributes.get("unit") for _, _, attributes in values_of(part))
+    return {name: exponents(name) for name in names if name is not None}
 
 
 def _meta(spec: ModelSpec) -> dict[str, Mapping[str, Any]]:

@@ -17,6 +17,7 @@ from thrustwasher.shift.ssp.package import files
 from thrustwasher.shift.ssp.system_structure import plan, prepared, start_values
 
 SCENES = ("msl", "brake-test", "planetary-sun", "planetary", "judder")
+FILES = ("SystemStructure.ssd", "Parts.ssd")
 FIGURES = ("lock_time", "lock_speed", "clutch_heat", "brake_heat", "engine_speed")
 ENOUGH = {"msl": 2.3, "brake-test": 1.6}  # s: past lock-up
 
@@ -42,7 +43,7 @@ def schema(name):
 
 
 @pytest.mark.parametrize("name", SCENES)
-@pytest.mark.parametrize("file", ["SystemStructure.ssd", "Parts.ssd"])
+@pytest.mark.parametrize("file", FILES)
 def test_the_description_is_valid(name, file):
     from lxml import etree
 
@@ -55,6 +56,50 @@ def test_the_description_is_valid(name, file):
     for found in sets:
         alone = etree.fromstring(etree.tostring(found))
         assert inline.validate(alone), inline.error_log
+
+
+UNITS = (("SystemStructureDescription", "ssd"), ("ParameterSet", "ssv"))
+
+
+def undefined_units(root):
+    """Return the units that a file or a set of values refers to and does not define itself.
+
+    The standard's text, section 6 (SSP 1.0 and 2.0), which no schema checks: the units of the
+    enclosing file are none of an inline set.
+    """
+    found = []
+    for name, space in UNITS:
+        for scope in root.iter(f"{{{NS[space]}}}{name}"):
+            known = {u.get("name") for u in scope.findall(f"{space}:Units/ssc:Unit", NS)}
+            own = "ssv" if space == "ssv" else "ssc"
+            used = {r.get("unit") for r in scope.iter(f"{{{NS[own]}}}Real")}
+            found += sorted(used - known - {None})
+    return found
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("file", FILES)
+def test_every_set_of_values_defines_the_units_it_refers_to(name, file):
+    root = description(packed(planned(name)), file)
+    assert undefined_units(root) == []
+    for found in root.iter(f"{{{NS['ssv']}}}ParameterSet"):
+        found.remove(found.find("ssv:Units", NS))
+    assert bool(undefined_units(root)) == (file != "Parts.ssd")  # the check finds what is missing
+
+
+@pytest.mark.parametrize("file", FILES)
+def test_masters_find_the_step_in_the_notes_they_look_in(file):
+    root = description(packed(planned("planetary-sun")), file)
+    notes = {a.get("type"): a for a in root.iter(f"{{{NS['ssc']}}}Annotation")}
+    places = {
+        "org.openmodelica": ("FixedStepMaster", "stepSize"),
+        "com.opensimulationplatform": ("FixedStepAlgorithm", "baseStepSize"),
+        "com.avl.model.connect.ssp.task": ("Task", "deltaTime"),
+    }
+    found = {notes[of].find(f".//{{*}}{tag}").get(key) for of, (tag, key) in places.items()}
+    assert found == {"0.001"}
+    task = next(root.iter("{com.avl.model.connect.ssp.task}Task"))
+    assert (task.get("stepType"), task.get("endType")) == ("parallel_single_thread", "end_time")
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -93,7 +138,7 @@ def test_defaults_are_for_late_values_and_those_written_for_fresh_ones(name):
 
 
 @pytest.mark.parametrize("name", SCENES)
-@pytest.mark.parametrize("file", ["SystemStructure.ssd", "Parts.ssd"])
+@pytest.mark.parametrize("file", FILES)
 def test_connections_join_connectors_of_one_kind_and_unit(name, file):
     root = description(packed(planned(name)), file)
     system = root.find("ssd:System", NS)

@@ -3,6 +3,9 @@
    A file map-<k>.bin, k from 0 without gaps, has a header of TABLE_HEADER doubles, little-endian as
    on every platform built for: a magic number, how many numbers there are, then the parameters that
    the table was made for. Numbers in single precision follow, then a CRC-32 of all that. */
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE /* dladdr */
+#endif
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +17,17 @@
 
 #if !defined(PART_COMPILED_IN) || (TABLE_ROOM > 0 && !defined(TABLE_COMPILED_IN))
 #define READS_FILES
+#endif
+#ifndef PART_COMPILED_IN
+#ifdef _WIN32
+#define WIN32_LEAN_AND_MEAN
+#include <windows.h>
+#else
+#include <dlfcn.h>
+#ifdef __linux__
+#pragma weak dladdr /* of libdl before glibc 2.34, which a host that loads libraries has */
+#endif
+#endif
 #endif
 
 static int hex(char c) {
@@ -134,8 +148,55 @@ static int read_part(Instance *m) {
     return good;
 }
 
+/* The library's own file in UTF-8; empty: not to be had. */
+static void find_library(char *path, size_t room) {
+    static const char here = 0;
+    path[0] = '\0';
+#ifdef _WIN32
+    wchar_t wide[PATH_LENGTH];
+    HMODULE own = NULL;
+    const DWORD how = GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT;
+    if (!GetModuleHandleExW(how, (LPCWSTR)(const void *)&here, &own)) return;
+    const DWORD n = GetModuleFileNameW(own, wide, PATH_LENGTH);
+    if (n == 0 || n == PATH_LENGTH) return;
+    if (!WideCharToMultiByte(CP_UTF8, 0, wide, -1, path, (int)room, NULL, NULL)) path[0] = '\0';
+#else
+    Dl_info info = {0};
+    if (!dladdr || !dladdr(&here, &info) || !info.dli_fname) return;
+    const size_t n = strlen(info.dli_fname) + 1;
+    if (n <= room) memcpy(path, info.dli_fname, n);
+#endif
+}
+
+/* Is the part found in the folder resources of the FMU that the library lies in, of the same build? Then
+   that folder is taken, and it is said. */
+static int is_beside(Instance *m, const char *guid) {
+    static const char up[] = "/../../resources";
+    char *path = m->resources;
+    find_library(path, PATH_LENGTH - sizeof up);
+    size_t n = strlen(path);
+    while (n > 0 && path[n - 1] != '/' && path[n - 1] != '\\') n--;
+    if (n == 0) {
+        path[n++] = '.';
+    } else if (n > 1) {
+        n--; /* without the separator */
+    }
+    memcpy(path + n, up, sizeof up);
+    if (!guid || read_part(m) <= 0 || strcmp(guid, m->part.guid) != 0) return 0;
+    Text text = {0};
+    add(&text,
+        "part.bin of %s is not in the folder of resources that the host names; it is read beside the "
+        "library, from %s",
+        m->part.name, shown_folder(m));
+    tell(&m->log, WARNING, LOG_WARNING, &text);
+    return 1;
+}
+
 int load_part(Instance *m, const char *location, const char *guid) {
     const Part *part = &m->part;
+    take_resources(m, location);
+    if (m->resources[0] && read_part(m) > 0 && guid && !strcmp(guid, part->guid)) return GOOD;
+    if (is_beside(m, guid)) return GOOD;
     take_resources(m, location);
     if (!m->resources[0]) {
         return fail(m,
@@ -148,7 +209,6 @@ int load_part(Instance *m, const char *location, const char *guid) {
         return fail(m, "part.bin in the folder %s is %s; unpack the FMU again", shown_folder(m),
                     found ? "missing" : "damaged, or of another build than this library");
     }
-    if (guid && !strcmp(guid, part->guid)) return GOOD;
     return fail(m,
                 "%s: the description has the identifier %s, part.bin in %s has %s; they are of "
                 "different builds, use both from one FMU",

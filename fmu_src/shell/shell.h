@@ -71,6 +71,8 @@ typedef struct {
     int32_t unsolved;  /* the failure of the solve at the present values, or 0 */
     int32_t warned;    /* the status the host was last told, -1: nothing yet */
     int32_t told_late; /* the host was told that a step did not begin where the last one ended */
+    int32_t told_long; /* ... that its step is longer than the advised one */
+    uint8_t told_zero[AT_LEAST_ONE(NINP)]; /* ... that an input of 0 K keeps its last value */
     uint8_t beyond[2][AT_LEAST_ONE(NINP)]; /* the inputs that are outside their ranges ... */
     uint32_t left[2][AT_LEAST_ONE(NINP)];  /* ... and how often they left them in this run */
     uint32_t cared[FIRST_FAILURE];         /* how often a solution began to need care, by its status */
@@ -222,6 +224,8 @@ void tell_failure(const Instance *m, int32_t status, double t, double h);
 void tell_rule(const Instance *m, const char *rule);
 void tell_refusal(Instance *m, const Variable *v, double value);
 void tell_late_step(Instance *m, double t, double h, double expected);
+void tell_long_step(Instance *m, double h);
+void tell_no_temperature(Instance *m, const Variable *v);
 void tell_switches(Instance *m);
 void tell_effort(const Instance *m);
 void tell_advice(Instance *m);

@@ -56,6 +56,8 @@ def _setter(kind: str) -> Callable[..., Any]:
 
     def set_values(self: "Slave", vrs: list[int], values: list[Any]) -> None:
         self.core.set(vrs, values, kind)
+        for text in self.core.zeros():
+            self.tell(text, Fmi2Status.warning, "logStatusWarning")
 
     return _safe(set_values)
 

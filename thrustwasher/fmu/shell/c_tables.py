@@ -17,7 +17,7 @@ from ...model.levels import gone_level
 from ...model.registry import kernel_of
 from ...model.unread import RELATIONS, all_conditions
 from ...native.shipped import digest_now
-from ..description.interface import LOG_CATEGORIES, Interface, Variable
+from ..description.interface import ADVISED, LOG_CATEGORIES, Interface, Variable
 from ..description.model_description import TYPES
 from ..model_kernels import has_derivatives, seed_length
 from . import call_table
@@ -212,6 +212,7 @@ def _header(shown: Interface, lists: dict[str, tuple[str, list[str]]]) -> str:
         "NRATES": getattr(kernel, "NRATES", 0),
         "NSEED": seed_length(kernel),
         "IO_STATUS": status,
+        "ADVISED": next((v.slot for v in shown.outputs if v.name == ADVISED), -1),
         "FIRST_FAILURE": FIRST_FAILURE,
         "LEVEL": next(v.slot for v in shown.parameters if v.name == "fidelity"),
         **{f"STATUS_{s.name}": int(s) for s in Status},

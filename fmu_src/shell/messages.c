@@ -155,17 +155,19 @@ void tell_late_step(Instance *m, double t, double h, double expected) {
     tell(&m->log, WARNING, LOG_WARNING, &text);
 }
 
-/* Warn once that the step [s] is longer than the unit would have it. */
+/* Warn once that the step [s] is longer than both the description's and the one the unit would have. */
 void tell_long_step(Instance *m, double h) {
     const double advised = m->now.solution.out[AT_LEAST_ONE(ADVISED + 1) - 1];
-    if (m->told_long || !(advised > 0.0) || h <= advised) return;
+    if (m->told_long || !(advised > 0.0) || h <= advised || h <= (1.0 + 1e-6) * m->part.step) return;
     m->told_long = 1;
     Text text = begun(m, m->now.time);
     add(&text, " s: the step of ");
     add_number(&text, h);
     add(&text, " s is longer than advised_step = ");
     add_number(&text, advised);
-    add(&text, " s; shorten the step between exchanges; this is said once");
+    add(&text, " s and than that of the description, ");
+    add_number(&text, m->part.step);
+    add(&text, " s; shorten the host's step; this is said once");
     tell(&m->log, WARNING, LOG_WARNING, &text);
 }
 

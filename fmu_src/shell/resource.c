@@ -141,7 +141,7 @@ static int read_part(Instance *m) {
     if (!file) return -1;
     int good = fread(part, sizeof *part, 1, file) == 1
                && is_whole(file, checksum(0, (const unsigned char *)part, sizeof *part))
-               && !memcmp(part->magic, "twpart2", sizeof part->magic)
+               && !memcmp(part->magic, "twpart3", sizeof part->magic)
                && !memcmp(part->build, BUILD, sizeof part->build);
     fclose(file);
     part->guid[WORD_LENGTH - 1] = part->name[WORD_LENGTH - 1] = '\0';

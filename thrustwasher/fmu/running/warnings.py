@@ -59,12 +59,14 @@ class Warnings:
         """Return what is said of a step [s] that is longer than the advised one, else ""."""
         core = self._core
         advised = 0.0 if self._advised is None else core.out.item(self._advised)
-        if self._told_long or not 0.0 < advised < h:
+        described = core.shown.experiment[1]
+        if self._told_long or not 0.0 < advised < h or h <= (1.0 + 1e-6) * described:
             return ""
         self._told_long = True
         return (
-            f"{core.here}: the step of {h:g} s is longer than advised_step = {advised:g} s; "
-            "shorten the step between exchanges; this is said once"
+            f"{core.here}: the step of {h:g} s is longer than advised_step = {advised:g} s "
+            f"and than that of the description, {described:g} s; shorten the host's step; this is "
+            "said once"
         )
 
     def advice(self) -> list[str]:

@@ -32,7 +32,7 @@ SHELL_FILES = tuple(
     """.split()
 )
 VERSIONS = (2, 3)  # of FMI, both in one library
-PART, MAGIC, WORD = "part.bin", b"twpart2\0", 64  # as in shell.h
+PART, MAGIC, WORD = "part.bin", b"twpart3\0", 64  # as in shell.h
 PART_IN_C, TABLE_IN_C = "part.c", "table.c"
 
 
@@ -55,28 +55,28 @@ def build_of(shown: Interface) -> str:
 
 
 def part_file(shown: Interface, guid: str) -> bytes:
-    """Return resources/part.bin: build of the library, identifier, name, start values, ranges.
+    """Return resources/part.bin: build of the library, identifier, name, numbers.
 
     ``guid`` is what the description calls guid (FMI 2) or instantiationToken (FMI 3).
     """
     words = (text.encode().ljust(WORD, b"\0") for text in (guid, shown.spec.name))
-    starts, ranges = _of_part(shown)
-    numbers = [*starts, *(x for pairs in ranges for pair in pairs for x in pair)]
+    starts, ranges, step = _of_part(shown)
+    numbers = [*starts, *(x for pairs in ranges for pair in pairs for x in pair), step]
     body = b"".join(
         (MAGIC, build_of(shown).encode(), *words, struct.pack(f"<{len(numbers)}d", *numbers))
     )
     return body + struct.pack("<I", zlib.crc32(body))
 
 
-def _of_part(shown: Interface) -> tuple[list[float], tuple[list[tuple[float, float]], ...]]:
-    """Return start values of all variables, and both ranges of each input."""
+def _of_part(shown: Interface) -> tuple[list[float], tuple[list[tuple[float, float]], ...], float]:
+    """Return start values of all variables, both ranges of each input, and the step [s]."""
     starts = [v.start or 0.0 for v in shown.variables]
-    return starts, shown.ranges(max(kernel_of(shown.spec).NINP, 1))
+    return starts, shown.ranges(max(kernel_of(shown.spec).NINP, 1)), shown.experiment[1]
 
 
 def part_in_c(shown: Interface, guid: str) -> str:
     """Return the same as ``part_file`` as C source."""
-    starts, ranges = _of_part(shown)
+    starts, ranges, step = _of_part(shown)
     build = ", ".join(map(repr, build_of(shown)))
     words = f'"{MAGIC[:-1].decode()}", {{{build}}}, {_text(guid)}'
     pairs = (", ".join(_floats(pair) for pair in pairs) for pairs in ranges)
@@ -87,7 +87,7 @@ def part_in_c(shown: Interface, guid: str) -> str:
             "",
             f"const Part COMPILED_PART[] = {{{{{words}, {_text(shown.spec.name)},",
             f"    {_floats(starts)},",
-            f"    {{{', '.join(f'{{{row}}}' for row in pairs)}}}}}}};",
+            f"    {{{', '.join(f'{{{row}}}' for row in pairs)}}}, {float(step).hex()}}}}};",
             "",
         ]
     )

@@ -3,7 +3,7 @@
    A file map-<k>.bin, k from 0 without gaps, has a header of TABLE_HEADER doubles, little-endian as
    on every platform built for: a magic number, how many numbers there are, then the parameters that
    the table was made for. Numbers in single precision follow, then a CRC-32 of all that. */
-#ifndef _GNU_SOURCE
+#if defined(__linux__) && !defined(_GNU_SOURCE)
 #define _GNU_SOURCE /* dladdr */
 #endif
 #include <stdio.h>
@@ -12,22 +12,22 @@
 #ifdef _WIN32
 #include <wchar.h>
 #endif
-
-#include "shell.h"
-
-#if !defined(PART_COMPILED_IN) || (TABLE_ROOM > 0 && !defined(TABLE_COMPILED_IN))
-#define READS_FILES
-#endif
 #ifndef PART_COMPILED_IN
 #ifdef _WIN32
 #define WIN32_LEAN_AND_MEAN
-#include <windows.h>
+#include <windows.h> /* before the tables: both have a POINT */
 #else
 #include <dlfcn.h>
 #ifdef __linux__
 #pragma weak dladdr /* of libdl before glibc 2.34, which a host that loads libraries has */
 #endif
 #endif
+#endif
+
+#include "shell.h"
+
+#if !defined(PART_COMPILED_IN) || (TABLE_ROOM > 0 && !defined(TABLE_COMPILED_IN))
+#define READS_FILES
 #endif
 
 static int hex(char c) {

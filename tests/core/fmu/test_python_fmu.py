@@ -128,7 +128,7 @@ said = []
 for _ in range(3):
     try:
         simulate_fmu(sys.argv[1], input=given, stop_time=1.0, output_interval=0.1,
-                     logger=lambda *words: said.append(str(words[-1])))
+                     debug_logging=True, logger=lambda *words: said.append(str(words[-1])))
     except Exception as problem:
         print(problem)
 print(sum("353.15 K (80 degC)" in text for text in said) >= 3)

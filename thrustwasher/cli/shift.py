@@ -23,7 +23,7 @@ EXAMPLES = (
 )
 OF_A_RUN = (
     *("scene", "compare", "no_report", "step", "master", "master_tolerance", "fidelity"),
-    *("no_guard", "ssp", "fmi", "platforms", "oil", "scatter", "sensitivities"),
+    *("no_guard", "ssp", "fmi", "platforms", "plain", "oil", "scatter", "sensitivities"),
 )
 REPORT, FOLDER = "report.html", "shift-report"
 FMI = ("2", "3")  # versions of a package's FMUs
@@ -44,6 +44,7 @@ OPTIONS = {
     "--fmi N": "version of the package's FMUs, 2 or 3; default 2",
     "--platforms LIST": "of the package's FMUs: names with commas, all, or local; default: all "
     "that can be linked here",
+    "--plain": "a package for hosts that know real and whole numbers only, as in `build`",
     "--json": "one JSON object with every number",
 }
 
@@ -105,7 +106,7 @@ def run(arguments: argparse.Namespace) -> int:
         check_levels(scene)
     if arguments.ssp:
         return _export(arguments, scene)
-    for option in ("fmi", "platforms"):
+    for option in ("fmi", "platforms", "plain"):
         if getattr(arguments, option):
             raise ParameterError(f"--{option}: for a package only (--ssp FILE.ssp)")
     runs = _scatter_runs(arguments, scene)
@@ -311,7 +312,7 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
 
     platforms = chosen_platforms(arguments.platforms, "native")
     began = time.perf_counter()
-    parts = _package(scene, platforms, int(arguments.fmi or FMI[0]))
+    parts = _package(scene, platforms, int(arguments.fmi or FMI[0]), plain=arguments.plain)
     _output.warn(scene.warnings)
 
     with _output.whole_file(target) as draft:
@@ -325,7 +326,7 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
     return 0
 
 
-def _package(scene: Any, platforms: list[str] | None, fmi: int) -> dict[str, bytes]:
+def _package(scene: Any, platforms: list[str] | None, fmi: int, *, plain: bool) -> dict[str, bytes]:
     """Return all files of the package: the system, its documentation, one FMU per part."""
     from ..fmu.build import pack_native
     from ..fmu.description.model_description import generation_date
@@ -338,7 +339,9 @@ def _package(scene: Any, platforms: list[str] | None, fmi: int) -> dict[str, byt
         instances = {name: make(name, part) for name, part in scene.parts.items()}
         system = plan(scene, start_values(scene, instances))
     tool = f"thrustwasher {package_version()}"
-    found = files(system, tool=tool, date=generation_date(), fmi=fmi)
+    found = files(system, tool=tool, date=generation_date(), fmi=fmi, plain=plain)
     for part in system.components:
-        found[part.source] = pack_native(part.spec, fmi=fmi, platforms=platforms, note=_output.note)
+        found[part.source] = pack_native(
+            part.spec, fmi=fmi, platforms=platforms, plain=plain, note=_output.note
+        )
     return found

@@ -163,7 +163,8 @@ class Core:
         if not 0 <= reference < len(self.variables):
             raise ParameterError(f"value reference {reference} is unknown in {self.spec.name}")
         v = self.variables[reference]
-        if v.type != kind and not (v.type == "Enumeration" and kind == "Integer"):
+        is_whole = v.type in ("Enumeration", "Boolean") and kind == "Integer"
+        if v.type != kind and not is_whole:
             raise ParameterError(f"{v.name} is of type {v.type}, not {kind}")
         return v
 

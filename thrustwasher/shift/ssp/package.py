@@ -4,12 +4,13 @@ Both are templates next to this module. The page says what the package is, how t
 runs of different masters differ by.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ...model.spec import ModelSpec
+from ...model.spec import ModelSpec, Signal
 from ...templates import filled
 from ...units import exponents
 from .system_structure import BORDER, PASSED_ON, Component, Structure, identifier
@@ -17,35 +18,48 @@ from .system_structure import BORDER, PASSED_ON, Component, Structure, identifie
 HERE = Path(__file__).parent
 
 
-def files(system: Structure, *, tool: str, date: str, fmi: int = 2) -> dict[str, bytes]:
+def files(
+    system: Structure, *, tool: str, date: str, fmi: int = 2, plain: bool = False
+) -> dict[str, bytes]:
     """Return the files of the package by path, all but the FMUs.
 
     ``tool`` is the name of the tool and its version, ``date`` when it was made, ISO 8601, ``fmi``
-    the version of the FMUs, 2 or 3.
+    the version of the FMUs, 2 or 3; ``plain``: real and whole numbers only, and connectors of real
+    ones.
     """
     used = [_meta(part.spec) for part in system.components]
     units = {m["unit"] for found in used for m in found.values() if m["kind"] == "real"}
     units |= {s.unit for p in system.components for s in p.spec.outputs if s.kind == "real"}
     given = {
         **system._asdict(),
+        "border": [b for b in system.border if _shown([b.signal], plain)],
         "name": identifier(system.scene.name),
         "title": system.title,
         "tool": tool,
         "date": date,
         "fmi": fmi,
         "places": BORDER["places"],
-        "values_of": values_of,
+        "values_of": partial(values_of, plain=plain),
         "units_of": units_of,
+        "shown": partial(_shown, plain=plain),
         "units": {name: exponents(name) for name in units},
     }
     return {
-        "SystemStructure.ssd": filled(HERE / "system.ssd.jinja", plain=False, **given),
-        "Parts.ssd": filled(HERE / "system.ssd.jinja", plain=True, **given),
+        "SystemStructure.ssd": filled(HERE / "system.ssd.jinja", bare=False, **given),
+        "Parts.ssd": filled(HERE / "system.ssd.jinja", bare=True, **given),
         "documentation/index.html": filled(HERE / "page.html.jinja", **given),
     }
 
 
-def values_of(part: Component) -> Iterator[tuple[str, str, dict[str, str]]]:
+def _shown(signals: Iterable[Signal], plain: bool) -> list[Signal]:
+    """Return the signals that are connectors.
+
+    libcosim ends the process at one that is an enumeration; nothing is wired to one.
+    """
+    return [s for s in signals if s.kind == "real" or not (plain or s.kind == "enumeration")]
+
+
+def values_of(part: Component, *, plain: bool = False) -> Iterator[tuple[str, str, dict[str, str]]]:
     """Yield name, type and attributes of each parameter and start value of a part.
 
     Masters that read them (OMSimulator) pass values on until they agree: nothing arrives late.
@@ -59,6 +73,8 @@ def values_of(part: Component) -> Iterator[tuple[str, str, dict[str, str]]]:
         kind, attributes = meta["kind"], {"value": str(value)}
         if kind == "enumeration":
             continue
+        if kind == "boolean" and plain:
+            kind = "integer"
         if kind == "real":
             attributes = {"value": repr(float(value)), "unit": meta["unit"]}
         else:

@@ -342,9 +342,18 @@ def test_only_levels_that_there_are_stand_in_the_list(spec, fmi):
 @each_fmi
 def test_plain_outputs_are_real_and_the_others_local(spec, fmi):
     schema = etree.XMLSchema(etree.parse(SCHEMAS / f"fmi{fmi}" / f"fmi{fmi}ModelDescription.xsd"))
-    tree, shown = written(spec, fmi, plain_outputs=True), interface(spec)
+    tree, shown = written(spec, fmi, plain=True), interface(spec)
     assert schema.validate(tree), schema.error_log
     found = {e.get("name"): e.get("causality") for e in tree.find("ModelVariables")}
+    types = {e[0].tag if fmi == 2 else e.tag for e in tree.find("ModelVariables")}
+    assert types <= ({"Real", "Integer"} if fmi == 2 else {"Float64", "Int32"})
+    values = {e.get("name"): e[0] if fmi == 2 else e for e in tree.find("ModelVariables")}
+    for v in shown.parameters:
+        whole = v.type in ("Boolean", "Enumeration")
+        assert not whole or {"min", "max", "start"} <= set(values[v.name].attrib)
+    assert fmi == 2 or all(
+        e.get("initial") for e in tree.find("ModelVariables") if e.get("name") != "time"
+    )
     wanted = {v.name: "output" if v.type == "Real" else "local" for v in shown.outputs}
     assert {name: found[name] for name in wanted} == wanted
     first = 3 - fmi  # FMI 2 counts from 1

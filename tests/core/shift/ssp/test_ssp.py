@@ -137,6 +137,18 @@ def test_defaults_are_for_late_values_and_those_written_for_fresh_ones(name):
     assert values(found["command"])["lead"] == values(found["transmission"])["torque_age"] == 0
 
 
+@pytest.mark.parametrize("file", FILES)
+def test_a_plain_package_has_connectors_of_real_numbers_and_no_booleans(file):
+    """For ovfmi, estim8, sofirpy, which stop at any other type."""
+    told = dict(tool="thrustwasher", date="2026-01-01T00:00:00Z")
+    made = files(planned("planetary-sun"), plain=True, **told)
+    root = description(zipped(made), file)
+    kinds = {c[0].tag.rpartition("}")[2] for c in root.iter(f"{{{NS['ssd']}}}Connector")}
+    assert kinds == {"Real"}
+    values = {p[0].tag.rpartition("}")[2] for p in root.iter(f"{{{NS['ssv']}}}Parameter")}
+    assert values == (set() if file == "Parts.ssd" else {"Real", "Integer"})
+
+
 @pytest.mark.parametrize("name", SCENES)
 @pytest.mark.parametrize("file", FILES)
 def test_connections_join_connectors_of_one_kind_and_unit(name, file):

@@ -13,9 +13,11 @@ from typing import Any
 from ...model.spec import ModelSpec, Signal
 from ...templates import filled
 from ...units import exponents
-from .system_structure import BORDER, PASSED_ON, Component, Structure, identifier
+from ..scene.connections import SOURCE
+from .system_structure import BORDER, PASSED_ON, Border, Component, Structure, identifier
 
 HERE = Path(__file__).parent
+TEMPLATE = HERE / "system.ssd.jinja"
 
 
 def files(
@@ -39,14 +41,21 @@ def files(
         "date": date,
         "fmi": fmi,
         "places": BORDER["places"],
-        "values_of": partial(values_of, plain=plain),
+        "values_of": partial(values_of, plain=plain, above=system.parameters),
         "units_of": units_of,
+        "parameter_values": _values_above(system),
+        "inlet_values": [
+            (i.name, "Real", {"value": repr(float(i.start)), "unit": i.signal.unit})
+            for i in system.inlets
+        ],
+        "command": SOURCE,
         "shown": partial(_shown, plain=plain),
         "units": {name: exponents(name) for name in units},
     }
     return {
-        "SystemStructure.ssd": filled(HERE / "system.ssd.jinja", bare=False, **given),
-        "Parts.ssd": filled(HERE / "system.ssd.jinja", bare=True, **given),
+        "SystemStructure.ssd": filled(TEMPLATE, bare=False, open=False, **given),
+        "Open.ssd": filled(TEMPLATE, bare=False, open=True, **given),
+        "Parts.ssd": filled(TEMPLATE, bare=True, open=False, **given),
         "documentation/index.html": filled(HERE / "page.html.jinja", **given),
     }
 
@@ -59,15 +68,19 @@ def _shown(signals: Iterable[Signal], plain: bool) -> list[Signal]:
     return [s for s in signals if s.kind == "real" or not (plain or s.kind == "enumeration")]
 
 
-def values_of(part: Component, *, plain: bool = False) -> Iterator[tuple[str, str, dict[str, str]]]:
+def values_of(
+    part: Component, *, plain: bool = False, above: Iterable[Border] = ()
+) -> Iterator[tuple[str, str, dict[str, str]]]:
     """Yield name, type and attributes of each parameter and start value of a part.
 
     Masters that read them (OMSimulator) pass values on until they agree: nothing arrives late.
     Enumerations are left out: OMSimulator does not know them here, and the FMU has the value as its
-    default.
+    default; so are parameters that are connected to one of the system, ``above``.
     """
-    known = _meta(part.spec)
+    known, given = _meta(part.spec), {b.signal.name for b in above if b.part == part.name}
     for name, value in {**part.parameters, **part.starts}.items():
+        if name in given:
+            continue
         value = PASSED_ON.get((part.name, name), value)
         meta = known.get(name, {"kind": "real", "unit": ""})
         kind, attributes = meta["kind"], {"value": str(value)}
@@ -82,13 +95,26 @@ def values_of(part: Component, *, plain: bool = False) -> Iterator[tuple[str, st
         yield name, kind.capitalize(), attributes
 
 
-def units_of(part: Component) -> dict[str, Mapping[str, int]]:
-    """Return the units that the values of a part refer to, each with the powers of its base units.
+def units_of(values: Iterable[tuple[str, str, dict[str, str]]]) -> dict[str, Mapping[str, int]]:
+    """Return the units that values refer to, each with the powers of its base units.
 
     SSP 1.0 and 2.0, section 6: a set of values defines all of them itself.
     """
-    names = (attributes.get("unit") for _, _, attributes in values_of(part))
+    names = (attributes.get("unit") for _, _, attributes in values)
     return {name: exponents(name) for name in names if name is not None}
+
+
+def _values_above(system: Structure) -> list[tuple[str, str, dict[str, str]]]:
+    """Return name, type and attributes of each parameter of the system."""
+    given = {part.name: part.parameters for part in system.components}
+    return [
+        (
+            b.name,
+            "Real",
+            {"value": repr(float(given[b.part][b.signal.name])), "unit": b.signal.unit},
+        )
+        for b in system.parameters
+    ]
 
 
 def _meta(spec: ModelSpec) -> dict[str, Mapping[str, Any]]:

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from scene_runs import instances as direct_instances
 from scene_runs import slow_without_jit
-from ssp_master import NS, components, connections, description, run, values
+from ssp_master import NS, bound, components, connections, description, run, values
 
 from thrustwasher.errors import ParameterError
 from thrustwasher.fmu.running.direct_instance import DirectInstance
@@ -17,7 +17,7 @@ from thrustwasher.shift.ssp.package import files
 from thrustwasher.shift.ssp.system_structure import plan, prepared, start_values
 
 SCENES = ("msl", "brake-test", "planetary-sun", "planetary", "judder")
-FILES = ("SystemStructure.ssd", "Parts.ssd")
+FILES = ("SystemStructure.ssd", "Open.ssd", "Parts.ssd")
 FIGURES = ("lock_time", "lock_speed", "clutch_heat", "brake_heat", "engine_speed")
 ENOUGH = {"msl": 2.3, "brake-test": 1.6}  # s: past lock-up
 
@@ -52,7 +52,8 @@ def test_the_description_is_valid(name, file):
     whole, inline = (schema(f"SystemStructure{n}.xsd") for n in ("Description", "ParameterValues"))
     assert whole.validate(root), whole.error_log
     sets = root.findall(".//ssv:ParameterSet", NS)
-    assert len(sets) == (len(planned(name).components) if file == "SystemStructure.ssd" else 0)
+    parts = len(planned(name).components)
+    assert len(sets) == {"SystemStructure.ssd": 1 + parts, "Open.ssd": parts, "Parts.ssd": 0}[file]
     for found in sets:
         alone = etree.fromstring(etree.tostring(found))
         assert inline.validate(alone), inline.error_log
@@ -105,10 +106,10 @@ def test_masters_find_the_step_in_the_notes_they_look_in(file):
 @pytest.mark.parametrize("name", SCENES)
 def test_every_parameter_of_the_scene_that_is_used_stands_in_the_package(name):
     scene = prepared(load_scene(name))
-    found = components(description(packed(planned(name))))
+    found = bound(description(packed(planned(name))))
     assert set(found) == {"command", *scene.parts}
     for part, given in scene.parts.items():
-        told = values(found[part])
+        told = found[part]
         numbers = {k: v for k, v in given.parameters().items() if not isinstance(v, str)}
         idle = {k for k in numbers if unread(given.params, k, given.fidelity)}
         if part == "transmission":
@@ -121,10 +122,32 @@ def test_every_parameter_of_the_scene_that_is_used_stands_in_the_package(name):
 
 def test_a_package_has_no_bindings_of_what_points_and_switches_overrule():
     """Six points of engine torque, pressure of pistons, a rigid shaft: see the scene's file."""
-    told = values(components(description(packed(planned("planetary"))))["transmission"])
+    told = bound(description(packed(planned("planetary"))))["transmission"]
     assert told["engine_torque_points"] == 6 and "engine_torque_6" in told
     idle = {"engine_torque", "engine_torque_7", "clutch_force", "brake_force", "vehicle_inertia"}
     assert not idle & told.keys()
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("file", ["SystemStructure.ssd", "Open.ssd"])
+def test_the_system_shows_parameters_that_act_with_the_values_of_their_parts(name, file):
+    """Whoever opens it changes an engine torque without opening a part."""
+    system = planned(name)
+    root = description(packed(system), file)
+    top = root.find("ssd:System", NS)
+    above = values(top.find("ssd:ParameterBindings", NS))
+    wired = {given: (part, into) for source, given, part, into in connections(root) if not source}
+    shown = {c.get("name"): c.get("kind") for c in top.findall("ssd:Connectors/ssd:Connector", NS)}
+    parameters = {n for n, kind in shown.items() if kind == "parameter"}
+    inputs = {n for n, kind in shown.items() if kind == "input"}
+    assert above.keys() == parameters | inputs and len(parameters) >= 3
+    defaults = {p.name: p.parameters for p in system.components}
+    assert all(above[n] == defaults[wired[n][0]][wired[n][1]] for n in parameters)
+    has_source = file == "SystemStructure.ssd"
+    assert ("shift_start" in parameters) == has_source == ("command" in components(root))
+    assert has_source or inputs == {"oil_temperature", "engine_torque_input", "shift_command"}
+    assert has_source or above["oil_temperature"] == system.scene.oil_temperature
+    assert has_source or above["shift_command"] == system.scene.shift_from
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -163,11 +186,14 @@ def test_connections_join_connectors_of_one_kind_and_unit(name, file):
     fed = set()
     for source, output, target, into in connections(root):
         a, b = found[source, output], found[target, into]
-        assert a[1:] == b[1:] and a[0] == "output"
-        assert b[0] == ("input" if target else "output")
+        assert a[1:] == b[1:]
+        assert a[0] == b[0] if source is None or target is None else a[0] == "output"
         fed.add((target, into))
-    inputs = {key for key, (kind, *_) in found.items() if kind == "input"}
-    assert inputs <= fed and not any(name == "oil_temperature" for _, name in found)
+    inputs = {key for key, (kind, *_) in found.items() if kind in ("input", "parameter")}
+    assert {key for key in inputs if key[0]} <= fed
+    if file != "Open.ssd":
+        assert not any(name == "oil_temperature" for _, name in found)
+        assert not any(found[key][0] == "input" for key in inputs if key[0] is None)
     units = {u.get("name") for u in root.findall("ssd:Units/ssc:Unit", NS)}
     assert {unit for *_, unit in found.values() if unit} <= units
     assert all(p.get("unit") in units for p in root.iter(f"{{{NS['ssv']}}}Real"))
@@ -212,7 +238,7 @@ def test_a_master_that_passes_values_on_until_they_agree_runs_the_shift_of_this_
     root = description(packed(system))
     parts = {}
     for p in system.components:
-        given = {k: v for k, v in values(components(root)[p.name]).items() if k in p.parameters}
+        given = {k: v for k, v in bound(root)[p.name].items() if k in p.parameters}
         parts[p.name] = DirectInstance(p.spec, parameters=given)
     row = run(root, parts)
     own = cosimulate(scene, direct_instances(scene)).signals
@@ -230,7 +256,7 @@ def test_the_system_has_a_name_that_masters_take_and_the_title_keeps_the_words(n
     )
     from lxml import etree
 
-    for file in ("SystemStructure.ssd", "Parts.ssd"):
+    for file in FILES:
         root = etree.fromstring(made[file])
         assert re.fullmatch("[A-Za-z][A-Za-z0-9_]*", root.get("name"))
         assert root.find("ssd:System", NS).get("name") == root.get("name")

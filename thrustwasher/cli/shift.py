@@ -23,7 +23,8 @@ EXAMPLES = (
 )
 OF_A_RUN = (
     *("scene", "compare", "no_report", "step", "master", "master_tolerance", "fidelity"),
-    *("no_guard", "ssp", "fmi", "platforms", "plain", "oil", "scatter", "sensitivities"),
+    *("no_guard", "ssp", "fmi", "platforms", "plain", "settings", "oil", "scatter"),
+    "sensitivities",
 )
 REPORT, FOLDER = "report.html", "shift-report"
 FMI = ("2", "3")  # versions of a package's FMUs
@@ -54,6 +55,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     what = "a built-in scene (planetary, brake-test, msl, ...) or a TOML file; default planetary"
     _options.add_subject(parser, "scene", "SCENE", what, asked=False)
     _options.add(parser, OPTIONS)
+    _options.add_settings(
+        parser,
+        "of a package: change a parameter of a part or of the system, e.g. --set "
+        "clutch.friction_scale=0.9; may be repeated",
+    )
     parser.set_defaults(out=FOLDER)
     parser.add_argument(
         "--scatter",
@@ -106,9 +112,10 @@ def run(arguments: argparse.Namespace) -> int:
         check_levels(scene)
     if arguments.ssp:
         return _export(arguments, scene)
-    for option in ("fmi", "platforms", "plain"):
+    for option in ("fmi", "platforms", "plain", "settings"):
         if getattr(arguments, option):
-            raise ParameterError(f"--{option}: for a package only (--ssp FILE.ssp)")
+            name = "set" if option == "settings" else option
+            raise ParameterError(f"--{name}: for a package only (--ssp FILE.ssp)")
     runs = _scatter_runs(arguments, scene)
     if arguments.sensitivities is not None and (scene.sequence or arguments.fmu == "python"):
         raise ParameterError("--sensitivities: of one shift of native FMUs; leave it out")
@@ -306,6 +313,12 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
     check_levels(scene, "in a package")
     if arguments.fmi not in (None, *FMI):
         raise ParameterError(f"--fmi {arguments.fmi}: allowed: {' or '.join(FMI)}")
+    if arguments.settings:
+        from ..settings import split_settings
+        from ..shift.ssp.changed_values import changed
+
+        words = "NAME=VALUE, e.g. clutch.friction_scale=0.9"
+        scene = changed(scene, split_settings(arguments.settings, "--set", words))
     target = _output.check_file(arguments.ssp, "--ssp", (".ssp",))
 
     from ..native.files import zipped

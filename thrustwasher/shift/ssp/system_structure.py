@@ -180,11 +180,11 @@ def _border(parts: Mapping[str, Part]) -> list[Border]:
     for part, names in BORDER["shown"].items():
         if part in parts:
             known = {s.name: s for s in parts[part].spec.outputs}
-            found += [Border(_shown_as(part, n), part, known[n]) for n in names]
+            found += [Border(shown_as(part, n), part, known[n]) for n in names]
     return found
 
 
-def _shown_as(part: str, name: str) -> str:
+def shown_as(part: str, name: str) -> str:
     """Return what something of a part is called at the system's border."""
     return {"transmission": "", SOURCE: "shift_"}.get(part, f"{part}_") + name
 
@@ -197,7 +197,7 @@ def _parameters(components: list[Component]) -> list[Border]:
         for name in BORDER["parameters"].get(part.name, ()):
             if name in part.parameters:
                 signal = Signal(name=name, unit=about[name]["unit"], help=about[name]["help"])
-                found.append(Border(_shown_as(part.name, name), part.name, signal))
+                found.append(Border(shown_as(part.name, name), part.name, signal))
     return found
 
 

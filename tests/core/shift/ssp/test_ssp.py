@@ -13,6 +13,7 @@ from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.model.unread import unread
 from thrustwasher.native.files import zipped
 from thrustwasher.shift import cosimulate, load_scene
+from thrustwasher.shift.ssp.changed_values import changed
 from thrustwasher.shift.ssp.package import files
 from thrustwasher.shift.ssp.system_structure import plan, prepared, start_values
 
@@ -211,6 +212,40 @@ def test_defaults_of_the_parts_are_the_scenes(name):
             given = DirectInstance(part.spec, parameters=part.parameters)
             assert plain.get(list(part.parameters)) == given.get(list(part.parameters))
             assert {s.name: s.start for s in part.spec.inputs} == part.starts
+
+
+def test_a_value_that_is_set_stands_where_every_master_reads_it():
+    """In the FMU's start values and in the package: FMPy reads the first alone."""
+    told = {
+        "clutch.friction_scale": "0.9",
+        "engine_torque_1": "200",
+        "command.start": "50 ms",
+        "washer.thermal_mode": "transient",
+    }
+    scene = changed(load_scene("planetary"), told)
+    system = plan(prepared(scene), {})
+    starts = {p.name: p.parameters for p in system.components}
+    read = bound(description(packed(system)))
+    for found in (starts, read):
+        assert found["clutch"]["friction_scale"] == 0.9
+        assert found["transmission"]["engine_torque_1"] == 200.0
+        assert found["command"]["start"] == 0.05
+    assert starts["washer"]["thermal_mode"] == "transient"  # no enumerations in a package
+    assert starts["brake"]["friction_scale"] == 1.0
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"clutch.friction_scal": "1"}, "did you mean clutch.friction_scale"),
+        ({"clutch.friction_scale": "-1"}, "clutch.friction_scale = -1"),
+        ({"engine_torque": "200"}, "not used in this scene, see engine_torque_points"),
+        ({"clutch.friction_scale": "much"}, "clutch.friction_scale"),
+    ],
+)
+def test_a_value_that_cannot_be_set_is_named(given, said):
+    with pytest.raises(ParameterError, match=said):
+        changed(load_scene("planetary"), given)
 
 
 def test_the_page_names_parts_step_and_delay():

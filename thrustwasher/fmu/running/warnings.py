@@ -2,16 +2,13 @@
 
 from dataclasses import fields
 from itertools import groupby
-from typing import TYPE_CHECKING
+from typing import Any
 
 from ...errors import FIRST_FAILURE, Status
 from ...model.levels import gone_level
 from ...model.unread import unread
 from ...units import into_range
 from ..description.interface import ADVISED, Variable
-
-if TYPE_CHECKING:
-    from .core import Core
 
 # What is said of an input outside the part's box, and outside what was verified: before it, behind.
 RANGES = {
@@ -31,9 +28,9 @@ def is_no_temperature(v: Variable, value: float) -> bool:
 
 
 class Warnings:
-    """What a run was warned of, and what is to be said."""
+    """What a run was warned of, and what is to be said; ``core``: the ``Core`` that runs."""
 
-    def __init__(self, core: "Core") -> None:
+    def __init__(self, core: Any) -> None:
         self._core, self._ranges = core, core.shown.ranges()
         self._beyond = [[False] * len(own) for own in self._ranges]
         self._left = [[0] * len(own) for own in self._ranges]  # how often in this run
@@ -142,4 +139,4 @@ class Warnings:
             return f"{name} = {core.shown.enumerations[v.type_name][int(value) - 1].name}"
         if v.type == "Boolean":
             return f"{name} = {'true' if value else 'false'}"
-        return core.point([v])
+        return str(core.point([v]))

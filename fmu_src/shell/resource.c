@@ -3,27 +3,14 @@
    A file map-<k>.bin, k from 0 without gaps, has a header of TABLE_HEADER doubles, little-endian as
    on every platform built for: a magic number, how many numbers there are, then the parameters that
    the table was made for. Numbers in single precision follow, then a CRC-32 of all that. */
-#if defined(__linux__) && !defined(_GNU_SOURCE)
-#define _GNU_SOURCE /* dladdr */
-#endif
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #ifdef _WIN32
 #include <wchar.h>
 #endif
-#ifndef PART_COMPILED_IN
-#ifdef _WIN32
-#define WIN32_LEAN_AND_MEAN
-#include <windows.h> /* before the tables: both have a POINT */
-#else
-#include <dlfcn.h>
-#ifdef __linux__
-#pragma weak dladdr /* of libdl before glibc 2.34, which a host that loads libraries has */
-#endif
-#endif
-#endif
 
+#include "library_file.h"
 #include "shell.h"
 
 #if !defined(PART_COMPILED_IN) || (TABLE_ROOM > 0 && !defined(TABLE_COMPILED_IN))
@@ -146,26 +133,6 @@ static int read_part(Instance *m) {
     fclose(file);
     part->guid[WORD_LENGTH - 1] = part->name[WORD_LENGTH - 1] = '\0';
     return good;
-}
-
-/* The library's own file in UTF-8; empty: not to be had. */
-static void find_library(char *path, size_t room) {
-    static const char here = 0;
-    path[0] = '\0';
-#ifdef _WIN32
-    wchar_t wide[PATH_LENGTH];
-    HMODULE own = NULL;
-    const DWORD how = GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT;
-    if (!GetModuleHandleExW(how, (LPCWSTR)(const void *)&here, &own)) return;
-    const DWORD n = GetModuleFileNameW(own, wide, PATH_LENGTH);
-    if (n == 0 || n == PATH_LENGTH) return;
-    if (!WideCharToMultiByte(CP_UTF8, 0, wide, -1, path, (int)room, NULL, NULL)) path[0] = '\0';
-#else
-    Dl_info info = {0};
-    if (!dladdr || !dladdr(&here, &info) || !info.dli_fname) return;
-    const size_t n = strlen(info.dli_fname) + 1;
-    if (n <= room) memcpy(path, info.dli_fname, n);
-#endif
 }
 
 /* Is the part found in the folder resources of the FMU that the library lies in, of the same build? Then

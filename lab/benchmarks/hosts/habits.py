@@ -172,6 +172,29 @@ def libcosim_samples(folder: Path) -> str:
     return f"10 steps, {asked} samples asked from step 0: {had} come"
 
 
+def libcosim_system(folder: Path) -> str:
+    from libcosimpy.CosimExecution import CosimExecution
+
+    with tempfile.TemporaryDirectory() as name:
+        system = str(_parts(folder, Path(name), "Parts.ssd") / "SystemStructure.ssd")
+        try:
+            CosimExecution.from_ssp_file(system, round(STEP * 1e9))
+        except AssertionError as problem:
+            return f"`SystemStructure.ssd`: {problem}"
+    return "opens `SystemStructure.ssd`"
+
+
+def ecos_system(folder: Path) -> str:
+    from ecospy.EcosSimulation import EcosSimulation
+
+    with tempfile.TemporaryDirectory() as name:
+        try:
+            EcosSimulation(STEP, ssp_path=str(_parts(folder, Path(name), "Parts.ssd")))
+        except Exception as problem:
+            return f"`SystemStructure.ssd`: {str(problem).strip(' :')}"
+    return "opens `SystemStructure.ssd`"
+
+
 def ecos_digits(folder: Path) -> str:
     from ecospy.EcosSimulation import EcosSimulation
 
@@ -229,7 +252,9 @@ HABITS = [
         "take units and ranges from the parts; step by a multiple",
     ),
     Habit("PathSim", "pathsim-fmi", pathsim_leads, "build with `--plain`; delay outputs by a step"),
+    Habit("libcosim, SSP", "libcosimpy", libcosim_system, "take `Parts.ssd`, made with `--set`"),
     Habit("libcosim", "libcosimpy", libcosim_samples, "ask from step 1"),
+    Habit("Ecos, SSP", "ecospy", ecos_system, "put `Parts.ssd` in its place, made with `--set`"),
     Habit("Ecos", "ecospy", ecos_digits, "read values through its functions, not its table"),
 ]
 

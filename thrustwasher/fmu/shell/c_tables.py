@@ -27,8 +27,8 @@ MOST_INPUTS = 32  # dependencies are bits of one word
 # The C files of a native FMU next to the generated ones and the dispatch to the kernels.
 SHELL_FILES = tuple(
     """
-    lifecycle.c events.c solution.c resource.c library_file.c values.c text.c messages.c state.c derivative.c
-    fmi2.c fmi2_values.c fmi3.c fmi3_values.c fmi3_state.c fmi3_declined.c
+    lifecycle.c events.c solution.c resource.c library_file.c values.c text.c messages.c state.c
+    derivative.c fmi2.c fmi2_values.c fmi3.c fmi3_values.c fmi3_state.c fmi3_declined.c
     """.split()
 )
 VERSIONS = (2, 3)  # of FMI, both in one library

@@ -2,7 +2,9 @@
 #include "fmi2_shell.h"
 
 static const Kind REAL = {"Real", TYPE_BIT(TYPE_REAL), FORM_DOUBLE};
-static const Kind INTEGER = {"Integer", TYPE_BIT(TYPE_INTEGER) | TYPE_BIT(TYPE_ENUMERATION), FORM_INT32};
+/* What a plain description calls Integer: choices and Booleans too. */
+static const Kind INTEGER = {
+    "Integer", TYPE_BIT(TYPE_INTEGER) | TYPE_BIT(TYPE_ENUMERATION) | TYPE_BIT(TYPE_BOOLEAN), FORM_INT32};
 static const Kind BOOLEAN = {"Boolean", TYPE_BIT(TYPE_BOOLEAN), FORM_INT32};
 static const Kind STRING = {"String", 0, FORM_NONE};
 

@@ -15,7 +15,8 @@ int reset(Instance *m) {
     m->unsolved = m->work_fits = m->last_step = m->table_ready = 0;
     m->happened = m->is_early = 0;
     m->warned = -1;
-    m->told_late = 0;
+    m->told_late = m->told_long = 0;
+    memset(m->told_zero, 0, sizeof m->told_zero);
     for (int i = 0; i < N_VARIABLES; i++) {
         const Variable *v = &VARIABLES[i];
         if (v->store == STORE_PAR) m->now.par[v->slot] = m->part.starts[i];
@@ -179,6 +180,7 @@ int advance(Instance *m, double t, double h) {
     m->now.time = t + h;
     m->now.latch = m->unsolved = 0;
     tell_late_step(m, t, asked, expected);
+    if (ADVISED >= 0) tell_long_step(m, h);
     m->happened = has_changed(m);
     m->is_early = h < asked;
     if (N_SWITCHES > 0) tell_switches(m);

@@ -106,7 +106,7 @@ static void add_allowed(Text *t, const Variable *v) {
     add_range(t, v, v->low, v->high);
 }
 
-static void add_reason(Text *t, const Instance *m, const Variable *v, double value) {
+static void add_reason(Text *t, const Variable *v, double value) {
     add_quantity(t, v, value);
     add(t, " is outside ");
     add_allowed(t, v);
@@ -118,11 +118,6 @@ static void add_reason(Text *t, const Instance *m, const Variable *v, double val
         add(t, " K (");
         add_number(t, value);
         add(t, " degC)?");
-    }
-    if (value == 0.0 && v->cause == CAUSE_INPUT) {
-        add(t, " Some hosts set an input to 0 that is not connected: connect it to a constant, ");
-        add_quantity(t, v, m->part.starts[v - VARIABLES]);
-        add(t, " is its default.");
     }
 }
 
@@ -136,7 +131,7 @@ void tell_refusal(Instance *m, const Variable *v, double value) {
         add(&text, "%s is a fixed parameter%s; it can be set before the initialization ends", v->name,
             v->tunable ? " with fidelity 'map', made for one value" : "");
     } else {
-        add_reason(&text, m, v, value);
+        add_reason(&text, v, value);
     }
     memcpy(m->refusal, text.text, sizeof m->refusal);
     tell(&m->log, BAD, LOG_ERROR, &text);
@@ -157,6 +152,33 @@ void tell_late_step(Instance *m, double t, double h, double expected) {
     add(&text, " s, but the last one ended at ");
     add_exact(&text, expected);
     add(&text, " s; the host's time counts, and this is said once");
+    tell(&m->log, WARNING, LOG_WARNING, &text);
+}
+
+/* Warn once that the step [s] is longer than both the description's and the one the unit would have. */
+void tell_long_step(Instance *m, double h) {
+    const double advised = m->now.solution.out[AT_LEAST_ONE(ADVISED + 1) - 1];
+    if (m->told_long || !(advised > 0.0) || h <= advised || h <= (1.0 + 1e-6) * m->part.step) return;
+    m->told_long = 1;
+    Text text = begun(m, m->now.time);
+    add(&text, " s: the step of ");
+    add_number(&text, h);
+    add(&text, " s is longer than advised_step = ");
+    add_number(&text, advised);
+    add(&text, " s and than that of the description, ");
+    add_number(&text, m->part.step);
+    add(&text, " s; shorten the host's step; this is said once");
+    tell(&m->log, WARNING, LOG_WARNING, &text);
+}
+
+/* Warn once of an input at 0 K. */
+void tell_no_temperature(Instance *m, const Variable *v) {
+    if (m->told_zero[v->slot]) return;
+    m->told_zero[v->slot] = 1;
+    Text text = begun(m, m->now.time);
+    add(&text, " s: %s = 0 K, as some hosts set an input that is not connected: ", v->name);
+    add_number(&text, value_of(m, v));
+    add(&text, " K, its last value, stays; connect it to a constant; this is said once");
     tell(&m->log, WARNING, LOG_WARNING, &text);
 }
 

@@ -10,6 +10,7 @@
 #include <wchar.h>
 #endif
 
+#include "library_file.h"
 #include "shell.h"
 
 #if !defined(PART_COMPILED_IN) || (TABLE_ROOM > 0 && !defined(TABLE_COMPILED_IN))
@@ -127,15 +128,42 @@ static int read_part(Instance *m) {
     if (!file) return -1;
     int good = fread(part, sizeof *part, 1, file) == 1
                && is_whole(file, checksum(0, (const unsigned char *)part, sizeof *part))
-               && !memcmp(part->magic, "twpart2", sizeof part->magic)
+               && !memcmp(part->magic, "twpart3", sizeof part->magic)
                && !memcmp(part->build, BUILD, sizeof part->build);
     fclose(file);
     part->guid[WORD_LENGTH - 1] = part->name[WORD_LENGTH - 1] = '\0';
     return good;
 }
 
+/* Is the part found in the folder resources of the FMU that the library lies in, of the same build? Then
+   that folder is taken, and it is said. */
+static int is_beside(Instance *m, const char *guid) {
+    static const char up[] = "/../../resources";
+    char *path = m->resources;
+    find_library(path, PATH_LENGTH - sizeof up);
+    size_t n = strlen(path);
+    while (n > 0 && path[n - 1] != '/' && path[n - 1] != '\\') n--;
+    if (n == 0) {
+        path[n++] = '.';
+    } else if (n > 1) {
+        n--; /* without the separator */
+    }
+    memcpy(path + n, up, sizeof up);
+    if (!guid || read_part(m) <= 0 || strcmp(guid, m->part.guid) != 0) return 0;
+    Text text = {0};
+    add(&text,
+        "part.bin of %s is not in the folder of resources that the host names; it is read beside the "
+        "library, from %s",
+        m->part.name, shown_folder(m));
+    tell(&m->log, WARNING, LOG_WARNING, &text);
+    return 1;
+}
+
 int load_part(Instance *m, const char *location, const char *guid) {
     const Part *part = &m->part;
+    take_resources(m, location);
+    if (m->resources[0] && read_part(m) > 0 && guid && !strcmp(guid, part->guid)) return GOOD;
+    if (is_beside(m, guid)) return GOOD;
     take_resources(m, location);
     if (!m->resources[0]) {
         return fail(m,
@@ -148,7 +176,6 @@ int load_part(Instance *m, const char *location, const char *guid) {
         return fail(m, "part.bin in the folder %s is %s; unpack the FMU again", shown_folder(m),
                     found ? "missing" : "damaged, or of another build than this library");
     }
-    if (guid && !strcmp(guid, part->guid)) return GOOD;
     return fail(m,
                 "%s: the description has the identifier %s, part.bin in %s has %s; they are of "
                 "different builds, use both from one FMU",

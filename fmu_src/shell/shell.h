@@ -54,6 +54,7 @@ typedef struct {
     char magic[8], build[16], guid[WORD_LENGTH], name[WORD_LENGTH];
     double starts[N_VARIABLES];
     double ranges[2][AT_LEAST_ONE(NINP)][2]; /* of each input: the part's box, what was verified */
+    double step;                             /* of the default experiment [s] */
 } Part;
 
 /* In C sources the part is compiled in, in place of part.bin (PART_COMPILED_IN); where a model has
@@ -71,6 +72,8 @@ typedef struct {
     int32_t unsolved;  /* the failure of the solve at the present values, or 0 */
     int32_t warned;    /* the status the host was last told, -1: nothing yet */
     int32_t told_late; /* the host was told that a step did not begin where the last one ended */
+    int32_t told_long; /* ... that its step is too long */
+    uint8_t told_zero[AT_LEAST_ONE(NINP)]; /* the host was told that this input at 0 K keeps its last value */
     uint8_t beyond[2][AT_LEAST_ONE(NINP)]; /* the inputs that are outside their ranges ... */
     uint32_t left[2][AT_LEAST_ONE(NINP)];  /* ... and how often they left them in this run */
     uint32_t cared[FIRST_FAILURE];         /* how often a solution began to need care, by its status */
@@ -223,6 +226,8 @@ void tell_failure(const Instance *m, int32_t status, double t, double h);
 void tell_rule(const Instance *m, const char *rule);
 void tell_refusal(Instance *m, const Variable *v, double value);
 void tell_late_step(Instance *m, double t, double h, double expected);
+void tell_long_step(Instance *m, double h);
+void tell_no_temperature(Instance *m, const Variable *v);
 void tell_switches(Instance *m);
 void tell_effort(const Instance *m);
 void tell_advice(Instance *m);

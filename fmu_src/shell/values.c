@@ -89,6 +89,18 @@ static void take_over(Instance *m, uint32_t reference, double value) {
     }
 }
 
+/* 0 K: what some hosts set an input to that is not connected. */
+static int is_no_temperature(const Variable *v, double value) {
+    return value == 0.0 && !is_inside(v, value) && v->cause == CAUSE_INPUT && !v->relative
+           && strcmp(v->unit, "K") == 0;
+}
+
+/* What may be set now, within its range; or a parameter to the value that it has, whenever. */
+static int is_taken(const Instance *m, const Variable *v, double value) {
+    if (!may_set(m, v)) return v->cause == CAUSE_PARAMETER && value_of(m, v) == value;
+    return is_inside(v, value) || is_no_temperature(v, value);
+}
+
 int set_values(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind,
                const void *values) {
     uint32_t found = 0;
@@ -96,14 +108,20 @@ int set_values(Instance *m, int call, const uint32_t *references, size_t n, cons
     for (size_t i = 0; i < n; i++) {
         const Variable *v = &VARIABLES[references[i]];
         double value = read_value(v, kind->form, values, i);
-        if (may_set(m, v) && is_inside(v, value)) continue;
+        if (is_taken(m, v, value)) continue;
         tell_refusal(m, v, value);
         m->now.latch = STATUS_BAD_INPUT;
         refuse(m, references, n);
         return BAD;
     }
     for (size_t i = 0; i < n; i++) {
-        take_over(m, references[i], read_value(&VARIABLES[references[i]], kind->form, values, i));
+        const Variable *v = &VARIABLES[references[i]];
+        double value = read_value(v, kind->form, values, i);
+        if (is_no_temperature(v, value)) {
+            tell_no_temperature(m, v);
+            value = value_of(m, v);
+        }
+        take_over(m, references[i], value);
     }
     return GOOD;
 }

@@ -30,8 +30,8 @@ OPTIONS = {
     "--tol X": "relative error of the torque allowed in the map of a part file's washer, which is "
     "built and kept if there is none; default 0.01",
     "--terminals": "put the plugs into FMI 2.0 FMUs too, where some tools call them an error",
-    "--plain-outputs": "enumerations and Booleans are local variables, not outputs: for hosts that "
-    "read every output as a real number",
+    "--plain": "for hosts that know real and whole numbers only: enumerations and Booleans are "
+    "local variables, not outputs, and integers, also as parameters",
     "--sources": "native only: put in C sources too, the same FMU for any C99 compiler, as "
     "real-time hosts want it",
     "--json": "one JSON object with the paths",
@@ -62,6 +62,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="FMI version; default 2; 3 for target native only",
     )
     _options.add(parser, OPTIONS)
+    former = argparse.SUPPRESS  # its name up to 0.23
+    parser.add_argument("--plain-outputs", dest="plain", action="store_true", help=former)
     parser.set_defaults(out="dist", tol=TOL)
     _options.add_oil(parser)
 
@@ -96,7 +98,7 @@ def run(arguments: argparse.Namespace) -> int:
         terminals=arguments.terminals,
         oil=arguments.oil,
         c_sources=arguments.sources,
-        plain_outputs=arguments.plain_outputs,
+        plain=arguments.plain,
         fidelity=arguments.fidelity,
     )
     specs = [spec for spec in _specs(arguments.models, parts) if oil and oil.parameters_for(spec)]

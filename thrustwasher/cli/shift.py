@@ -23,7 +23,8 @@ EXAMPLES = (
 )
 OF_A_RUN = (
     *("scene", "compare", "no_report", "step", "master", "master_tolerance", "fidelity"),
-    *("no_guard", "ssp", "fmi", "platforms", "oil", "scatter", "sensitivities"),
+    *("no_guard", "ssp", "fmi", "platforms", "plain", "settings", "oil", "scatter"),
+    "sensitivities",
 )
 REPORT, FOLDER = "report.html", "shift-report"
 FMI = ("2", "3")  # versions of a package's FMUs
@@ -44,6 +45,7 @@ OPTIONS = {
     "--fmi N": "version of the package's FMUs, 2 or 3; default 2",
     "--platforms LIST": "of the package's FMUs: names with commas, all, or local; default: all "
     "that can be linked here",
+    "--plain": "a package for hosts that know real and whole numbers only, as in `build`",
     "--json": "one JSON object with every number",
 }
 
@@ -53,6 +55,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     what = "a built-in scene (planetary, brake-test, msl, ...) or a TOML file; default planetary"
     _options.add_subject(parser, "scene", "SCENE", what, asked=False)
     _options.add(parser, OPTIONS)
+    _options.add_settings(
+        parser,
+        "of a package: change a parameter of a part or of the system, e.g. --set "
+        "clutch.friction_scale=0.9; may be repeated",
+    )
     parser.set_defaults(out=FOLDER)
     parser.add_argument(
         "--scatter",
@@ -105,9 +112,10 @@ def run(arguments: argparse.Namespace) -> int:
         check_levels(scene)
     if arguments.ssp:
         return _export(arguments, scene)
-    for option in ("fmi", "platforms"):
+    for option in ("fmi", "platforms", "plain", "settings"):
         if getattr(arguments, option):
-            raise ParameterError(f"--{option}: for a package only (--ssp FILE.ssp)")
+            name = "set" if option == "settings" else option
+            raise ParameterError(f"--{name}: for a package only (--ssp FILE.ssp)")
     runs = _scatter_runs(arguments, scene)
     if arguments.sensitivities is not None and (scene.sequence or arguments.fmu == "python"):
         raise ParameterError("--sensitivities: of one shift of native FMUs; leave it out")
@@ -305,13 +313,19 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
     check_levels(scene, "in a package")
     if arguments.fmi not in (None, *FMI):
         raise ParameterError(f"--fmi {arguments.fmi}: allowed: {' or '.join(FMI)}")
+    if arguments.settings:
+        from ..settings import split_settings
+        from ..shift.ssp.changed_values import changed
+
+        words = "NAME=VALUE, e.g. clutch.friction_scale=0.9"
+        scene = changed(scene, split_settings(arguments.settings, "--set", words))
     target = _output.check_file(arguments.ssp, "--ssp", (".ssp",))
 
     from ..native.files import zipped
 
     platforms = chosen_platforms(arguments.platforms, "native")
     began = time.perf_counter()
-    parts = _package(scene, platforms, int(arguments.fmi or FMI[0]))
+    parts = _package(scene, platforms, int(arguments.fmi or FMI[0]), plain=arguments.plain)
     _output.warn(scene.warnings)
 
     with _output.whole_file(target) as draft:
@@ -325,7 +339,7 @@ def _export(arguments: argparse.Namespace, scene: Any) -> int:
     return 0
 
 
-def _package(scene: Any, platforms: list[str] | None, fmi: int) -> dict[str, bytes]:
+def _package(scene: Any, platforms: list[str] | None, fmi: int, *, plain: bool) -> dict[str, bytes]:
     """Return all files of the package: the system, its documentation, one FMU per part."""
     from ..fmu.build import pack_native
     from ..fmu.description.model_description import generation_date
@@ -338,7 +352,9 @@ def _package(scene: Any, platforms: list[str] | None, fmi: int) -> dict[str, byt
         instances = {name: make(name, part) for name, part in scene.parts.items()}
         system = plan(scene, start_values(scene, instances))
     tool = f"thrustwasher {package_version()}"
-    found = files(system, tool=tool, date=generation_date(), fmi=fmi)
+    found = files(system, tool=tool, date=generation_date(), fmi=fmi, plain=plain)
     for part in system.components:
-        found[part.source] = pack_native(part.spec, fmi=fmi, platforms=platforms, note=_output.note)
+        found[part.source] = pack_native(
+            part.spec, fmi=fmi, platforms=platforms, plain=plain, note=_output.note
+        )
     return found

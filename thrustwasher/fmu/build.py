@@ -43,7 +43,7 @@ def build(
     terminals: bool = False,
     oil: str | Mapping[str, object] | None = None,
     c_sources: bool = False,
-    plain_outputs: bool = False,
+    plain: bool = False,
     fidelity: str | None = None,
 ) -> list[Path]:
     """Build FMUs and return their paths, ``out/<target>-fmi<N>/<Model>.fmu``.
@@ -68,8 +68,8 @@ def build(
     oil : native only, the oil of all models that know one, as for ``thrustwasher.oil``; an FMU's
         start values follow it
     c_sources : native only, put in the folder sources too: the same FMU as C99 for any compiler
-    plain_outputs : enumerations and Booleans are local variables, not outputs: for hosts that read
-        every output as a real number
+    plain : for hosts that know real and whole numbers only: enumerations and Booleans are local
+        variables, not outputs, and integers with a range, also as parameters
     fidelity : native only, "map": the washer with its map alone, without solver and without the
         parameters that a map is made for; in a fraction of the memory
 
@@ -94,7 +94,7 @@ def build(
     places: Sequence[str] = ()
     if target == "native":
         places = [this_platform().name] if local else chosen(platforms, say, specs)
-    order, paths = Order(target, fmi, places, say, local, c_sources, plain_outputs), []
+    order, paths = Order(target, fmi, places, say, local, c_sources, plain), []
     for spec in specs:
         shown, folder = interface(spec), model_folder(spec, sources or source_folder())
         files = contents(shown, folder, order, reference=not local)
@@ -199,6 +199,7 @@ def pack_native(
     *,
     fmi: int = 2,
     platforms: Sequence[str] | None = None,
+    plain: bool = False,
     note: Note | None = None,
 ) -> bytes:
     """Return a native FMU of FMI 2 or 3 of any model, also of one with defaults of its own.
@@ -206,7 +207,7 @@ def pack_native(
     It has no reference results: those of a model with its usual defaults are in the usual FMU.
     """
     say = note or (lambda _: None)
-    order = Order("native", fmi, chosen(platforms, say, [spec]), say)
+    order = Order("native", fmi, chosen(platforms, say, [spec]), say, plain=plain)
     folder = model_folder(spec, source_folder())
     files = contents(interface(spec), folder, order, reference=False)
     return zipped(files, first=DESCRIPTION)
@@ -243,7 +244,7 @@ def contents(shown: Interface, folder: Path, order: Order, *, reference: bool) -
         derivatives=native and has_derivatives(spec),
         moving=native,
         compiled=compiled(in_c),
-        plain_outputs=order.plain_outputs,
+        plain=order.plain,
     )
     try:
         results = reference_files(spec) if reference else {}

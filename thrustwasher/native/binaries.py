@@ -16,14 +16,15 @@ ALLOWED = {
     "MachO": r"/usr/lib/libSystem\.B\.dylib",
     "WASM": r"",  # a module for browsers needs nothing
 }
-# Functions that a library may take from the C library: memory, text and files. No mathematics: a
-# host may have functions of these names.
+# Functions that a library may take from the C library: memory, text and files, and where its own
+# file lies (of Windows in the last line). No mathematics: a host may have functions of these names.
 IMPORTS = frozenset(
     """
     calloc free memchr memcmp bcmp memcpy memmove memset bzero __bzero
     memset_pattern8 memset_pattern16
     strchr strcmp strlen strncmp strncpy strtod strtol atoi snprintf vsnprintf
-    fclose fgetc fopen fread
+    fclose fgetc fopen fread dladdr
+    GetModuleHandleExW GetModuleFileNameW WideCharToMultiByte
     """.split()
 )
 # Of compilers and linkers: how a library is set up and taken down. The lines from the third on are

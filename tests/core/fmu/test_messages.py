@@ -142,6 +142,24 @@ def test_a_grave_warning_comes_before_inputs_outside_their_ranges(listen):
     assert washer.heard("logStatusWarning") == told + direct.core.counts()
 
 
+def test_a_pack_tells_once_of_steps_longer_than_its_own_and_the_advised_one(listen):
+    """FMPy without an output interval makes 8 ms of 1 ms over 5 s."""
+    pack, direct = listen("WetClutch"), DirectInstance(find_spec("clutch"))
+    at = {"load": 0.0, "speed": 200.0, "oil_temperature": 353.15}
+    direct.initialize(0.0, at)
+    pack.begin(**at)
+    told = []
+    for i in range(20):
+        load = 5000.0 * min(1.0, i * 0.08)
+        pack.set(load=load)
+        pack.fmu.doStep(i * 8e-3, 8e-3)
+        direct.set_inputs([load, 200.0, 353.15, 0.0])
+        direct.step(i * 8e-3, 8e-3)
+        told += [text for kind, text in direct.core.messages() if kind == "logStatusWarning"]
+    heard = pack.heard("logStatusWarning")
+    assert heard == told and sum("longer than advised_step" in text for text in heard) == 1
+
+
 BOXED = """
 model = "gearmesh"
 name = "Boxed"

@@ -89,9 +89,10 @@ def broken_slave(monkeypatch):
     return slave
 
 
-def test_no_exception_ever_leaves_a_callback(monkeypatch):
+def test_no_exception_but_of_a_step_leaves_a_callback(monkeypatch):
     slave = broken_slave(monkeypatch)
-    assert slave.do_step(0.0, H) is False
+    with pytest.raises(EnvironmentProblem, match="Ctrl-C in the middle"):
+        slave.do_step(0.0, H)  # the only one that may
     assert slave.get_real([1]) == [100.0]
     assert slave.get_integer([9999]) == [0] and slave.get_boolean([-1]) == [False]
     assert slave.get_string([1, 2]) == ["", ""]
@@ -114,3 +115,40 @@ def test_messages_have_no_character_that_fmi_gives_a_meaning(monkeypatch):
     slave = broken_slave(monkeypatch)
     slave.report(ParameterError("50 % of #3#"))
     assert not {"%", "#"} & set(slave.log_queue[-1].msg)
+
+
+REFUSED = """
+import sys
+import numpy as np
+from fmpy import simulate_fmu
+rows = [(0.0, 500.0, 310.0), (0.4, 500.0, 310.0), (0.4, 500.0, 80.0), (1.0, 500.0, 80.0)]
+names = ["time", "load", "oil_temperature"]
+given = np.array(rows, dtype=[(n, float) for n in names])
+said = []
+for _ in range(3):
+    try:
+        simulate_fmu(sys.argv[1], input=given, stop_time=1.0, output_interval=0.1,
+                     debug_logging=True, logger=lambda *words: said.append(str(words[-1])))
+    except Exception as problem:
+        print(problem)
+print(sum("353.15 K (80 degC)" in text for text in said) >= 3)
+"""
+
+
+def test_a_refused_input_raises_in_fmpy_as_a_native_fmu_does(python_toy, fmi2_toy, run_child):
+    """A step that is discarded ends its run in silence, at 0.4 of 1 s."""
+    for fmu, status in ((python_toy, "fmi2DoStep failed with status 4"), (fmi2_toy, "status 3")):
+        *raised, told = run_child(REFUSED, fmu).splitlines()
+        assert sum(status in text for text in raised) == 3 and told == "True"
+
+
+def test_steps_that_fail_leave_an_instance_of_the_same_references(python_toy):
+    """pythonfmu drops three at an exception; without them the second failure ends the process."""
+    with Instance(python_toy) as fmu:
+        fmu.initialize(inputs=TOY_START)
+        fmu.step(0.0, H)
+        for _ in range(20):
+            with pytest.raises(ParameterError):
+                fmu.step(0.0, float("nan"))
+        fmu.step(H, H)
+        assert fmu.get(["steps"]) == [2.0]

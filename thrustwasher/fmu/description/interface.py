@@ -24,6 +24,7 @@ LOG_CATEGORIES = {  # in the order of the enum in the shell's tables.h
 }
 MOST_STEPS = 1000  # of the default experiment; beyond it FMPy silently enlarges the step
 EVENT_OUTPUTS = ("film_ratio", "engine_speed", "temperature")  # next to the inputs in messages
+ADVISED = "advised_step"  # the output that a host's step is compared with
 LARGEST = sys.float_info.max  # bound of a variable without bounds: NaN and infinity still fail
 
 

@@ -4,6 +4,7 @@ import os
 import re
 import subprocess
 from collections.abc import Collection, Sequence
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -49,16 +50,18 @@ def description(
     derivatives: bool = False,
     moving: bool = False,
     compiled: Sequence[str] = (),
-    plain_outputs: bool = False,
+    plain: bool = False,
 ) -> bytes:
     """Return the model description.
 
     ``derivatives``: the binary has directional ones; ``moving``: it lets inputs move within a step;
     ``compiled``: files in the folder sources that are compiled, which FMI 2 lists here;
-    ``plain_outputs``: outputs are real numbers, the others local.
+    ``plain``: outputs are real numbers, the others local; parameters are real or whole numbers.
     """
     found, names = shown.variables, [v.name for v in shown.parameters]
-    hidden = {v for v in shown.outputs if plain_outputs and v.type != "Real"}
+    hidden = {v.name for v in shown.outputs if plain and v.type != "Real"}
+    if plain:
+        found = tuple(_plain(shown, v, fmi) for v in found)
 
     def between(v: Variable) -> Attributes:
         is_there = v.store == "out" or (moving and v.causality == "input")
@@ -77,11 +80,15 @@ def description(
         types=types(found),
         kinds=TYPES,
         structure=structure(shown, hidden),
-        enumerations=shown.listed,
+        enumerations={} if plain else shown.listed,
         groups=groups(shown.spec, names),
         second_names=grouped_names(shown.spec, names),
         variables=[
-            (v, head_attributes(v, v in hidden) | between(v), value_attributes(v) | _span(shown, v))
+            (
+                v,
+                head_attributes(v, v.name in hidden) | between(v),
+                value_attributes(v) | _span(shown, v),
+            )
             for v in found
         ],
     )
@@ -212,9 +219,25 @@ def _span(shown: Interface, v: Variable) -> Attributes:
     return {"min": min(numbers), "max": max(numbers)}
 
 
-def structure(
-    shown: Interface, hidden: Collection[Variable] = ()
-) -> list[tuple[str, str, list[Any]]]:
+def _plain(shown: Interface, v: Variable, fmi: int) -> Variable:
+    """Return a variable with a type that every host knows: a choice is its number, a flag 0 or 1.
+
+    In FMI 3 inputs say what is so anyway, that their start value is exact.
+    """
+    if v.causality == "input" and fmi == 3:
+        v = replace(v, initial="exact")
+    if v.type == "Boolean":
+        return replace(v, type="Integer", low=0, high=1)
+    if v.type_name is None:
+        return v
+    items = shown.listed[v.type_name]
+    numbers = [item.value for item in items]
+    words = ", ".join(f"{item.value} {item.name}" for item in items)
+    low, high, help = min(numbers), max(numbers), f"{v.help}: {words}"
+    return replace(v, type="Integer", type_name=None, low=low, high=high, help=help)
+
+
+def structure(shown: Interface, hidden: Collection[str] = ()) -> list[tuple[str, str, list[Any]]]:
     """Return name of the list in FMI 2, of an element in FMI 3, and pairs: output, what it needs.
 
     Hidden outputs are left out.
@@ -225,7 +248,7 @@ def structure(
     parameters = {v.name for v in shown.parameters}
 
     def needs(more: set[str]) -> list[Any]:
-        known = [(v, more.union(v.depends)) for v in shown.outputs if v not in hidden]
+        known = [(v, more.union(v.depends)) for v in shown.outputs if v.name not in hidden]
         return [(v, [k for k in shown.variables if k.name in names]) for v, names in known]
 
     return [

@@ -45,7 +45,7 @@ class Order(NamedTuple):
     """What kind of FMU is built.
 
     ``local``: compiled for the processor of this machine; ``c_sources``: with the folder sources;
-    ``plain_outputs``: what is no real number is local, not an output.
+    ``plain``: real and whole numbers only, see ``build``.
     """
 
     target: str
@@ -54,7 +54,7 @@ class Order(NamedTuple):
     note: Note
     local: bool = False
     c_sources: bool = False
-    plain_outputs: bool = False
+    plain: bool = False
 
 
 def identifier(
@@ -71,7 +71,7 @@ def identifier(
     content = shown.variables, shown.enumerations, spec.terminals, own
     hashed = hashlib.sha256(repr(content).encode())
     hashed.update(f"{content_digest(spec)} {package_version()} {tools}".encode())
-    options = f"{' C' if order.c_sources else ''}{' plain' if order.plain_outputs else ''}"
+    options = f"{' C' if order.c_sources else ''}{' plain' if order.plain else ''}"
     hashed.update(f"{order.target} {order.fmi}{options}".encode())
     beside = shared or source_folder()
     for root in (*OWN, folder, *(beside / name for name in SHARED)):

@@ -1,8 +1,9 @@
 """The slave of every Python FMU: the protocol of pythonfmu 0.7.0 around ``Core``.
 
-What shapes it: an exception that leaves a callback makes pythonfmu drop references twice, and the
-second one on an instance ends the process. Therefore no callback ever raises, not even for Ctrl-C.
-A callback other than ``do_step`` cannot report failure at all; so a failure is logged as an error,
+What shapes it: an exception that leaves a callback makes pythonfmu drop references that it goes on
+to use, and the second one on an instance ends the process. Therefore no callback ever raises, not
+even for Ctrl-C, but ``do_step``, which gives pythonfmu those references first: to return False is
+Discard, at which FMPy ends a run in silence. A failure of another callback is logged as an error,
 latched in ``solver_status``, and the next step is refused until it is cured. ``__init__`` may
 raise: the instantiation then returns NULL.
 """
@@ -32,7 +33,7 @@ _at_exit: set[str] = set()  # libraries that release their pointer when the proc
 
 
 class Refused(EnvironmentProblem):
-    """Why there is no instance; pythonfmu shows ``repr``, so that it is the sentence itself."""
+    """Why there is no instance or no step; pythonfmu shows ``repr``: the sentence itself."""
 
     __repr__ = EnvironmentProblem.__str__
 
@@ -56,6 +57,8 @@ def _setter(kind: str) -> Callable[..., Any]:
 
     def set_values(self: "Slave", vrs: list[int], values: list[Any]) -> None:
         self.core.set(vrs, values, kind)
+        for text in self.core.zeros():
+            self.tell(text, Fmi2Status.warning, "logStatusWarning")
 
     return _safe(set_values)
 
@@ -81,6 +84,7 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
     version = digest = guid = ""
     log_categories = LOG_CATEGORIES
     start_time = 0.0
+    _failure = ""  # the newest
 
     def __init__(self, **kwargs: object) -> None:
         super().__init__(**kwargs)
@@ -125,9 +129,16 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
         for text in self.core.advice():
             self.tell(text, Fmi2Status.warning, "logStatusWarning")
 
-    @_safe
     def do_step(self, current_time: float, step_size: float) -> bool:
-        """Advance; False after a failure, with everything as it was."""
+        """Advance; raises after a failure, with everything as it was: the host hears Fatal."""
+        if self._advance(current_time, step_size):
+            return True
+        for dropped in (type(self), self, self._get_log_queue()):
+            ctypes.pythonapi.Py_IncRef(ctypes.py_object(dropped))
+        raise Refused(self._failure)
+
+    @_safe
+    def _advance(self, current_time: float, step_size: float) -> bool:
         self.core.advance(current_time, step_size)
         for category, text in self.core.messages():
             is_warning = category == "logStatusWarning"
@@ -181,7 +192,8 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
 
     def report(self, problem: BaseException) -> None:
         """Log a failure in one sentence; a defect also with its traceback."""
-        self.tell(str(problem) or type(problem).__name__, Fmi2Status.error, "logStatusError")
+        self._failure = str(problem) or type(problem).__name__
+        self.tell(self._failure, Fmi2Status.error, "logStatusError")
         if not isinstance(problem, ParameterError | SolveError):
             core = getattr(self, "core", None)
             if core is not None:

@@ -6,5 +6,6 @@
 ``loading``          unpack an FMU, load its library, instantiate it with its messages kept
 ``protocol``         the two FMI versions as one face
 ``snapshot``         the complete state of an instance, and its bytes
+``warnings``         what a run is warned of, once
 ===================  ======================================================================
 """

@@ -3,34 +3,22 @@
 from collections.abc import Sequence
 from dataclasses import fields
 from enum import IntEnum
-from itertools import groupby
 from math import isfinite
 from struct import pack, unpack
 from typing import Any
 
 import numpy as np
 
-from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status, figures_of
-from ...model.levels import gone_level
+from ...errors import FIRST_FAILURE, ParameterError, SolveError, Status
 from ...model.prepare import fill_table, is_of_table, wants_table
 from ...model.registry import kernel_of
-from ...model.unread import unread
 from ...native.load import bound
-from ...tribology.holding.memory import N_FIGURES, T_ENGAGEMENT
+from ...tribology.holding.memory import N_FIGURES
 from ...units import into_range
 from ..description.interface import Interface, Variable
 from ..model_kernels import content_digest
 from .snapshot import ARRAYS, Snapshot
-
-# What is said of an input outside the part's box, and outside what was verified: before it, behind.
-RANGES = {
-    "": "the part's box: solved all the same, but it is not what the part is meant for; change the "
-    "input, or [box] in the part file",
-    "OUTSIDE_VERIFIED: ": "for which the accuracy was verified; use with care",
-}
-
-
-MOST_UNUSED = 6  # parameters that are named one by one
+from .warnings import Warnings, is_no_temperature
 
 
 class Mode(IntEnum):
@@ -74,16 +62,11 @@ class Core:
         self._arrays = {name: getattr(self, name) for name in (*ARRAYS, "work")}
         handed = {name: a for name, a in self._arrays.items() if name != "rates"}
         told = getattr(kernel, "W_TOLD", -1)
-        self._told = self.work[told : told + N_FIGURES] if told >= 0 else np.zeros(0)
+        self.told = self.work[told : told + N_FIGURES] if told >= 0 else np.zeros(0)
         self._step = bound(kernel.step, **handed | {"inp": taken})
         self._undo = self.state.copy(), self.out.copy(), self.iout.copy()
         self._zeros = np.zeros(kernel.NOUT)
-        self._ranges = shown.ranges()
-        self._beyond = [[False] * len(own) for own in self._ranges]
-        self._left = [[0] * len(own) for own in self._ranges]  # how often in this run
-        self._cared = dict[Status, int]()  # how often a solution began to need care
-        self._engaged = dict[Status, float]()  # in which engagement that was told last
-        self._warned = -1  # the status that was last told, -1: nothing yet
+        self._warnings = Warnings(self)
         self.time, self.mode = 0.0, Mode.INSTANTIATED
         self.dirty, self.prepared = True, False
         self.latch = 0  # the failure to be seen in solver_status until something changes
@@ -112,12 +95,19 @@ class Core:
             taken.append((v, value))
         for v, value in taken:
             array = self._arrays[v.store]
+            if is_no_temperature(v, value):
+                value = self.value(v)
+                self._warnings.note_zero(v, value)
             if array.item(v.slot) != value:
                 array[v.slot] = value
                 self.dirty, self.latch, self._unsolved = True, 0, ""
                 self.prepared = self.prepared and v.store != "par"
             if self.refused.pop(v.reference, None) is not None and not self.refused:
                 self.latch = 0
+
+    def zeros(self) -> list[str]:
+        """Return what has to be said of inputs at 0 K: each once in a run."""
+        return self._warnings.zeros()
 
     def set_rates(self, references: Sequence[int], rates: Sequence[float]) -> None:
         """Let inputs move in the next step, straight, all or none of them (ParameterError)."""
@@ -156,14 +146,15 @@ class Core:
         if self.dirty and any(v.causality == "output" for v in found):
             if not (self.latch and all(v.type_name == "SolverStatus" for v in found)):
                 self.refresh()
-        return [self._value(v) for v in found]
+        return [self.value(v) for v in found]
 
     def stored(self, references: Sequence[int]) -> list[float]:
         """Return what is stored, solving nothing; 0 for an unknown reference."""
         known = range(len(self.variables))
-        return [self._value(self.variables[r]) if r in known else 0.0 for r in references]
+        return [self.value(self.variables[r]) if r in known else 0.0 for r in references]
 
-    def _value(self, v: Variable) -> float:
+    def value(self, v: Variable) -> float:
+        """Return the present value of a variable."""
         if v.store == "time":
             return self.time
         if self.latch and v.store == "iout" and v.slot == self.shown.status_slot:
@@ -175,7 +166,8 @@ class Core:
         if not 0 <= reference < len(self.variables):
             raise ParameterError(f"value reference {reference} is unknown in {self.spec.name}")
         v = self.variables[reference]
-        if v.type != kind and not (v.type == "Enumeration" and kind == "Integer"):
+        is_whole = v.type in ("Enumeration", "Boolean") and kind == "Integer"
+        if v.type != kind and not is_whole:
             raise ParameterError(f"{v.name} is of type {v.type}, not {kind}")
         return v
 
@@ -184,13 +176,15 @@ class Core:
         if v.causality not in ("input", "parameter"):
             return f"{v.name} is an {v.causality} variable; it cannot be set"
         if not self._may_set(v):
+            if self.value(v) == value:  # no change
+                return ""
             tuned = v.variability == "tunable" and self.mode == Mode.STEPPING
             held = " with fidelity 'map', made for one value" if tuned else ""
             return (
                 f"{v.name} is a fixed parameter{held}; it can be set before the initialization ends"
             )
         low, high = v.bounds
-        if low <= value <= high:  # False for NaN
+        if low <= value <= high or is_no_temperature(v, value):  # False for NaN
             return ""
         unit = "" if v.unit == "1" else f" {v.unit}"
         allowed = f"{low:g} .. {high:g}{unit}"
@@ -200,9 +194,6 @@ class Core:
         text = f"{v.name} = {value:g}{unit} is outside {allowed}; the value is not taken over."
         if v.unit == "K" and not v.relative and low <= value + 273.15 <= high:
             text += f" Did you mean {value + 273.15:g} K ({value:g} degC)?"
-        if value == 0.0 and v.causality == "input":
-            text += " Some hosts set an input to 0 that is not connected: connect it to a constant,"
-            text += f" {v.name} = {v.start:g}{unit} is its default."
         return text
 
     def prepare(self) -> None:
@@ -210,7 +201,7 @@ class Core:
         if self.prepared:
             return
         failed, self.latch = self.latch, Status.BAD_INPUT
-        params = self._parameters()  # raises, naming the rule
+        params = self.parameters()  # raises, naming the rule
         number = self._broken_rule(self.par) if self._broken_rule and self.spec.rules else 0
         if number:  # one that concerns the fidelity too
             raise ParameterError(self.spec.rules[number - 1].message(params))
@@ -220,7 +211,7 @@ class Core:
         fill_table(self.spec, params, self.par, self.work)
         self.prepared, self.latch = True, failed
 
-    def _parameters(self) -> Any:
+    def parameters(self) -> Any:
         """Return the parameters as the model's dataclass, which checks the rules between them."""
         named: dict[str, Any] = {}
         for f, value in zip(fields(self.spec.params), self.par.tolist(), strict=False):
@@ -281,7 +272,7 @@ class Core:
         if not self.prepared:
             self.prepare()
         before, self.time = self.time, t
-        self.late = ""
+        self.late = self.long = ""
         if t + h == t:  # what is left of a run at its end: nothing moves
             self.rates[:], self.events = 0.0, []
             self.refresh()
@@ -295,12 +286,14 @@ class Core:
             self._told_late = True
             self.late = f"step from t = {t!r} s, but the last one ended at {before!r} s; "
             self.late += "the host's time counts, and this is said once"
+        self.long = self._warnings.long_step(h)
         if self._seen:
             self.events = self.note_switches()
 
     def messages(self) -> list[tuple[str, str]]:
         """Return (category, text) of all that a host has to be told after a step."""
-        sent = [("logStatusWarning", self.late)] + [("logEvents", text) for text in self.events]
+        sent = [("logStatusWarning", text) for text in (self.late, self.long)]
+        sent += [("logEvents", text) for text in self.events]
         sent.append(("logNonlinearSystems", self.effort))
         sent += [("logStatusWarning", text) for text in self.advice()]
         return [(category, text) for category, text in sent if text]
@@ -311,20 +304,21 @@ class Core:
         seen, self._seen = self._seen, [self.iout.item(slot) for slot, _ in switches]
         pairs = zip(switches, seen, self._seen, strict=True)
         return [
-            f"{self._here}: {texts[0 if now else 1]}; {self._point(self.shown.point)}"
+            f"{self.here}: {texts[0 if now else 1]}; {self.point(self.shown.point)}"
             for (_, texts), before, now in pairs
             if now != before
         ]
 
     @property
-    def _here(self) -> str:
+    def here(self) -> str:
+        """Model and time, as sentences begin."""
         return f"{self.spec.name} at t = {self.time:g} s"
 
     @property
     def effort(self) -> str:
         """What the last solve took, "" if the model's solver counts nothing."""
         counted = [f"{text}: {self.work.item(place):g}" for text, place in self.shown.counts]
-        return f"{self._here}, {', '.join(counted)}" if counted else ""
+        return f"{self.here}, {', '.join(counted)}" if counted else ""
 
     def _solve(self, h: float) -> int:
         """Call the kernel; after a failure ``state`` and the outputs are what they were."""
@@ -370,87 +364,21 @@ class Core:
         self.out[:], self.iout[:] = out, iout
 
     def _story(self, rc: int, where: str) -> str:
-        point = self._point(self.shown.inputs)
+        point = self.point(self.shown.inputs)
         return f"{self.spec.name} at {where}, {point}: {Status(rc).name}: {Status(rc).advice}"
 
-    def _point(self, variables: Sequence[Variable]) -> str:
+    def point(self, variables: Sequence[Variable]) -> str:
         """Return the values of variables in words."""
-        values = [(v, self._value(v)) for v in variables]
+        values = [(v, self.value(v)) for v in variables]
         return ", ".join(f"{v.name} = {x:g} {v.unit}".removesuffix(" 1") for v, x in values)
 
     def advice(self) -> list[str]:
         """Return what the host has to be warned of now, the gravest first: each once in a run."""
-        found, begin, status = [], f"{self._here}: ", self.status
-        if self._warned < 0:
-            number = int(self.par.item(len(fields(self.spec.params))))
-            level = list(self.spec.fidelities)[number - 1]
-            told = (*gone_level(self.spec, level), *self._unused(level))
-            found += [begin + text for text in told]
-        unverified = any(self._is_beyond(1, i) for i in range(len(self.shown.inputs)))
-        is_known = status == self._warned or (status is Status.OUTSIDE_VERIFIED and unverified)
-        is_known |= status is Status.HOT and self._warned == Status.EXTRAPOLATED
-        self._warned = status
-        if not is_known and Status.OK < status < FIRST_FAILURE:
-            self._cared[status] = self._cared.get(status, 0) + 1
-            figures = figures_of(status, self._told.tolist())
-            engaged = self._engaged.get(status, 0.0)
-            if self._cared[status] == 1 or (figures and self._told[T_ENGAGEMENT] != engaged):
-                self._engaged[status] = self._told.item(T_ENGAGEMENT) if figures else 0.0
-                point = self._point(self.shown.point)
-                found.append(f"{begin}{status.name}: {status.advice}; {figures}{point}")
-        for k, (name, words) in reversed([*enumerate(RANGES.items())]):
-            for i, v in enumerate(self.shown.inputs):
-                was_beyond, self._beyond[k][i] = self._beyond[k][i], self._is_beyond(k, i)
-                if was_beyond or not self._beyond[k][i]:
-                    continue
-                self._left[k][i] += 1
-                if self._left[k][i] == 1:
-                    value, unit = self.inp.item(v.slot), f" {v.unit}".removesuffix(" 1")
-                    low, high = self._ranges[k][i]
-                    span = f"is outside {low:g} .. {high:g}{unit}, {words}"
-                    found.append(f"{begin}{name}{v.name} = {value:g}{unit} {span}")
-        return found
+        return self._warnings.advice()
 
     def counts(self) -> list[str]:
         """Return, for the end of a run, how often it was as was warned of once."""
-        found = [(status.name, n) for status, n in sorted(self._cared.items())]
-        for k, what in ((1, "left the verified range"), (0, "left the part's box")):
-            pairs = zip(self.shown.inputs, self._left[k], strict=True)
-            found += [(f"{v.name} {what}", n) for v, n in pairs]
-        name = self.spec.name
-        return [
-            f"{name}: {what} {n} times in this run; the first is told above"
-            for what, n in found
-            if n > 1
-        ]
-
-    def _is_beyond(self, k: int, i: int) -> bool:
-        """Tell if an input is outside a range of its own: 0 the part's box, 1 what was verified."""
-        low, high = self._ranges[k][i]
-        return not low <= into_range(low, high, self.inp.item(self.shown.inputs[i].slot)) <= high
-
-    def _unused(self, level: str) -> list[str]:
-        """Return which parameters were set away from their starts and are not used, in a line."""
-        params, level = self._parameters(), self.spec.successors.get(level, level)
-        lines = []
-        for v in self.shown.parameters:
-            failing = unread(params, v.name, level) if self._value(v) != v.start else []
-            if failing:
-                named = [self._setting(by) for by, _ in groupby(c.by for c in failing) if by]
-                why = f": {', '.join(named)}" if named else ""
-                lines.append(f"{self._setting(v.name)} is not used{why}")
-        more = [f"and {len(lines) - MOST_UNUSED} more"] if len(lines) > MOST_UNUSED else []
-        return ["; ".join(lines[:MOST_UNUSED] + more)] if lines else []
-
-    def _setting(self, name: str) -> str:
-        """Return name and value of a parameter in words."""
-        v = next(v for v in self.shown.parameters if v.name == name)
-        value = self._value(v)
-        if v.type_name:
-            return f"{name} = {self.shown.enumerations[v.type_name][int(value) - 1].name}"
-        if v.type == "Boolean":
-            return f"{name} = {'true' if value else 'false'}"
-        return self._point([v])
+        return self._warnings.counts()
 
     @property
     def status(self) -> Status:
@@ -490,4 +418,4 @@ class Core:
         self._seen, self.events = snapshot.seen.tolist(), []
         self.refused = dict.fromkeys(snapshot.refused.tolist(), "")
         if self.prepared and wants_table(self.spec, self.par):  # it is no part of a snapshot
-            fill_table(self.spec, self._parameters(), self.par, self.work)
+            fill_table(self.spec, self.parameters(), self.par, self.work)

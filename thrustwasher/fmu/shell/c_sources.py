@@ -19,7 +19,9 @@ from . import c_tables
 from .platform_libraries import table_alone
 
 FOLDER, BUILD, NAMES = "sources", "buildDescription.xml", "names.h"
-COMPILED_KERNELS = "dispatch.c"  # of the shell: for objects; that of the folder portable is taken
+# Of the shell, for libraries alone: the dispatch to objects, that of the folder portable is taken;
+# and where a library lies.
+OF_LIBRARIES = ("dispatch.c", "library_file.c")
 # Functions and tables as headers declare them, from the start of a line.
 DECLARED = re.compile(r"^(?!static|typedef|return)\w[\w *]*?\b(\w+)\([^;{}]*\);", re.M)
 TABLE = re.compile(r"^extern const \w+ (\w+)\[\];", re.M)
@@ -44,7 +46,8 @@ def source_files(shown: Interface, fmi: int, note: Note, guid: str) -> dict[str,
     found = {
         file.name: digest.read(file)
         for file in (*_c_files(own / "shell"), *_c_files(own / "portable"))
-        if not file.name.startswith(other) and file != own / "shell" / COMPILED_KERNELS
+        if not file.name.startswith(other)
+        and not (file.parent == own / "shell" and file.name in OF_LIBRARIES)
     }
     found |= {name: text.encode() for name, text in c_tables.sources(shown).items()}
     found |= kernel_in_c(spec.kernel, note)

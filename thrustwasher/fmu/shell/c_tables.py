@@ -18,7 +18,7 @@ from ...model.registry import kernel_of
 from ...model.unread import RELATIONS, all_conditions
 from ...native.digest import digest
 from ...tribology.holding.memory import N_FIGURES, T_ENGAGEMENT
-from ..description.interface import LOG_CATEGORIES, Interface, Variable
+from ..description.interface import ADVISED, LOG_CATEGORIES, Interface, Variable
 from ..description.model_description import TYPES
 from ..model_kernels import has_derivatives, seed_length
 from . import call_table
@@ -28,12 +28,12 @@ MOST_INPUTS = 32  # dependencies are bits of one word
 # The C files of a native FMU next to the generated ones and the dispatch to the kernels.
 SHELL_FILES = tuple(
     """
-    lifecycle.c events.c solution.c resource.c values.c text.c messages.c state.c derivative.c
-    fmi2.c fmi2_values.c fmi3.c fmi3_values.c fmi3_state.c fmi3_declined.c
+    lifecycle.c events.c solution.c resource.c library_file.c values.c text.c messages.c state.c
+    derivative.c fmi2.c fmi2_values.c fmi3.c fmi3_values.c fmi3_state.c fmi3_declined.c
     """.split()
 )
 VERSIONS = (2, 3)  # of FMI, both in one library
-PART, MAGIC, WORD = "part.bin", b"twpart2\0", 64  # as in shell.h
+PART, MAGIC, WORD = "part.bin", b"twpart3\0", 64  # as in shell.h
 PART_IN_C, TABLE_IN_C = "part.c", "table.c"
 
 
@@ -56,28 +56,28 @@ def build_of(shown: Interface) -> str:
 
 
 def part_file(shown: Interface, guid: str) -> bytes:
-    """Return resources/part.bin: build of the library, identifier, name, start values, ranges.
+    """Return resources/part.bin: build of the library, identifier, name, numbers.
 
     ``guid`` is what the description calls guid (FMI 2) or instantiationToken (FMI 3).
     """
     words = (text.encode().ljust(WORD, b"\0") for text in (guid, shown.spec.name))
-    starts, ranges = _of_part(shown)
-    numbers = [*starts, *(x for pairs in ranges for pair in pairs for x in pair)]
+    starts, ranges, step = _of_part(shown)
+    numbers = [*starts, *(x for pairs in ranges for pair in pairs for x in pair), step]
     body = b"".join(
         (MAGIC, build_of(shown).encode(), *words, struct.pack(f"<{len(numbers)}d", *numbers))
     )
     return body + struct.pack("<I", zlib.crc32(body))
 
 
-def _of_part(shown: Interface) -> tuple[list[float], tuple[list[tuple[float, float]], ...]]:
-    """Return start values of all variables, and both ranges of each input."""
+def _of_part(shown: Interface) -> tuple[list[float], tuple[list[tuple[float, float]], ...], float]:
+    """Return start values of all variables, both ranges of each input, and the step [s]."""
     starts = [v.start or 0.0 for v in shown.variables]
-    return starts, shown.ranges(max(kernel_of(shown.spec).NINP, 1))
+    return starts, shown.ranges(max(kernel_of(shown.spec).NINP, 1)), shown.experiment[1]
 
 
 def part_in_c(shown: Interface, guid: str) -> str:
     """Return the same as ``part_file`` as C source."""
-    starts, ranges = _of_part(shown)
+    starts, ranges, step = _of_part(shown)
     build = ", ".join(map(repr, build_of(shown)))
     words = f'"{MAGIC[:-1].decode()}", {{{build}}}, {_text(guid)}'
     pairs = (", ".join(_floats(pair) for pair in pairs) for pairs in ranges)
@@ -88,7 +88,7 @@ def part_in_c(shown: Interface, guid: str) -> str:
             "",
             f"const Part COMPILED_PART[] = {{{{{words}, {_text(shown.spec.name)},",
             f"    {_floats(starts)},",
-            f"    {{{', '.join(f'{{{row}}}' for row in pairs)}}}}}}};",
+            f"    {{{', '.join(f'{{{row}}}' for row in pairs)}}}, {float(step).hex()}}}}};",
             "",
         ]
     )
@@ -220,6 +220,7 @@ def _header(shown: Interface, lists: dict[str, tuple[str, list[str]]]) -> str:
         "W_TOLD": getattr(kernel, "W_TOLD", 0),
         "N_TOLD": N_FIGURES,
         "TOLD_ENGAGEMENT": T_ENGAGEMENT,
+        "ADVISED": next((v.slot for v in shown.outputs if v.name == ADVISED), -1),
         "FIRST_FAILURE": FIRST_FAILURE,
         "LEVEL": next(v.slot for v in shown.parameters if v.name == "fidelity"),
         **{f"STATUS_{s.name}": int(s) for s in Status},

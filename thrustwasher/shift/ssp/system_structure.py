@@ -13,6 +13,7 @@ output after they have set the inputs it depends on: ``PASSED_ON`` is for them.
 import re
 import unicodedata
 from collections.abc import Mapping
+from dataclasses import fields
 from typing import Any, NamedTuple
 
 from ...errors import ParameterError
@@ -51,11 +52,20 @@ class Component(NamedTuple):
 
 
 class Border(NamedTuple):
-    """An output of the system and where it comes from."""
+    """An output of the system and where it comes from, or a parameter and where it goes."""
 
     name: str
     part: str
     signal: Signal
+
+
+class Inlet(NamedTuple):
+    """An input of the open system: the inputs of parts that it feeds, by part; its first value."""
+
+    name: str
+    signal: Signal
+    feeds: dict[str, str]
+    start: float
 
 
 class Structure(NamedTuple):
@@ -65,6 +75,8 @@ class Structure(NamedTuple):
     components: list[Component]
     links: list[Link]
     border: list[Border]
+    parameters: list[Border]
+    inlets: list[Inlet]
 
     @property
     def title(self) -> str:
@@ -115,11 +127,14 @@ def plan(scene: Scene, starts: Starts) -> Structure:
     # zero would send 0 K for a step.
     used = [k for k in wired(parts) if k.input != OIL]
     used.append(Link(SOURCE, "command", "transmission", COMMAND))
+    components = [_component(scene, n, p, used, starts.get(n, {})) for n, p in parts.items()]
     return Structure(
         scene=scene,
-        components=[_component(scene, n, p, used, starts.get(n, {})) for n, p in parts.items()],
+        components=components,
         links=used,
         border=_border(parts),
+        parameters=_parameters(components),
+        inlets=_inlets(scene, components, used),
     )
 
 
@@ -165,6 +180,37 @@ def _border(parts: Mapping[str, Part]) -> list[Border]:
     for part, names in BORDER["shown"].items():
         if part in parts:
             known = {s.name: s for s in parts[part].spec.outputs}
-            shown = {"transmission": "", SOURCE: "shift_"}.get(part, f"{part}_")
-            found += [Border(f"{shown}{n}", part, known[n]) for n in names]
+            found += [Border(shown_as(part, n), part, known[n]) for n in names]
+    return found
+
+
+def shown_as(part: str, name: str) -> str:
+    """Return what something of a part is called at the system's border."""
+    return {"transmission": "", SOURCE: "shift_"}.get(part, f"{part}_") + name
+
+
+def _parameters(components: list[Component]) -> list[Border]:
+    """Return the parameters of the system: those listed that the scene uses."""
+    found = []
+    for part in components:
+        about = {f.name: f.metadata for f in fields(part.spec.params)}
+        for name in BORDER["parameters"].get(part.name, ()):
+            if name in part.parameters:
+                signal = Signal(name=name, unit=about[name]["unit"], help=about[name]["help"])
+                found.append(Border(shown_as(part.name, name), part.name, signal))
+    return found
+
+
+def _inlets(scene: Scene, components: list[Component], used: list[Link]) -> list[Inlet]:
+    """Return the inputs of the open system; the oil of a part with a sump is the sump's."""
+    inputs = {p.name: {s.name: s for s in p.spec.inputs} for p in components}
+    fed = {(k.target, k.input) for k in used}
+    oil = {n: OIL for n, own in inputs.items() if OIL in own and (n, OIL) not in fed}
+    found = []
+    if oil:
+        found.append(Inlet(OIL, inputs[next(iter(oil))][OIL], oil, scene.oil_temperature))
+    for name, into in BORDER["inputs"].items():
+        start = scene.shift_from if into == COMMAND else 0.0
+        signal = inputs["transmission"][into]
+        found.append(Inlet(name, signal, {"transmission": into}, start))
     return found

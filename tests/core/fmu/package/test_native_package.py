@@ -228,7 +228,7 @@ def test_an_fmu_for_every_platform_is_small(name, fmi, tmp_path):
 
 def test_a_host_that_reads_all_outputs_as_real_numbers_runs_an_fmu_with_plain_outputs():
     """With the usual one it stops at the first enumeration."""
-    usual, plain = (built_fmu("WetClutch", local=True, **o) for o in ({}, {"plain_outputs": True}))
+    usual, plain = (built_fmu("WetClutch", local=True, **o) for o in ({}, {"plain": True}))
     about = [fmpy.read_model_description(str(path)) for path in (usual, plain)]
     assert about[0].guid != about[1].guid and validate(plain) == []
     for path, model in zip((usual, plain), about, strict=True):

@@ -63,7 +63,7 @@ def toy_library(flags: tuple[str, ...] = ("-O2",)) -> Path:
 def host(fmi: int, flags: tuple[str, ...] = ("-O1",)) -> Path:
     """Return the program that runs scripts."""
     program = Path(tempfile.mkdtemp(dir=_folder.name)) / "host"
-    files = [HERE / name for name in ("script.c", "script_state.c", f"host{fmi}.c")]
+    files = [HERE / "host" / name for name in ("script.c", "script_state.c", f"host{fmi}.c")]
     _compile("-std=gnu99", *STRICT, *flags, "-I", headers(), *files, "-o", program, "-ldl")
     return program
 
@@ -84,7 +84,9 @@ def threads() -> Path:
     program = Path(tempfile.mkdtemp(dir=_folder.name)) / "threads"
     links = "-ldl -lm -lpthread".split()
     folders = ("-I", headers())
-    _compile("-std=gnu99", "-O1", *STRICT, *folders, HERE / "threads.c", "-o", program, *links)
+    _compile(
+        "-std=gnu99", "-O1", *STRICT, *folders, HERE / "host" / "threads.c", "-o", program, *links
+    )
     return program
 
 

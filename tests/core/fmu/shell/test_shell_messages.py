@@ -224,15 +224,6 @@ def test_a_text_is_itself_the_format_of_the_message_with_its_signs_of_percent_do
 
 
 @both
-def test_zero_for_an_input_that_is_not_connected_is_answered_with_its_default(fmi):
-    reply = last(fmi, MADE + "enter 0\nleave\n" + putting(oil_temperature=0.0))
-    assert reply.messages[0].endswith(
-        "Some hosts set an input to 0 that is not connected: connect it to a constant, "
-        "oil_temperature = 300 K is its default."
-    )
-
-
-@both
 def test_errors_are_told_to_a_host_that_has_switched_logging_off(fmi):
     reply = last(fmi, f"make toy {GUID} 0\nenter 0\nleave\n" + putting(oil_temperature=24.0))
     assert reply.messages == [

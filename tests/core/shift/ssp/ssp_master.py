@@ -40,6 +40,17 @@ def values(component):
     return found
 
 
+def bound(root):
+    """Return the values of all components: their own, and those connected to the system's."""
+    system = root.find("ssd:System", NS)
+    above = values(system.find("ssd:ParameterBindings", NS))
+    found = {name: values(part) for name, part in components(root).items()}
+    for source, given, target, into in connections(root):
+        if source is None and given in above:
+            found[target][into] = above[given]
+    return found
+
+
 def run(root, instances, wires=None):
     """Step the instances over the default experiment; return all outputs at its end by name.
 
@@ -51,10 +62,11 @@ def run(root, instances, wires=None):
     experiment = root.find("ssd:DefaultExperiment", NS)
     start, stop = float(experiment.get("startTime")), float(experiment.get("stopTime"))
     h = float(experiment.find(".//*[@baseStepSize]").get("baseStepSize"))
-    wires = wires or [(*w, 1.0) for w in connections(root) if w[2] is not None]
+    inner = [w for w in connections(root) if w[0] is not None and w[2] is not None]
+    wires = wires or [(*w, 1.0) for w in inner]
     inputs = {n: dict.fromkeys(i.input_names, None) for n, i in instances.items()}
     for name, instance in instances.items():
-        given = values(components(root)[name])
+        given = bound(root)[name]
         inputs[name] = {key: given[key] for key in instance.input_names}
         instance.initialize(start, inputs[name])
     outputs = {}

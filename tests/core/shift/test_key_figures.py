@@ -7,14 +7,12 @@ import numpy as np
 import pytest
 from scene_runs import changed, shift, slow_without_jit
 
-from thrustwasher.errors import ParameterError
 from thrustwasher.fmu.running.direct_instance import DirectInstance
 from thrustwasher.shift import cosimulate, load_scene
 from thrustwasher.shift.account.shift_record import record_of
 from thrustwasher.shift.account.what_happened import headline, known_texts
 from thrustwasher.shift.key_figures.comfort import comfort_figures
 from thrustwasher.shift.key_figures.events_and_phases import find_events, find_phases
-from thrustwasher.shift.key_figures.figure_list import FIGURES, RENAMED, Figures, current
 from thrustwasher.shift.key_figures.key_figures import carried_torque, shift_heat, slip_end
 from thrustwasher.shift.scene.scene_file import known_bands
 from thrustwasher.studio.report.shift.shift_report import _cards
@@ -264,39 +262,3 @@ def test_a_study_finds_the_known_bands_and_the_nominal_run_in_their_middle():
             low, high = figures[name].confidence[level]
             room = 0.1 * abs(known.quantiles[0.95] - known.quantiles[0.05])
             assert low - room <= value <= high + room or not np.isfinite([low, high]).all(), name
-
-
-# Key figures of a shift have names that earlier versions had otherwise; those are read still.
-
-
-def test_every_name_of_before_leads_to_a_figure():
-    assert {RENAMED[n] for n in RENAMED} <= set(FIGURES) and not set(RENAMED) & set(FIGURES)
-    assert RENAMED["least_pitting_safety"] == "minimum_pitting_safety"
-    assert RENAMED["greatest_slip"] == "maximum_slip"
-
-
-def test_a_result_is_read_by_the_name_of_before_with_a_warning():
-    figures = Figures({"maximum_slip": 12.0})
-    with pytest.warns(FutureWarning, match="greatest_slip is now maximum_slip"):
-        assert figures["greatest_slip"] == 12.0
-    with pytest.warns(FutureWarning):
-        assert figures.get("greatest_slip") == 12.0 and "greatest_slip" in figures
-    assert figures.get("no_such_figure") is None and "no_such_figure" not in figures
-    with pytest.raises(KeyError):
-        figures["least_pitting_safety_of_all"]
-
-
-def test_a_name_of_today_is_taken_without_a_warning(recwarn):
-    assert current("lock_time") == "lock_time" and not recwarn.list
-
-
-def test_a_scene_may_name_published_figures_as_before(tmp_path):
-    file = tmp_path / "mine.toml"
-    text = 'base = "brake-test"\n[published]\nsource = "a paper"\ngreatest_slip = "3000 rpm"\n'
-    file.write_text(text)
-    with pytest.warns(FutureWarning, match="maximum_slip"):
-        scene = load_scene(str(file))
-    assert list(scene.published.figures) == ["maximum_slip"]
-    file.write_text(text + "maximum_slip = 1.0\n")
-    with pytest.raises(ParameterError, match="allowed: one of the two"):
-        load_scene(str(file))

@@ -47,10 +47,10 @@ from .parameters import (
     renewed_values,
     with_changes,
 )
-from .part_places import part_places
 from .point import point_of
+from .quantity import Quantity, part_quantities
 from .registry import MODELS, find_model
-from .scatter import Place, Scatter, read_scatter
+from .scatter import Scatter, read_scatter
 from .spec import ModelSpec, tailored
 from .toml_tables import (
     key_text,
@@ -208,9 +208,9 @@ class PartFile:
         most = {n: float(max(x) if hasattr(x, "__len__") else x) for n, x in values.items()}
         return over_limits(self.limits, most)
 
-    def places(self, inputs: Mapping[str, float] | None = None) -> dict[str, Place]:
+    def places(self, inputs: Mapping[str, float] | None = None) -> dict[str, Quantity]:
         """Return what of the part can scatter, by name; ``inputs`` [SI], others at their starts."""
-        found = part_places(self.spec, self.params, {**self.starts, **(inputs or {})})
+        found = part_quantities(self.spec, self.params, {**self.starts, **(inputs or {})})
         return self.suggesting(found)
 
     def scattered(

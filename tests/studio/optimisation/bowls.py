@@ -5,12 +5,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thrustwasher.model.scatter import Law, Place, Scatter, Source
+from thrustwasher.model.quantity import Figure, Quantity
+from thrustwasher.model.scatter import Law, Scatter, Source
 from thrustwasher.studio.optimisation.designs import Effort
-from thrustwasher.studio.scatter.target import Figure
 
 LEAST = 0.3, -0.4
-PLACES = {n: Place(name=n, unit="1", nominal=0.9, low=-1.0, high=1.0) for n in ("x", "y")}
+PLACES = {n: Quantity(name=n, unit="1", nominal=0.9, low=-1.0, high=1.0) for n in ("x", "y")}
 FIGURES = {n: Figure(n, "1", "") for n in ("bowl", "sum", "other")}
 SPREAD = 0.1  # of x
 EFFORT = Effort(sample=8, starts=2, rounds=2, tries=60)
@@ -62,7 +62,7 @@ class Bowl:
 
     def scatter(self, row):
         law = Law(kind="normal", middle=row["x"], spread=SPREAD, text="normal")
-        place = Place(name="x", unit="1", nominal=row["x"])
+        place = Quantity(name="x", unit="1", nominal=row["x"])
         return Scatter(sources=(Source(place=place, law=law),))
 
     def shorter_step(self, rows, figures, gain):

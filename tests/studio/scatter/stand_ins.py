@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from thrustwasher.errors import SolveError
-from thrustwasher.model.scatter import Place, Scatter, read_scatter
-from thrustwasher.studio.scatter.target import Figure
+from thrustwasher.model.quantity import Figure, Quantity
+from thrustwasher.model.scatter import Scatter, read_scatter
 
 PI = {"uniform": [-math.pi, math.pi]}
 ANGLES = {"x1": PI, "x2": PI, "x3": PI}
@@ -35,7 +35,7 @@ def never(a=10.0):
 
 def of_places(table, nominal):
     """Return a scatter of places without unit."""
-    places = {n: Place(name=n, unit="1", nominal=x) for n, x in nominal.items()}
+    places = {n: Quantity(name=n, unit="1", nominal=x) for n, x in nominal.items()}
     return read_scatter("test", table, places)
 
 

@@ -20,10 +20,11 @@ from ...model.part_file import (
     scene_parts,
 )
 from ...model.point import Point, point_of
+from ...model.quantity import of_field
 from ...model.record import Model, Option
 from ...model.registry import find_model, models_with_points, spec_of
 from ...moved import now_named
-from ...settings import Place, places, split_settings
+from ...settings import places, split_settings
 from ...units import has_unit, parse_quantity
 from ._output import note, parameters_of, warn
 
@@ -308,7 +309,7 @@ def read_settings(
                 f"--set {name}={text}: {spec.name} has no parameter {name!r}; {hint}"
                 f"thrustwasher {spec.key} --parameters lists them"
             )
-    return {name: Place(name, False, metadata[name]).check(text) for name, text in given.items()}
+    return {n: of_field(n, 0.0, metadata[n]).check(text) for n, text in given.items()}
 
 
 def parameter_table(spec: "ModelSpec") -> str:

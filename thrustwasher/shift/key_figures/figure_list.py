@@ -10,7 +10,7 @@ from ...moved import now_named
 FILM_SPEED = 10.0
 
 
-class Figure(NamedTuple):
+class Definition(NamedTuple):
     """What a key figure says; ``difference``: of temperatures, no absolute temperature."""
 
     text: str
@@ -34,7 +34,7 @@ class KeyFigure(NamedTuple):
 # name -> (value, time [s] it belongs to)
 Found = dict[str, tuple[float | None, float | None]]
 
-FIGURES = {n: Figure(*row) for n, row in table_beside(__file__, "figures.toml").items()}
+FIGURES = {n: Definition(*row) for n, row in table_beside(__file__, "figures.toml").items()}
 
 # Names of earlier versions, for one version.
 RENAMED = {n.replace("minimum_", "least_"): n for n in FIGURES if n.startswith("minimum_")}

@@ -139,7 +139,7 @@ def say(found: "Optimum", folder: Path) -> None:
         value = shown(figure, found.best.figures[figure.name])
         print(f"  {figure.name} = {value} (was {found.before(figure)})")
     for v in problem.variables:
-        print(f"  {v.name} = {v.place.text(found.best.values[v.name])}")
+        print(f"  {v.name} = {v.text(found.best.values[v.name])}")
     if found.front:
         first, second = (g.figure for g in problem.goals)
         print(f"Front of {len(found.front)} designs: {first.name}, {second.name}")

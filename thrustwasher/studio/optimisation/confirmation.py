@@ -153,5 +153,5 @@ def active_bounds(archive: Archive, best: Design) -> tuple[str, ...]:
         share = (best.values[v.name] - v.low) / (v.high - v.low)
         if min(share, 1.0 - share) <= BINDS:
             end, sign = (v.low, ">=") if share < 0.5 else (v.high, "<=")
-            found.append(f"{v.name} {sign} {v.place.text(end)}")
+            found.append(f"{v.name} {sign} {v.text(end)}")
     return tuple(found)

@@ -6,8 +6,8 @@ from typing import Any, Literal, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model.scatter import Place, Scatter
-from ..scatter.target import Figure
+from ...model.quantity import Figure, Quantity
+from ...model.scatter import Scatter
 
 Array = NDArray[np.float64]
 Places = NDArray[np.intp]
@@ -40,7 +40,7 @@ class Designs(Protocol):
         """Name of the part or scene."""
 
     @property
-    def places(self) -> Mapping[str, Place]:
+    def places(self) -> Mapping[str, Quantity]:
         """What may be varied, with its value now and its range."""
 
     @property

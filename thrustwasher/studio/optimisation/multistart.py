@@ -167,4 +167,4 @@ def _infeasible(archive: Archive) -> SolveError:
 
 def design_text(problem: Problem, row: Row) -> str:
     """Return the values of a design as a person reads them."""
-    return ", ".join(f"{v.name} = {v.place.text(row[v.name])}" for v in problem.variables)
+    return ", ".join(f"{v.name} = {v.text(row[v.name])}" for v in problem.variables)

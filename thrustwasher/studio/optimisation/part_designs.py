@@ -13,11 +13,11 @@ from ...errors import ParameterError, SolveError
 from ...model.levels import level_named
 from ...model.part_file import PartFile, part_text
 from ...model.prepare import tables_of
-from ...model.scatter import Place, Scatter
+from ...model.quantity import Figure, Quantity
+from ...model.scatter import Scatter
 from ...washer.load_curve import MOST, LoadCurve, load_curve
 from ...washer.parameters import face_of
 from ..scatter.part_target import PartTarget, part_target
-from ..scatter.target import Figure
 from .designs import Array, Effort, Row
 
 FOLDS = {
@@ -58,7 +58,7 @@ class PartDesigns:
         return self.part.name
 
     @cached_property
-    def places(self) -> dict[str, Place]:
+    def places(self) -> dict[str, Quantity]:
         """Its parameters and inputs."""
         return self.part.places(self.inputs)
 

@@ -8,7 +8,8 @@ from typing import Any, Literal
 import numpy as np
 
 from ...errors import ParameterError, SolveError
-from ...model.scatter import Place, Scatter
+from ...model.quantity import Figure, Quantity
+from ...model.scatter import Scatter
 from ...shift.checks.step_error import rounded
 from ...shift.checks.step_estimate import excess
 from ...shift.scene.places import scene_places, scene_scatter
@@ -17,7 +18,6 @@ from ...shift.scene.variation import scene_text, varied_scene
 from ...units import format_quantity
 from ..scatter.scene_runs import Loop
 from ..scatter.scene_target import SceneTarget, scene_target
-from ..scatter.target import Figure
 from .designs import Array, Effort, Row
 
 NOTABLE = 2.0  # errors of the step that a gain is to exceed
@@ -44,7 +44,7 @@ class SceneDesigns:
         return self.__dict__ | {"_whole": None}
 
     @cached_property
-    def places(self) -> Mapping[str, Place]:
+    def places(self) -> Mapping[str, Quantity]:
         """Numbers of the scene, by path."""
         return scene_places(self.scene)
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import SolveError
+from ...model.quantity import Figure
 from .estimates import (
     LEAST_BOUNDED,
     LEVELS,
@@ -20,7 +21,7 @@ from .estimates import (
 from .linear import doubts_of_linear, linear_deviations
 from .result import Band, Index, Probability, ScatterResult, Series, SourceLine
 from .study import Study
-from .target import Array, Figure, Flags
+from .target import Array, Flags
 
 NONE = Index(first=None, total=None, confidence=None, first_confidence=None, total_confidence=None)
 NO_EFFECT = Index(first=0.0, total=0.0, confidence=0.0, first_confidence=0.0, total_confidence=0.0)

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import ParameterError, SolveError
-from ...model.scatter import Place, Scatter, read_scatter
-from .target import Array, Figure, Flags
+from ...model.quantity import Figure, Quantity
+from ...model.scatter import Scatter, read_scatter
+from .target import Array, Flags
 
 OWN = ("nominal", "unit")  # next to the law, what a part or scene knows of its parameters
 FAILURES = {SolveError: "no solution", ValueError: "wrong value", ArithmeticError: "arithmetic"}
@@ -129,7 +130,7 @@ def named(value: object) -> Mapping[str, Any]:
     return value if isinstance(value, Mapping) else {"value": value}
 
 
-def _place(name: str, law: Mapping[str, Any], usual: Mapping[str, Any]) -> Place:
+def _place(name: str, law: Mapping[str, Any], usual: Mapping[str, Any]) -> Quantity:
     options = law.get("either", ())
     uniform = law.get("uniform", ())
     middle = None
@@ -140,4 +141,4 @@ def _place(name: str, law: Mapping[str, Any], usual: Mapping[str, Any]) -> Place
         raise ParameterError(
             f'scatter: {name}: nominal is missing, as in {{"normal": "10 %", "nominal": 1.0}}'
         )
-    return Place(name=name, unit=law.get("unit", "1"), nominal=nominal, choices=tuple(options))
+    return Quantity(name=name, unit=law.get("unit", "1"), nominal=nominal, choices=tuple(options))

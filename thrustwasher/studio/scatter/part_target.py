@@ -19,13 +19,14 @@ from ...model.levels import level_named
 from ...model.part_file import PartFile
 from ...model.point import point_of
 from ...model.prepare import filled, tables_of
+from ...model.quantity import Figure
 from ...model.registry import find_model, kernel_of
 from ...model.scatter import Scatter
 from ...model.spec import Signal
 from ...units import format_quantity
 from ..sweep.row_doubts import beyond
 from ..sweep.solve_rows import Task, output_signals, solve_task
-from .target import Array, Figure, Flags
+from .target import Array, Flags
 
 LOST = "film_lost"
 REASONS = ("parameters that do not go together", "not converged")

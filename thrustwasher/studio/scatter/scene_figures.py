@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ...model.quantity import Figure
 from ...shift.key_figures.events_and_phases import Signals, find_events, turning
 from ...shift.key_figures.figure_list import FIGURES
 from ...shift.key_figures.key_figures import key_figures
@@ -12,7 +13,7 @@ from ...shift.scene.connections import DIRECT, MESHES
 from ...shift.scene.scene import Part, Scene
 from ...shift.shift_result import ShiftResult
 from ..report.shift.usual import ranges
-from .target import Array, Figure
+from .target import Array
 
 WASHER_SERIES = ("washer.friction_torque", "washer.film_ratio")
 SERIES = (

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 
 from ...errors import ParameterError, suggestion
-from ...model.scatter import Place, Scatter
+from ...model.quantity import Quantity
+from ...model.scatter import Scatter
 from ...shift.key_figures.figure_list import current
 from ...shift.scene.places import scene_places
 from ...shift.scene.scene import Scene
@@ -72,7 +73,7 @@ def _solved(target: SceneTarget, rows: list[dict[str, Any]], figures: Sequence[s
     return target.solve(rows, np.full(len(rows), costly))[0]
 
 
-def _usual(places: Mapping[str, Place]) -> dict[str, Place]:
+def _usual(places: Mapping[str, Quantity]) -> dict[str, Quantity]:
     return {
         path: place
         for path, place in places.items()
@@ -80,11 +81,11 @@ def _usual(places: Mapping[str, Place]) -> dict[str, Place]:
     }
 
 
-def _moves(place: Place) -> bool:
+def _moves(place: Quantity) -> bool:
     return not place.choices and place.nominal != 0.0
 
 
-def _place(path: str, places: Mapping[str, Place]) -> Place:
+def _place(path: str, places: Mapping[str, Quantity]) -> Quantity:
     if path not in places or places[path].choices:
         hint = suggestion(path, places, "; did you mean {}?")
         raise ParameterError(f"{path}: is no real number of the scene{hint}")
@@ -93,7 +94,7 @@ def _place(path: str, places: Mapping[str, Place]) -> Place:
     return places[path]
 
 
-def _ends(place: Place) -> tuple[float, ...]:
+def _ends(place: Quantity) -> tuple[float, ...]:
     """Return values on both sides, far and near; inside the range."""
     x, step = float(place.nominal), STEP * abs(float(place.nominal))
     every = (x - step, x + step, x - 0.5 * step, x + 0.5 * step)

@@ -1,30 +1,16 @@
 """What a study needs to know of what it studies: a part, a gear shift, a function."""
 
-import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...model.quantity import Figure
 from ...model.scatter import Scatter
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.int32]
-
-
-@dataclass(frozen=True)
-class Figure:
-    """A number that every run gives; ``low`` .. ``high`` [SI] is its usual range."""
-
-    name: str
-    unit: str
-    help: str
-    low: float = -math.inf
-    high: float = math.inf
-    relative: bool = False
-    """A difference of temperatures."""
 
 
 class Target(Protocol):

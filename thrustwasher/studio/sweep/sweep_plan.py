@@ -18,9 +18,10 @@ from ...model.oil import oil_doubts
 from ...model.parameters import params_of
 from ...model.part_file import PartFile, find_part
 from ...model.point import from_box, taken_text
+from ...model.quantity import Quantity
 from ...model.registry import find_model, spec_of
 from ...model.spec import ModelSpec
-from ...settings import Place, find_place, places
+from ...settings import find_place, places
 from .axes import MOST_POINTS, Axis, read_axis
 
 Array = NDArray[np.float64]
@@ -109,7 +110,7 @@ def _chosen(plan: Plan, tolerance: float) -> Plan:
     return replace(plan, fidelity=choice.fidelity, choice=str(choice), identity=identity)
 
 
-def _held(at: Mapping[str, object], known: dict[str, Place], spec: ModelSpec) -> dict[str, Any]:
+def _held(at: Mapping[str, object], known: dict[str, Quantity], spec: ModelSpec) -> dict[str, Any]:
     """Return what is held at one value, by name."""
     found = {}
     for name, value in at.items():
@@ -141,7 +142,7 @@ def _grid(axes: list[Axis]) -> tuple[dict[str, Any], NDArray[np.int64], list[str
 
 
 def _listed(
-    points: Mapping[str, Any], known: dict[str, Place], spec: ModelSpec
+    points: Mapping[str, Any], known: dict[str, Quantity], spec: ModelSpec
 ) -> tuple[dict[str, Any], NDArray[np.int64], list[str]]:
     """Return the columns of given points; rows with the same number in ``line`` are one line."""
     columns: dict[str, Any] = {}
@@ -167,7 +168,7 @@ def _listed(
     return columns, np.append(np.flatnonzero(first), n), list(columns)
 
 
-def _checked(place: Place, i: int, value: object) -> Any:
+def _checked(place: Quantity, i: int, value: object) -> Any:
     """Return one value of a column, or say at which point it is not allowed."""
     try:
         return place.check(value)
@@ -182,7 +183,7 @@ def _assemble(
     held: dict[str, Any],
     rows: dict[str, Any],
     starts: NDArray[np.int64],
-    order: list[Place],
+    order: list[Quantity],
 ) -> Plan:
     """Fill in what is not varied and give every line its parameters."""
     n, spec = int(starts[-1]), part.spec

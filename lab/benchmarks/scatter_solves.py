@@ -3,8 +3,8 @@
     python -m lab.benchmarks.scatter_solves            time of a draw, before and after, in one run
     python -m lab.benchmarks.scatter_solves --study    6144 solves against plain runs, folds
 
-Before is ``solve_washer`` on each draw, after ``PartTarget.solve`` on all of them. Every draw is
-compared: branch, and torque within 1e-6. Some 4 minutes with --study, which uses all cores.
+Before is ``solve_washer`` on each draw, after ``PartEvaluator.evaluate`` on all of them. Every draw
+is compared: branch, and torque within 1e-6. Some 4 minutes with --study, which uses all cores.
 """
 
 import argparse
@@ -19,8 +19,9 @@ import numpy as np
 from thrustwasher import load_curve, propagate, solve_washer
 from thrustwasher.model.part_file import PartFile, find_part
 from thrustwasher.processes import runner, usable_cores
+from thrustwasher.studio.evaluators.part import part_evaluator
 from thrustwasher.studio.scatter.design import make_design
-from thrustwasher.studio.scatter.part_target import part_target
+from thrustwasher.studio.scatter.target import target_of
 
 SURFACES = {"roughness": "15 %", "viscosity_scale": "8 %"}
 LOAD = {"load": {"uniform": [100.0, 1800.0]}}
@@ -65,7 +66,7 @@ def compare(name: str, kind: str, reached: str) -> bool:
     own, table = SCATTERS[name]
     part = part_with(**own)
     scatter = part.scattered(table)
-    target = part_target(part, scatter, part.starts, reached)
+    target = target_of(part_evaluator(part, part.starts, reached), scatter)
     rows = draws_of(scatter, kind)
     plain(part, rows[0])
     target.nominal()

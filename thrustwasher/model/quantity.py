@@ -159,3 +159,7 @@ class Figure:
     high: float = math.inf
     relative: bool = False
     """A difference of temperatures."""
+    kind: str = "real"
+    """Or "outcome": 1 where a run says yes, 0 where no."""
+    of_curve: bool = False
+    """Takes a whole load curve, no point."""

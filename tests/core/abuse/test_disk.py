@@ -13,8 +13,8 @@ from thrustwasher import WasherParams
 from thrustwasher.cli import main
 from thrustwasher.native.files import write
 from thrustwasher.storage import journal
+from thrustwasher.studio.evaluators.lines import solve_task
 from thrustwasher.studio.sweep import run_sweep as runs
-from thrustwasher.studio.sweep.solve_rows import solve_task
 
 MEASURED = Path(__file__).with_name("measured.csv")
 SWEEP = "sweep gearmesh --over load=10:200:10 --over speed=50:300:50 --workers 1 --out".split()

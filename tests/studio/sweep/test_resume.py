@@ -9,9 +9,9 @@ import pytest
 
 from thrustwasher import ParameterError, run_sweep
 from thrustwasher.storage.journal import Journal
+from thrustwasher.studio.evaluators.lines import solve_task
 from thrustwasher.studio.sweep import run_sweep as runs
 from thrustwasher.studio.sweep.run_sweep import journal_of
-from thrustwasher.studio.sweep.solve_rows import solve_task
 
 OVER = {"load": "10:200:10", "speed": "50:300:50"}
 

@@ -1,5 +1,6 @@
 """The list of key figures, from ``figures.toml``. Values come from ``key_figures``."""
 
+from functools import cache
 from typing import Any, NamedTuple
 
 from ...model.toml_tables import table_beside
@@ -35,6 +36,13 @@ class KeyFigure(NamedTuple):
 Found = dict[str, tuple[float | None, float | None]]
 
 FIGURES = {n: Definition(*row) for n, row in table_beside(__file__, "figures.toml").items()}
+
+
+@cache
+def usual_rows() -> dict[str, list[Any]]:
+    """Return the rows of ``usual.toml``: words, range, basis, unit and size of each figure."""
+    return table_beside(__file__, "usual.toml")
+
 
 # Names of earlier versions, for one version.
 RENAMED = {n.replace("minimum_", "least_"): n for n in FIGURES if n.startswith("minimum_")}

@@ -10,7 +10,7 @@ from ...errors import ParameterError, SolveError
 from ...model.parameters import allowed
 from ...model.registry import find_model
 from ...numerics.jit import Array
-from ..sweep.solve_rows import check_level
+from ..evaluators.lines import check_level
 from .estimates import Calibration
 from .fit import chosen_names
 from .identifiability import Verdict, counted

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from ...model.part_file import PartFile
 from ...processes import refuse_import_by_worker
 from ...storage.journal import Journal
+from ..evaluators.lines import Task, check_level, output_signals, solve_task
 from ..jobs.rows import Rows
 from ..jobs.runner import Progress, Runner, Work, check_workers
-from .solve_rows import Task, check_level, output_signals, solve_task
 from .sweep_plan import Plan, make_plan
 from .sweep_table import SweepTable, check_output, make_table, pieces, write_table
 

@@ -18,9 +18,9 @@ from ...model.spec import NAMED
 from ...shown import Card, Tabled, Words, column_lines, plain_dict
 from ...storage.journal import Block
 from ...storage.whole_files import whole_file
+from ..evaluators.limits import Beyond, beyond, joined
+from ..evaluators.lines import output_signals
 from ..jobs.cluster import INSTALL
-from .row_doubts import Beyond, beyond, joined
-from .solve_rows import output_signals
 from .sweep_plan import Plan
 
 SUFFIXES = (".csv", ".parquet")

@@ -74,7 +74,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _measured(quick: bool) -> dict[str, Any]:
     """Return everything that is measured, as JSON types."""
-    from thrustwasher.studio.verification.surroundings import pin_threads, surroundings
+    from lab.charts.surroundings import pin_threads, surroundings
 
     pin_threads()  # before numpy is loaded
     from lab.charts.chart_page import same_everywhere
@@ -103,8 +103,8 @@ def _say(what: str) -> None:
 
 def _read(path: str) -> dict[str, Any]:
     """Return the record of an earlier run."""
+    from lab.charts.surroundings import SCHEMA
     from thrustwasher.storage.digests import is_broken
-    from thrustwasher.studio.verification.surroundings import SCHEMA
 
     try:
         refuse_pipe(path)

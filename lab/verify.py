@@ -14,15 +14,17 @@ from pathlib import Path
 from thrustwasher.ladder.choose import levels_of
 from thrustwasher.ladder.error_table import (
     VERIFY,
+    Axis,
     ErrorTable,
     forget,
     fresh_levels,
     read_tables,
     write_tables,
 )
-from thrustwasher.model.registry import models_with_error_tables
+from thrustwasher.model.registry import ladder_of, models_with_error_tables, spec_of
+from thrustwasher.shift.scene.scene_file import load_scene
 from thrustwasher.storage.digests import DATA
-from thrustwasher.studio.verification.cases import POINTS, Case, cases
+from thrustwasher.studio.verification.cases import POINTS, Case
 from thrustwasher.studio.verification.measure_errors import Show, measured
 
 HELP = "measure the fidelity levels against the reference and write the tables"
@@ -50,6 +52,20 @@ def main(argv: Sequence[str] | None = None) -> int:
                 forget()
                 print(_summary(known[case.name]), file=sys.stderr, flush=True)
     return 0
+
+
+def cases(model: str) -> list[Case]:
+    """Return the cases of a model, or raise ParameterError with the models there are."""
+    spec, ladder, found = spec_of(model), ladder_of(model), []
+    units = {s.name: s.unit for s in spec.inputs}
+    for name, box in ladder.boxes.items():
+        params = spec.params()
+        if name != "default":  # what a shipped scene gives to its part
+            scene, _, part = name.partition(".")
+            params = load_scene(scene).parts[part or ladder.part].params
+        axes = {n: Axis(low, high, units[n], scale) for n, (low, high, scale) in box.items()}
+        found.append(Case(spec, name, params, axes))
+    return found
 
 
 def _shown(case: Case) -> Show:

@@ -14,7 +14,7 @@ from lab.benchmarks.corrections import corrections
 from lab.benchmarks.failures.coupling_limits import limits
 from lab.benchmarks.failures.failure_map import stability
 from lab.charts.chart_page import SAME_EVERYWHERE, stability_markdown
-from thrustwasher.studio.verification.surroundings import surroundings
+from lab.charts.surroundings import surroundings
 
 PAGE = Path(__file__).parents[2] / "docs" / "stability.md"
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from ..native.files import code_folder, keep_sum, kept, stamp
 
 KEPT = 3  # versions
+STUDIO = "studio"  # nothing of it goes into an FMU
 
 
 def fmu_paths(models: Iterable[str], target: str) -> dict[str, Path]:
@@ -65,8 +66,10 @@ def source_digest(target: str) -> str:
         made_for = " ".join(library_identity(spec, local=True) for spec in all_specs())
     hashed = hashlib.sha256(f"{package_version()} {made_for}".encode())
     for root in (Path(__file__).parents[1], source_folder()):
-        for path in sorted(p for p in root.rglob("*") if p.suffix in texts):
-            hashed.update(path.relative_to(root).as_posix().encode() + path.read_bytes())
+        found = ((p.relative_to(root), p) for p in root.rglob("*") if p.suffix in texts)
+        for own, path in sorted(found):
+            if own.parts[0] != STUDIO:
+                hashed.update(own.as_posix().encode() + path.read_bytes())
     for tables in filter(None, map(tables_of, all_specs())):
         for path in tables.paths():
             hashed.update(path.read_bytes())  # every map goes into the washer's FMU

@@ -7,6 +7,7 @@
 ``dense``       small dense linear systems: Gaussian elimination
 ``jit``         the one decorator of kernels
 ``power_flow``  which way power runs between two shafts, the efficiency in that direction
+``profiles``    inputs that run straight within a step: values at its start, then rates
 ``quadrature``  Gauss-Legendre nodes and weights on [0, 1], frozen as constants for the kernels
 ``smoothing``   corners rounded to one continuous derivative; exact outside the rounded stretch
 ``spline``      weights that integrate a spline; the quintic through values, slopes, curvatures

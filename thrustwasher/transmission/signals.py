@@ -32,11 +32,14 @@ def _loss(shaft: str, words: str) -> Signal:
     return replace(_torque(f"{shaft}_loss_torque", text), late=True)
 
 
+_FRICTION = {
+    "clutch_torque": "clutch's torque capacity (coupling torque: friction torque)",
+    "brake_torque": "brake's torque capacity (coupling torque: friction torque)",
+    "washer_torque": "friction torque of one thrust washer",
+    "mesh_torque": "friction torque of one sun mesh, referred to the planet",
+}
 INPUTS = (
-    _torque("clutch_torque", "clutch's torque capacity (coupling torque: friction torque)"),
-    _torque("brake_torque", "brake's torque capacity (coupling torque: friction torque)"),
-    _torque("washer_torque", "friction torque of one thrust washer"),
-    _torque("mesh_torque", "friction torque of one sun mesh, referred to the planet"),
+    *(_torque(name, text) for name, text in _FRICTION.items()),
     _input("shift_command", "1", "0 first gear, 1 second gear, at the step's end", 0.0, 1.0, 1.0),
     *map(_pressure, ("clutch", "brake")),
     _torque("engine_torque_input", "torque of an engine model, in addition to the engine's own"),
@@ -48,11 +51,18 @@ INPUTS = (
     *(_loss(shaft, words) for shaft, words in LOSSES.items()),
 )
 _ENGINE, _LOAD = ("engine_torque_input",), ("load_torque_input",)
-_TORQUES = (*_ENGINE, *_LOAD, *(s.name for s in (*INPUTS[:4], *INPUTS[9:])))
 _LOSSES = tuple(f"{shaft}_loss_torque" for shaft in LOSSES)
+_TORQUES = (*_ENGINE, *_LOAD, *_FRICTION, "ring_mesh_torque", *_LOSSES)
+
+
+def _without(*left_out: str) -> tuple[str, ...]:
+    return tuple(name for name in _TORQUES if name not in left_out)
+
+
 # Drag decides only who holds a clutch beyond its capacity, not how much.
-_PACKS = (*_TORQUES[2:4], *_ENGINE, *_LOAD, *_LOSSES[:3])
-_HELD = tuple(name for name in _TORQUES if name != "drum_loss_torque")  # a held drum has none
+_SHAFTS = tuple(name for name in _LOSSES if name != "planet_loss_torque")
+_PACKS = ("clutch_torque", "brake_torque", *_ENGINE, *_LOAD, *_SHAFTS)
+_HELD = _without("drum_loss_torque")  # a held drum has none
 _PRESSED = {pack: ("shift_command", f"{pack}_pressure") for pack in ("clutch", "brake")}
 
 
@@ -115,7 +125,11 @@ OUTPUTS = (
     output("brake_reaction", "N.m", 100.0, "transmitted torque of the brake", _HELD),
     output("input_tooth_torque", "N.m", 100.0, "torque in the driven gear's teeth", _TORQUES),
     output(
-        "drag_torque", "N.m", 1.0, "drag of washers and meshes at the driven gear", _TORQUES[:-1]
+        "drag_torque",
+        "N.m",
+        1.0,
+        "drag of washers and meshes at the driven gear",
+        _without("planet_loss_torque"),
     ),
     output("tooth_force", "N", 1e3, "tangential force in one mesh", _TORQUES),
     output("tilting_couple", "N.m", 10.0, "couple of the axial tooth forces on a planet", _TORQUES),

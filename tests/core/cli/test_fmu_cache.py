@@ -101,6 +101,18 @@ def test_any_source_counts(tmp_path, monkeypatch):
     assert len(seen) == 5
 
 
+def test_what_the_core_does_not_use_does_not_count(tmp_path, monkeypatch):
+    package = tmp_path / "thrustwasher"
+    for name in ("fmu", "studio"):
+        (package / name).mkdir(parents=True)
+    monkeypatch.setattr(fmu_cache, "__file__", str(package / "fmu" / "fmu_cache.py"))
+    before = fmu_cache.source_digest("python")
+    (package / "studio" / "palette.py").write_text("BLUE = 1")
+    assert fmu_cache.source_digest("python") == before
+    (package / "fmu" / "build.py").write_text("x = 1")
+    assert fmu_cache.source_digest("python") != before
+
+
 def test_a_new_map_is_another_version(tmp_path, monkeypatch):
     before = fmu_cache.source_digest("python")
     (tmp_path / "mine.twm").write_bytes(b"a map")

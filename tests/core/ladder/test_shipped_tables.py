@@ -2,11 +2,11 @@
 
 import pytest
 
+from lab.verify import cases
 from thrustwasher import choose
 from thrustwasher.ladder.choose import levels_of
 from thrustwasher.ladder.error_table import QUANTITIES, fresh_levels, load_tables, refused_files
 from thrustwasher.storage.digests import DATA
-from thrustwasher.studio.verification.cases import cases
 from thrustwasher.studio.verification.measured_chart import deviation
 from thrustwasher.studio.verification.reference_cache import SOURCES, answer
 from thrustwasher.studio.verification.reference_values import OK

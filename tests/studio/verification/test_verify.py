@@ -5,12 +5,12 @@ import itertools
 
 import pytest
 
+from lab.verify import cases
 from thrustwasher import WasherParams, solve_washer
 from thrustwasher.ladder.error_table import QUANTITIES
 from thrustwasher.shift import load_scene
 from thrustwasher.storage.digests import params_digest
 from thrustwasher.studio.verification import reference_cache
-from thrustwasher.studio.verification.cases import cases
 from thrustwasher.studio.verification.costs import stepper
 from thrustwasher.studio.verification.measured_chart import NO_ANSWER, chart_of, deviation
 from thrustwasher.studio.verification.reference_cache import reference_points

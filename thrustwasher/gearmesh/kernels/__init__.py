@@ -6,6 +6,7 @@
 ``working_pair``            distance of the axes, pressure angle, tips of gears with profile shift
 ``tooth_root``              bending stress at the root of the teeth
 ``path_of_contact``         where the pairs touch, what each bears, what its sliding costs and heats
+``load_sharing``            load shared by the stiffness of the pairs in contact, tip relief
 ``contact``                 line contact: Hertz, oil film, friction, thermal stress, endurance
 ``flank_temperature``       rises at a sliding line contact: friction, shear of the oil film
 ``path_friction``           friction along the path of contact, and how it changes

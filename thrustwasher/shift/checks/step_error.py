@@ -4,7 +4,7 @@ In the second run washers give the torque over time that the first one has recor
 feed back, and the run costs what packs, meshes and transmission cost. With an error of first order
 in the step, x(h) - x is m/(m - 1) times x(h) - x(h/m). Twice the step instead of a fraction of it
 would be cheaper and is not used: errors of several steps cross zero there, and long steps are far
-from any order (lab/benchmarks/step_error.py).
+from any order.
 """
 
 from collections.abc import Callable, Mapping

@@ -2,7 +2,7 @@
 
 ======================  ========================================================================
 ``measure_errors``      Each level's error at random points: a table of a part
-``cases``               What errors are measured for: parameter sets, boxes, random points
+``cases``               What errors are measured for: parameters, boxes, random points
 ``costs``               What a call of a level costs: its compiled step
 ``measured_chart``      From answers at random points to the largest error region by region
 ``reference_cache``     Reference values at random points, kept in a file
@@ -10,6 +10,5 @@
 ``reference_gearmesh``  Reference values of the gear mesh: adaptive quadrature, search
 ``reference_values``    Reference values: what they are, and what a level computes for comparison
 ``reference_washer``    Reference values of the washer: three fine meshes, extrapolated
-``surroundings``        What a table or a chart says about its making: the machine, versions
 ======================  ========================================================================
 """

@@ -11,9 +11,8 @@ from ...errors import ParameterError
 from ...ladder.error_table import OWN, Axis, Box
 from ...model.parameters import check_number
 from ...model.prepare import tables_of
-from ...model.registry import ladder_of, spec_of
+from ...model.registry import ladder_of
 from ...model.spec import ModelSpec
-from ...shift.scene.scene_file import load_scene
 from ...storage.digests import params_digest
 
 SEED = 7
@@ -45,20 +44,6 @@ def _at(axis: Axis, share: float) -> float:
     if axis.scale == "log":
         return axis.min * math.exp(share * math.log(axis.max / axis.min))
     return axis.min + share * (axis.max - axis.min)
-
-
-def cases(model: str) -> list[Case]:
-    """Return the cases of a model, or raise ParameterError with the models there are."""
-    spec, ladder, found = spec_of(model), ladder_of(model), []
-    units = {s.name: s.unit for s in spec.inputs}
-    for name, box in ladder.boxes.items():
-        params = spec.params()
-        if name != "default":  # what a shipped scene gives to its part
-            scene, _, part = name.partition(".")
-            params = load_scene(scene).parts[part or ladder.part].params
-        axes = {n: Axis(low, high, units[n], scale) for n, (low, high, scale) in box.items()}
-        found.append(Case(spec, name, params, axes))
-    return found
 
 
 def own_case(spec: ModelSpec, params: Any, box: Box, n: int) -> Case:

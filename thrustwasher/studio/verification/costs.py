@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import itertools
 import math
+import platform
 import statistics
 import sys
 import time
 import timeit
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -112,3 +114,13 @@ def call_cost(
         spent = time_call(stepper(spec, params, fidelity, t, idle_step())).least
         found.append(time_call(stepper(spec, params, fidelity, t)).less(spent))
     return sorted(t.median for t in found)[1]
+
+
+def cpu() -> str:
+    """Return the name of this machine's processor."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text("utf-8").splitlines()
+    except OSError:
+        return platform.processor() or platform.machine()
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.machine()

@@ -1,14 +1,15 @@
 """Each level's error at random points against a reference: of your own part too."""
 
+import os
 from collections.abc import Callable, Sequence
 from datetime import UTC, datetime
 from typing import Any
 
 from ...errors import ParameterError
+from ...fmu.model_kernels import package_version
 from ...ladder.choose import levels_of
 from ...ladder.error_table import (
     OWN,
-    VERIFY,
     Axis,
     Box,
     ErrorTable,
@@ -24,11 +25,10 @@ from ...model.spec import ModelSpec
 from ...processes import Run, run_here, runner, usable_cores
 from ...storage.digests import DATA, changed_fields, params_digest
 from .cases import Case, own_case
-from .costs import call_cost
+from .costs import call_cost, cpu
 from .measured_chart import chart_of
 from .reference_cache import SOURCES, answer, reference_points
 from .reference_values import ReferencePoint
-from .surroundings import surroundings
 
 USUAL = 60  # points of your own part
 Show = Callable[[int, int], None]
@@ -68,16 +68,14 @@ def measured(case: Case, n: int, show: Show, run: Run = run_here) -> ErrorTable:
     spec, params, source = case.spec, case.params, SOURCES[case.spec.key]
     known = reference_points(case, source, n, lambda k: show(k, n), run)
     levels = [level_errors(case, level, known) for level in levels_of(spec, params)]
-    around = surroundings(VERIFY)
-    machine, package = around["machine"], around["package"]
     return ErrorTable(
         spec.key,
         case.name,
         params_digest(params),
         changed_fields(params),
         datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
-        package["version"],
-        f"{machine['cpu']}, {machine['cores']} cores",
+        package_version(),
+        f"{cpu()}, {os.cpu_count()} cores",
         source.routes,
         tuple(levels),
     )

@@ -4,6 +4,8 @@
 ``layout``                  places in the arrays of a step
 ``dynamics``                torques and accelerations for given modes of clutch and brake
 ``thrust_bearings``         what the bearings of sun and ring take from their shafts
+``planet_bearing``          where a planet settles on its needles; the couple left to the washers
+``shaft_losses``            what losses from outside take from the shafts
 ``stick_slip``              which modes are consistent, and when they end
 ``integrate_step``          intervals of smooth motion between the instants where something changes
 ``piston``                  profiles of pressure, filling, lag, centrifugal head

@@ -1,6 +1,7 @@
 """Compiled look-up in a washer's map.
 
 ==============  =================================================================================
+``alone``       The washer that only looks up, behind the step ABI, without a solver
 ``map_layout``  How a washer's map lies in memory: one array of floats, header first, then a line
                 per node
 ``map_point``   The washer's outputs where a look-up has found its point, and their derivatives

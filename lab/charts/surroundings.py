@@ -18,15 +18,16 @@ THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_
 
 def surroundings(command: str) -> dict[str, Any]:
     """Return command, date, machine and versions, as JSON types."""
-    from ...numerics.jit import kernel_digest
+    from thrustwasher import __version__
+    from thrustwasher.numerics.jit import kernel_digest
+    from thrustwasher.studio.verification.costs import cpu
 
-    made_by = sys.modules[__name__.partition(".")[0]].__version__
     return {
         "schema": SCHEMA,
         "command": command,
         "date": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
         "machine": {
-            "cpu": _cpu(),
+            "cpu": cpu(),
             "cores": os.cpu_count(),
             "os": platform.platform(terse=True),
             "python": platform.python_version(),
@@ -36,7 +37,7 @@ def surroundings(command: str) -> dict[str, Any]:
             "threads": {name: os.environ.get(name) for name in THREADS},
             "load": round(os.getloadavg()[0], 2) if hasattr(os, "getloadavg") else None,
         },
-        "package": {"version": made_by, "kernels": kernel_digest(), **_commit()},
+        "package": {"version": __version__, "kernels": kernel_digest(), **_commit()},
         "calibration_s": min(timeit.repeat(LOOP, "x = 0.0", number=1)),
     }
 
@@ -46,15 +47,6 @@ def pin_threads() -> None:
     for name in THREADS:
         if "numpy" not in sys.modules or name.startswith("NUMBA"):
             os.environ.setdefault(name, "1")
-
-
-def _cpu() -> str:
-    try:
-        lines = Path("/proc/cpuinfo").read_text("utf-8").splitlines()
-    except OSError:
-        return platform.processor() or platform.machine()
-    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
-    return names[0] if names else platform.machine()
 
 
 def _commit() -> dict[str, Any]:

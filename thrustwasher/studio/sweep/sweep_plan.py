@@ -2,7 +2,7 @@
 
 import hashlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any
 
 import numpy as np
@@ -22,6 +22,9 @@ from ...model.quantity import Quantity
 from ...model.registry import find_model, spec_of
 from ...model.spec import ModelSpec
 from ...settings import find_place, places
+from ..evaluators.evaluator import Rows
+from ..evaluators.lines import output_signals
+from ..evaluators.part import PartEvaluator
 from .axes import MOST_POINTS, Axis, read_axis
 
 Array = NDArray[np.float64]
@@ -46,11 +49,24 @@ class Plan:
     choice: str = ""  # why this level was chosen, if it was
     taken: str = ""  # the inputs that were not given, and where their values come from
     warnings: tuple[str, ...] = ()  # of points outside the part's box
+    evaluator: Any = None  # the part
+    rows: Rows | None = None  # what it evaluates
 
     @property
     def n_rows(self) -> int:
         """Number of points."""
         return len(self.inputs)
+
+    @property
+    def model(self) -> str:
+        """Key of the model."""
+        return self.spec.key
+
+    @property
+    def figures(self) -> tuple[str, ...]:
+        """What is asked of each row: outputs, real ones first, but the status."""
+        real, whole = output_signals(self.spec)
+        return tuple(s.name for s in (*real, *whole[:-1]))
 
 
 def make_plan(
@@ -107,7 +123,9 @@ def _chosen(plan: Plan, tolerance: float) -> Plan:
         points=[dict(zip(names, row, strict=True)) for row in rows_to_compare(rows).tolist()],
     )
     identity = {**plan.identity, "fidelity": choice.fidelity}
-    return replace(plan, fidelity=choice.fidelity, choice=str(choice), identity=identity)
+    chosen = replace(plan.evaluator, fidelity=choice.fidelity)
+    more = {"choice": str(choice), "identity": identity, "evaluator": chosen}
+    return replace(plan, fidelity=choice.fidelity, **more)
 
 
 def _held(at: Mapping[str, object], known: dict[str, Quantity], spec: ModelSpec) -> dict[str, Any]:
@@ -224,7 +242,13 @@ def _assemble(
     )
     rows_and_lines = inputs, shown, units, starts, params, params_of
     taken = taken_text(box, default, spec.inputs)
-    plan = Plan(spec, level, *rows_and_lines, taken=taken, warnings=warnings)
+    own = replace(part, parameters={f.name: getattr(base, f.name) for f in fields(spec.params)})
+    evaluator = PartEvaluator(part=own, inputs=starts_at, reached="below", fidelity=level)
+    columns = {s.name: inputs[:, i] for i, s in enumerate(spec.inputs)}
+    columns |= {name: rows[name] for name in varied}
+    evaluated = Rows(columns=columns, starts=starts, held=fixed)
+    more = {"taken": taken, "warnings": warnings, "evaluator": evaluator, "rows": evaluated}
+    plan = Plan(spec, level, *rows_and_lines, **more)
     plan.identity.update(_identity(plan, base, fixed, varied))
     return plan
 

@@ -113,6 +113,7 @@ def make_table(
 ) -> SweepTable:
     """Return the table of outputs as ``solve_task`` gives them, of the plan's rows from one on."""
     real, whole = output_signals(plan.spec)
+    numbers, flags = _parted(numbers, flags, len(real))
     rows = slice(first, first + len(flags))
     columns, units = {name: column[rows] for name, column in plan.shown.items()}, dict(plan.units)
     for i, signal in enumerate(real):
@@ -132,6 +133,14 @@ def make_table(
     counts = {Status(i).name: n for i, n in enumerate(np.bincount(flags[:, -1]).tolist()) if n}
     more = plan.taken, plan.warnings, tuple(beyond(plan.spec, columns)), plan.spec.key
     return SweepTable(columns, units, plan.fidelity, plan.choice, counts, *more)
+
+
+def _parted(
+    values: NDArray[np.float64], codes: NDArray[np.int32], n_real: int
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """Return real outputs, and whole numbers with the status last; 0 where a row failed."""
+    whole = np.nan_to_num(values[:, n_real:]).astype(np.int32)
+    return values[:, :n_real], np.hstack((whole, codes))
 
 
 def pieces(plan: Plan, blocks: Iterable[Block]) -> Iterator[SweepTable]:

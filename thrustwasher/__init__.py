@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from .studio.calibration.estimates import Calibration
     from .studio.calibration.model_fit import ModelCalibration
     from .studio.calibration.run_calibration import calibrate
+    from .studio.evaluators.make import engagements
     from .studio.optimisation.optimum import Optimum
     from .studio.optimisation.whole_search import optimise
     from .studio.scatter.propagate import propagate
@@ -60,6 +61,7 @@ _HOMES = {
     "clutch.engagement": ("Engagement", "engage_clutch"),
     "clutch.release": ("Release", "release_clutch"),
     "losses.solve": ("LossesParams", "LossesResult", "solve_losses"),
+    "studio.evaluators.make": ("engagements",),
     "studio.scatter.propagate": ("propagate",),
     "studio.scatter.result": ("ScatterResult",),
     "shift.whole_shift": ("run_shift",),
@@ -109,6 +111,7 @@ __all__ = [
     "calibrate_traces",
     "choose",
     "engage_clutch",
+    "engagements",
     "follow_washer",
     "load_curve",
     "load_part",

@@ -85,6 +85,7 @@ PLACES = {
     "the folds of a washer's load curve are figures of a design": {
         "studio.evaluators.part_curve": {"washer"},
     },
+    "engagements are those of a wet pack": {"studio.evaluators.engagement": {"clutch"}},
 }
 
 

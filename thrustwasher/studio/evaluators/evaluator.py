@@ -1,5 +1,6 @@
 """The form in which everything is studied: quantities by path in, figures by name out."""
 
+import hashlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, NamedTuple, Protocol, overload
@@ -190,6 +191,11 @@ def some_figures(evaluator: Evaluator, names: Iterable[str]) -> Suggesting[Figur
     found = Suggesting({name: every[name] for name in names})
     found.suggested = getattr(every, "suggested", every)
     return found
+
+
+def digest_of(values: Mapping[str, Any]) -> str:
+    """Return a digest of values by name, for journals."""
+    return hashlib.sha256(repr(sorted(values.items())).encode()).hexdigest()[:16]
 
 
 def texts(remarks: Sequence[Remark], level: str) -> tuple[str, ...]:

@@ -91,6 +91,37 @@ def _refuse_nothing(scatter: Scatter, what: str, example: str) -> None:
         )
 
 
+def engagements(
+    part: "str | Path | PartFile" = "clutch", *, at: Mapping[str, object] | None = None
+) -> Any:
+    """Return engagements of a wet pack as an ``Evaluator``: load, slip, inertia and times vary.
+
+    Parameters
+    ----------
+    part : a wet clutch (``load_part``), the path of its file, or "clutch"
+    at : its inputs, as numbers [SI] or "1.2 kN"; others are at its box or their defaults
+    """
+    from .engagement import engagement_evaluator
+
+    found = part if isinstance(part, PartFile) else find_part(str(part))
+    return engagement_evaluator(found, inputs_of(found, at or {}))
+
+
+def is_at_points(target: object) -> bool:
+    """Tell if something is a part, or names a model or a part that is solved at points."""
+    if isinstance(target, PartFile):
+        return True
+    if not isinstance(target, str):
+        return False
+    if target.endswith(".toml"):
+        return holds_part(target, "file")
+    if target in models_with_points() or target in scene_parts():
+        return True
+    from ...shift import builtin_scenes
+
+    return target not in builtin_scenes()
+
+
 def file_of(target: Any, at: Mapping[str, object] | None, row: Mapping[str, Any]) -> str:
     """Return a draw of a part or scene as the text of a file that runs; no scene is run."""
     if isinstance(target, PartFile):

@@ -1,6 +1,5 @@
 """A part at a point: any model that is solved at points, a steady state in every row."""
 
-import hashlib
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -24,7 +23,7 @@ from ...model.registry import find_model, kernel_of
 from ...model.scatter import Scatter
 from ...model.spec import Signal
 from ...units import format_quantity
-from .evaluator import Answers, Array, Codes, Effort, Remark, Row, Rows, Slopes
+from .evaluator import Answers, Array, Codes, Effort, Remark, Row, Rows, Slopes, digest_of
 from .limits import beyond
 from .lines import Task, output_signals, solve_task
 from .part_curve import FOLDS, curve_of, fold_loads, fold_slopes
@@ -92,8 +91,8 @@ class PartEvaluator:
         """Model, parameters, point and what else decides the answers."""
         return {
             "model": self.part.spec.key,
-            "parameters": _digest(asdict(self.part.params)),
-            "inputs": _digest(dict(self.inputs)),
+            "parameters": digest_of(asdict(self.part.params)),
+            "inputs": digest_of(dict(self.inputs)),
             "fidelity": self.fidelity,
             "reached": self.reached,
         }
@@ -441,7 +440,3 @@ def _below_1(columns: Mapping[str, Array], outcome: str) -> Array:
     """Return 1 where a safety is below 1, else 0; NaN where it has no value."""
     value = columns[outcome.removesuffix("_below_1")]
     return np.where(np.isnan(value), np.nan, value < 1.0)
-
-
-def _digest(values: dict[str, Any]) -> str:
-    return hashlib.sha256(repr(sorted(values.items())).encode()).hexdigest()[:16]

@@ -2,11 +2,11 @@
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ...errors import ParameterError
+from ...errors import ParameterError, suggestion
 from ...model.quantity import Quantity
 from ...model.spec import ModelSpec
 from ...settings import find_place
@@ -24,7 +24,10 @@ class Axis:
 
 
 def read_axis(
-    name: str, values: str | Iterable[object], known: dict[str, Quantity], spec: ModelSpec
+    name: str,
+    values: str | Iterable[object],
+    known: Mapping[str, Quantity],
+    spec: ModelSpec | None = None,
 ) -> Axis:
     """Return the axis that a name ("load", or "load [kN]" for bare numbers) and values make.
 
@@ -35,7 +38,7 @@ def read_axis(
         raise ParameterError(
             f"{name!r}: allowed: the name of an input or parameter, or NAME [UNIT]"
         )
-    place = find_place(match[1].replace("-", "_"), known, spec)
+    place = find_quantity(match[1].replace("-", "_"), known, spec)
     if isinstance(values, str):
         found = parse_values(values, place, (match[2] or "").strip())
     else:
@@ -44,6 +47,16 @@ def read_axis(
     if not found:
         raise ParameterError(f"{place.name}: no value is given")
     return Axis(place, tuple(found))
+
+
+def find_quantity(name: str, known: Mapping[str, Quantity], spec: ModelSpec | None) -> Quantity:
+    """Return the quantity of that name; ParameterError with the nearest names if there is none."""
+    if spec is not None:
+        return find_place(name, dict(known), spec)
+    if name not in known:
+        hint = suggestion(name, known, "; did you mean {}?")
+        raise ParameterError(f"{name}: there is no such parameter, input or path{hint}")
+    return known[name]
 
 
 def parse_values(text: str, place: Quantity, written: str = "") -> list[Any]:

@@ -21,11 +21,11 @@ from ...model.point import from_box, taken_text
 from ...model.quantity import Quantity
 from ...model.registry import find_model, spec_of
 from ...model.spec import ModelSpec
-from ...settings import find_place, places
+from ...settings import places
 from ..evaluators.evaluator import Rows
 from ..evaluators.lines import output_signals
 from ..evaluators.part import PartEvaluator
-from .axes import MOST_POINTS, Axis, read_axis
+from .axes import MOST_POINTS, Axis, find_quantity, read_axis
 
 Array = NDArray[np.float64]
 
@@ -86,15 +86,15 @@ def make_plan(
     asked = part.fidelity if fidelity is None else fidelity
     level, tolerance = chooser.level_and_tolerance(spec.key, spec, asked)
     base = params_of(spec, params)
-    held = _held(at, known, spec)
+    held = held_values(at, known, spec)
     axes = [read_axis(name, values, known, spec) for name, values in over.items()]
     if points is None:
-        rows, lines, order = _grid(axes)
+        rows, lines, order = grid(axes)
     else:
         if axes:
             raise ParameterError("points: allowed: without axes to vary; it names every point")
         points = {part.flat_name(name): values for name, values in points.items()}
-        rows, lines, order = _listed(points, known, spec)
+        rows, lines, order = listed(points, known, spec)
     given = [*held, *(a.place.name for a in axes), *(rows if points is not None else ())]
     twice = [name for name in given if given.count(name) > 1]
     if twice:
@@ -124,11 +124,13 @@ def _chosen(plan: Plan, tolerance: float) -> Plan:
     )
     identity = {**plan.identity, "fidelity": choice.fidelity}
     chosen = replace(plan.evaluator, fidelity=choice.fidelity)
-    more = {"choice": str(choice), "identity": identity, "evaluator": chosen}
+    more: dict[str, Any] = {"choice": str(choice), "identity": identity, "evaluator": chosen}
     return replace(plan, fidelity=choice.fidelity, **more)
 
 
-def _held(at: Mapping[str, object], known: dict[str, Quantity], spec: ModelSpec) -> dict[str, Any]:
+def held_values(
+    at: Mapping[str, object], known: Mapping[str, Quantity], spec: ModelSpec | None = None
+) -> dict[str, Any]:
     """Return what is held at one value, by name."""
     found = {}
     for name, value in at.items():
@@ -139,7 +141,7 @@ def _held(at: Mapping[str, object], known: dict[str, Quantity], spec: ModelSpec)
     return found
 
 
-def _grid(axes: list[Axis]) -> tuple[dict[str, Any], NDArray[np.int64], list[str]]:
+def grid(axes: list[Axis]) -> tuple[dict[str, Any], NDArray[np.int64], list[str]]:
     """Return the columns of a full grid, the starts of its lines, the names, fastest first."""
     if not axes:
         raise ParameterError("over: nothing is varied, allowed: NAME=VALUES, e.g. load=50:1850:50")
@@ -159,15 +161,17 @@ def _grid(axes: list[Axis]) -> tuple[dict[str, Any], NDArray[np.int64], list[str
     return columns, np.arange(0, n + 1, long), [a.place.name for a in order]
 
 
-def _listed(
-    points: Mapping[str, Any], known: dict[str, Quantity], spec: ModelSpec
+def listed(
+    points: Mapping[str, Any],
+    known: Mapping[str, Quantity],
+    spec: ModelSpec | None = None,
 ) -> tuple[dict[str, Any], NDArray[np.int64], list[str]]:
     """Return the columns of given points; rows with the same number in ``line`` are one line."""
     columns: dict[str, Any] = {}
     for name, values in points.items():
         if name == "line":
             continue
-        place = find_place(name, known, spec)
+        place = find_quantity(name, known, spec)
         kind = float if place.kind == "real" else object
         columns[name] = np.array([_checked(place, i, v) for i, v in enumerate(values)], kind)
     lengths = {name: len(values) for name, values in points.items()}
@@ -247,7 +251,8 @@ def _assemble(
     columns = {s.name: inputs[:, i] for i, s in enumerate(spec.inputs)}
     columns |= {name: rows[name] for name in varied}
     evaluated = Rows(columns=columns, starts=starts, held=fixed)
-    more = {"taken": taken, "warnings": warnings, "evaluator": evaluator, "rows": evaluated}
+    more: dict[str, Any] = {"taken": taken, "warnings": warnings}
+    more |= {"evaluator": evaluator, "rows": evaluated}
     plan = Plan(spec, level, *rows_and_lines, **more)
     plan.identity.update(_identity(plan, base, fixed, varied))
     return plan
@@ -348,10 +353,10 @@ def _identity(
     parts: dict[str, Any] = {"model": plan.spec.key, "fidelity": plan.fidelity}
     parts |= {"parameters": repr(held), **plan.shown, "lines": plan.starts}
     parts["version of thrustwasher"] = kernel_digest() + digest_now(plan.spec.kernel)
-    return {name: _digest(part) for name, part in parts.items()}
+    return {name: digest(part) for name, part in parts.items()}
 
 
-def _digest(part: Any) -> str:
+def digest(part: Any) -> str:
     """Return the digest of a text or of a column."""
     if not isinstance(part, str):
         part = repr(part.tolist()) if part.dtype == object else part.tobytes()

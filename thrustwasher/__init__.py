@@ -8,9 +8,6 @@
 
 from typing import TYPE_CHECKING, Any
 
-from .moved import follow as _follow
-from .moved import renamed as _renamed
-
 __version__ = "0.24.0"
 
 if TYPE_CHECKING:
@@ -133,15 +130,12 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     """Import a public name when it is first used: ``import thrustwasher`` stays quick."""
     if name not in _HOME_OF:
-        return _renamed(__name__, globals(), name, {"WasherCourse": "WasherHistory"})
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from importlib import import_module
 
     value = getattr(import_module(f".{_HOME_OF[name]}", __name__), name)
     globals()[name] = value
     return value
-
-
-_follow()
 
 
 def __dir__() -> list[str]:

@@ -32,7 +32,6 @@ from typing import Any
 
 from ..errors import ParameterError, Suggesting, within
 from ..face_load import LIMITED, over_limits
-from ..moved import now_named
 from ..units import exact_quantity, format_quantity
 from .levels import level_named
 from .oil import Oil, oil_doubts, refuse_two_ways, sheet_oil
@@ -40,7 +39,6 @@ from .parameters import (
     allowed,
     check_number,
     earlier_of,
-    former_names_of,
     held_choices,
     other_names_of,
     plainly_named,
@@ -436,7 +434,6 @@ def read_parameters(where: str, spec: ModelSpec, table: Mapping[str, object]) ->
     """Return the values [SI] of a table of parameters by their names."""
     known = {f.name: f.metadata for f in fields(spec.params)}
     earlier = earlier_of(spec.params)
-    table = now_named(where, former_names_of(spec.params), table)
     given = plainly_named(other_names_of(spec.params), table)
     nothing_else(where, [key for key in given if key not in known and key not in earlier], known)
     known |= earlier

@@ -4,7 +4,6 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from ...model.toml_tables import table_beside
-from ...moved import now_named
 
 # [rad/s] of a planet on its pin. A film vanishes with speed: its minimum ratio is looked for above
 # this speed only, else it would be that of the last sample before standstill.
@@ -42,34 +41,6 @@ FIGURES = {n: Definition(*row) for n, row in table_beside(__file__, "figures.tom
 def usual_rows() -> dict[str, list[Any]]:
     """Return the rows of ``usual.toml``: words, range, basis, unit and size of each figure."""
     return table_beside(__file__, "usual.toml")
-
-
-# Names of earlier versions, for one version.
-RENAMED = {n.replace("minimum_", "least_"): n for n in FIGURES if n.startswith("minimum_")}
-RENAMED["greatest_slip"] = "maximum_slip"
-
-
-def current(name: str) -> str:
-    """Return a figure's name of today; a name of an earlier version gives a warning."""
-    return next(iter(now_named("figures", RENAMED, {name: None})))
-
-
-class Figures(dict[str, float | None]):
-    """Values by name; a name of an earlier version is read with a warning."""
-
-    def __missing__(self, name: str) -> float | None:
-        """Return the value by its name of today."""
-        if name not in RENAMED:
-            raise KeyError(name)
-        return self[current(name)]
-
-    def __contains__(self, name: object) -> bool:
-        """Tell if there is a value, also by a name of an earlier version."""
-        return super().__contains__(current(name) if isinstance(name, str) else name)
-
-    def get(self, name: str, default: Any = None) -> Any:
-        """Return the value, also by a name of an earlier version."""
-        return super().get(current(name), default)
 
 
 def assemble(found: Found, pack: str, other: str) -> list[KeyFigure]:

@@ -8,7 +8,6 @@ import numpy as np
 
 from ...errors import ParameterError, suggestion
 from ...model.quantity import Figure, Quantity
-from ...shift.key_figures.figure_list import current
 from ...shown import text_of
 from ...units import into_range, parse_quantity
 from .designs import Array, Row
@@ -157,7 +156,6 @@ def read_problem(
 
 
 def _figure(option: str, name: str, figures: Mapping[str, Figure]) -> Figure:
-    name = current(name)
     if name not in figures:
         hint = suggestion(name, figures, "; did you mean {}?")
         raise ParameterError(f"{option} {name}: allowed: {', '.join(figures)}{hint}")

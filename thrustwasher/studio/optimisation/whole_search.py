@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-from warnings import warn
 
 import numpy as np
 
@@ -68,8 +67,6 @@ def optimise(
     out: str | Path | None = None,
     progress: Progress | None = None,
     finish: Callable[[Optimum, Path], None] | None = None,
-    least: str | Sequence[str] = (),
-    most: str | Sequence[str] = (),
 ) -> Optimum:
     """Return the design of a part or a gear shift with the minimum or maximum of a figure.
 
@@ -93,7 +90,6 @@ def optimise(
         ``front.csv`` and ``front-NN.toml``
     progress : called with designs tried and planned
     finish : called with the result and the folder before it is complete
-    ``least``, ``most`` : ``minimise`` and ``maximise`` in earlier versions, for one version
 
     Raises
     ------
@@ -108,11 +104,6 @@ def optimise(
     result depends neither on the workers nor on a stop in between.
     """
     began = time.perf_counter()
-    for old, now, given in (("least", "minimise", least), ("most", "maximise", most)):
-        if given:
-            text = f"optimise: {old}= is now {now}=; the next version takes only this"
-            warn(text, DeprecationWarning, stacklevel=2)
-    minimise, maximise = minimise or least, maximise or most
     check_workers(workers, None)
     for name, value, low, high in (
         ("points", points, 3, MOST_POINTS),

@@ -7,7 +7,6 @@ import numpy as np
 
 from ...errors import ParameterError, suggestion
 from ...model.quantity import Quantity
-from ...shift.key_figures.figure_list import current
 from ...shift.scene.places import scene_places
 from ...shift.scene.scene import Scene
 from ..evaluators.scene import scene_evaluator
@@ -43,7 +42,7 @@ def scene_sensitivities(
     """
     evaluator, places = scene_evaluator(scene), scene_places(scene)
     known = [n for n, f in evaluator.figures.items() if f.kind == "real"]
-    figures = [n for n in FIGURES if n in known] if figures is None else [*map(current, figures)]
+    figures = [n for n in FIGURES if n in known] if figures is None else list(figures)
     for name in figures:
         if name not in known:
             hint = suggestion(name, known, "; did you mean {}?")

@@ -11,7 +11,6 @@ from ...errors import ParameterError, suggestion
 from ...model.quantity import Figure
 from ...model.scatter import Scatter
 from ...model.toml_tables import unknown
-from ...shift.key_figures.figure_list import current
 from ..evaluators.evaluator import Array, Codes, Effort, Scattering, some_figures, texts
 
 
@@ -119,7 +118,7 @@ def target_of(
     if outputs is None or not (outputs or evaluator.kind == "scene"):
         chosen = [*known, *signals]
     else:
-        flat = getattr(getattr(evaluator, "part", None), "flat_name", current)
+        flat = getattr(getattr(evaluator, "part", None), "flat_name", str)
         chosen = [flat(name) for name in outputs]
         for name in chosen:
             if name not in known and name not in signals:

@@ -8,9 +8,6 @@
 
 from typing import TYPE_CHECKING, Any
 
-from .moved import follow as _follow
-from .moved import renamed as _renamed
-
 __version__ = "0.24.0"
 
 if TYPE_CHECKING:
@@ -32,6 +29,7 @@ if TYPE_CHECKING:
     from .studio.calibration.estimates import Calibration
     from .studio.calibration.model_fit import ModelCalibration
     from .studio.calibration.run_calibration import calibrate
+    from .studio.evaluators.make import engagements
     from .studio.optimisation.optimum import Optimum
     from .studio.optimisation.whole_search import optimise
     from .studio.scatter.propagate import propagate
@@ -60,6 +58,7 @@ _HOMES = {
     "clutch.engagement": ("Engagement", "engage_clutch"),
     "clutch.release": ("Release", "release_clutch"),
     "losses.solve": ("LossesParams", "LossesResult", "solve_losses"),
+    "studio.evaluators.make": ("engagements",),
     "studio.scatter.propagate": ("propagate",),
     "studio.scatter.result": ("ScatterResult",),
     "shift.whole_shift": ("run_shift",),
@@ -109,6 +108,7 @@ __all__ = [
     "calibrate_traces",
     "choose",
     "engage_clutch",
+    "engagements",
     "follow_washer",
     "load_curve",
     "load_part",
@@ -130,15 +130,12 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     """Import a public name when it is first used: ``import thrustwasher`` stays quick."""
     if name not in _HOME_OF:
-        return _renamed(__name__, globals(), name, {"WasherCourse": "WasherHistory"})
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from importlib import import_module
 
     value = getattr(import_module(f".{_HOME_OF[name]}", __name__), name)
     globals()[name] = value
     return value
-
-
-_follow()
 
 
 def __dir__() -> list[str]:

@@ -1,63 +1,34 @@
 """What a name and a text set of a model: an input or a parameter, as in ``roughness=4e-7``."""
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, fields
-from typing import Any
+from collections.abc import Iterable
+from dataclasses import fields
 
 from .errors import ParameterError, suggestion
-from .model.parameters import check_value
+from .model.quantity import Quantity, of_field
 from .model.registry import find_model
 from .model.spec import ModelSpec
-from .units import has_unit, parse_quantity
-
-BOOLEANS = {"true": True, "yes": True, "1": True, "false": False, "no": False, "0": False}
 
 
-@dataclass(frozen=True)
-class Place:
-    """An input or a parameter that can be varied."""
-
-    name: str
-    is_input: bool
-    meta: Mapping[str, Any]  # as a parameter's field has it
-
-    @property
-    def unit(self) -> str:
-        """Unit of numbers without one."""
-        return str(self.meta["unit"])
-
-    @property
-    def kind(self) -> str:
-        """Real, integer, boolean or enumeration."""
-        return str(self.meta["kind"])
-
-    def check(self, value: Any) -> float | int | bool | str:
-        """Return a value given in Python or as text; ParameterError names what is allowed."""
-        if self.kind == "boolean" and str(value).lower() in BOOLEANS:
-            return BOOLEANS[str(value).lower()]
-        if self.kind in ("enumeration", "boolean"):
-            check_value(self.name, value, self.meta)
-            return str(value) if self.kind == "enumeration" else bool(value)
-        given = value if isinstance(value, str) else float(value)
-        relative = bool(self.meta.get("relative"))
-        number = parse_quantity(given, self.unit, self.name, difference=relative)
-        number = check_value(self.name, number, self.meta, stated=has_unit(value))
-        return int(number) if self.kind == "integer" else number
-
-
-def places(spec: ModelSpec) -> dict[str, Place]:
+def places(spec: ModelSpec) -> dict[str, Quantity]:
     """Return everything of a model that may be set or varied, by name."""
-    found: dict[str, Place] = {}
+    found: dict[str, Quantity] = {}
     for s in (*spec.inputs, *find_model(spec.key).inputs()):
         if s.name in found:
             continue
         low, high = s.range
-        meta = {"kind": "real", "unit": s.unit, "min": low, "max": high, "relative": s.relative}
-        found[s.name] = Place(s.name, True, meta)
-    return found | {f.name: Place(f.name, False, f.metadata) for f in fields(spec.params)}
+        found[s.name] = Quantity(
+            name=s.name,
+            unit=s.unit,
+            nominal=s.usual,
+            low=low,
+            high=high,
+            relative=s.relative,
+            is_input=True,
+        )
+    return found | {f.name: of_field(f.name, f.default, f.metadata) for f in fields(spec.params)}
 
 
-def find_place(name: str, known: dict[str, Place], spec: ModelSpec) -> Place:
+def find_place(name: str, known: dict[str, Quantity], spec: ModelSpec) -> Quantity:
     """Return the place of that name, or raise ParameterError with the nearest names."""
     if name not in known:
         hint = suggestion(name, known, "did you mean {}? ")

@@ -20,8 +20,10 @@ import numpy as np
 
 from thrustwasher.processes import runner, usable_cores
 from thrustwasher.shift import load_scene
+from thrustwasher.shift.scene.places import scene_scatter
+from thrustwasher.studio.evaluators.scene import scene_evaluator
 from thrustwasher.studio.scatter.propagate import propagate
-from thrustwasher.studio.scatter.scene_target import SceneTarget, scene_target
+from thrustwasher.studio.scatter.target import Target, target_of
 
 LEVELS = (0.05, 0.5, 0.95)
 BATCH = 16
@@ -73,10 +75,16 @@ def bands(name: str, base: int, workers: int) -> str:
     return "\n".join([*lines, ""])
 
 
+def _target(name: str) -> Any:
+    """Return a built-in scene as a study has it."""
+    scene = load_scene(name)
+    return target_of(scene_evaluator(scene), scene_scatter(scene))
+
+
 class _Full:
     """Full runs of some draws, in a worker."""
 
-    def __init__(self, target: SceneTarget) -> None:
+    def __init__(self, target: Target) -> None:
         self.target = target
 
     def __call__(self, rows: list[dict[str, Any]]) -> Any:
@@ -85,8 +93,8 @@ class _Full:
 
 def plain(name: str, file: Path, runs: int, workers: int) -> None:
     """Run independent draws in full and keep figures, outcomes and series."""
-    target = scene_target(load_scene(name))
-    target.played = {}
+    target = _target(name)
+    target.evaluator.played = {}
     uniforms = np.random.default_rng(2027).random((runs, len(target.scatter.sources)))
     rows = target.scatter.values(uniforms)
     answers = np.full((runs, len(target.nominal())), np.nan)
@@ -156,7 +164,7 @@ def compare(name: str, file: Path, base: int, workers: int, indices: bool) -> No
 
 def paired(name: str, file: Path, draws: int) -> None:
     """Print how far the shortcut is from full runs at the same draws, over the band."""
-    target = scene_target(load_scene(name))
+    target = _target(name)
     with np.load(file) as kept:
         draws = min(draws, int((kept["codes"] >= 0).sum()))
         full, uniforms = kept["answers"][:draws], kept["uniforms"][:draws]

@@ -47,8 +47,8 @@ PLACES = {
         "shift.oscillation.chatter": {"transmission"},
         "shift.oscillation.torsion": {"clutch"},
         "studio.report.shift.live_washer": {"washer"},
-        "studio.scatter.scene_runs": {"washer"},
-        "studio.scatter.scene_target": {"washer"},
+        "studio.evaluators.scene_runs": {"washer"},
+        "studio.evaluators.scene": {"washer"},
     },
     "what a finished shift is evaluated by is read by kernels in the transmission's library": {
         "shift.key_figures.comfort": {"transmission"},
@@ -83,8 +83,9 @@ PLACES = {
         "studio.calibration.engagement.traced_pack": {"clutch"},
     },
     "the folds of a washer's load curve are figures of a design": {
-        "studio.optimisation.part_designs": {"washer"},
+        "studio.evaluators.part_curve": {"washer"},
     },
+    "engagements are those of a wet pack": {"studio.evaluators.engagement": {"clutch"}},
 }
 
 

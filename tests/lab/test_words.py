@@ -22,9 +22,8 @@ NEWEST = re.compile(r"(?ms)^## .*?(?=^## |\Z)")
 SCRIPT_TEXT = re.compile(
     r'(?m)(?<=[(,=:?+] )"(?:[^"\\\n]|\\.)* (?:[^"\\\n]|\\.)*"|^ *"[^"\n]* [^"\n]*"'
 )
-# no part of a name in the code; HistoryError keeps its former one for a version
+# no part of a name in the code
 PRIVATE = re.compile(r"(?i)(?<![a-z])(?:rungs?|courses?|crew|shelf)(?![a-z])")
-FORMER = {"follow.py"}
 NAMES = re.compile(r"``.*?``|`[^`\n]+`|(?<![\w.])[\w.]*_[\w.]+|[\w-]+/[\w./-]+", re.S)
 
 
@@ -128,7 +127,7 @@ def test_names_in_the_code_are_in_the_terms_of_the_field() -> None:
     found = [
         f"{path.relative_to(ROOT)}: {name}"
         for path in sorted(sources)
-        if "bundle" not in path.parts and path.name not in FORMER
+        if "bundle" not in path.parts
         for name in sorted(names_in(path))
         if PRIVATE.search(re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name))
     ]

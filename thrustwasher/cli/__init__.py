@@ -58,12 +58,8 @@ EPILOG = (
 )
 
 
-RENAMED = {"cards": "fidelity"}  # commands, for one version
-RENAMED_OPTIONS = {
-    "optimise": {"--least": "--minimise", "--most": "--maximise"},
-    "scatter": {"--scheduler": "--cluster"},
-}
 GONE = {  # commands that were: what to call now
+    "cards": "thrustwasher fidelity",
     "chart": "python -m lab.chart, in a checkout",
     "worst": "python -m lab.worst, in a checkout",
 }
@@ -77,7 +73,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             dict.fromkeys(COMMANDS, ""),
             lambda name, parser: _command(name).add_arguments(parser),
         )
-    words = _renamed(list(sys.argv[1:] if argv is None else argv))
+    words = list(sys.argv[1:] if argv is None else argv)
     label = f"thrustwasher {words[0]}" if words and words[0] in COMMANDS else "thrustwasher"
     with named_streams(is_program=argv is None):
         return _ended(lambda: _dispatch(words), label, is_program=argv is None)
@@ -88,22 +84,6 @@ def main_of(command: ModuleType, label: str, argv: Sequence[str] | None = None) 
     words = list(sys.argv[1:] if argv is None else argv)
     with named_streams(is_program=argv is None):
         return _ended(lambda: _run(command, label, words), label, is_program=argv is None)
-
-
-def _renamed(words: list[str]) -> list[str]:
-    """Return the words with names of before as they are now, and say which."""
-    new = list(words)
-    if words:
-        new[0] = RENAMED.get(words[0], words[0])
-        options = RENAMED_OPTIONS.get(new[0], {})
-        for i, word in enumerate(words[1:], 1):
-            name, equals, value = word.partition("=")
-            new[i] = options.get(name, name) + equals + value
-    for old, now in zip(words, new, strict=True):
-        if old != now:
-            old, now = old.partition("=")[0], now.partition("=")[0]
-            print(f"note: {old} is now {now}; the next version takes only this", file=sys.stderr)
-    return new
 
 
 def _ended(run: Callable[[], int], label: str, *, is_program: bool) -> int:

@@ -7,6 +7,7 @@
 ``engagement``    load and slip are given over time, torque and heat follow
 ``kernels``       compiled code
 ``profile``        A pack along given profiles of load and slip, by its kernels
+``run_out``       the slip of an inertia runs out under a given load
 ``release``       what a pack drags after it was let go: a cold release against a warm one
 ================  =========================================================================
 """

@@ -368,7 +368,6 @@ class ClutchParams:
         INPUT_PROFILES,
         "InputProfile",
         "what load and slip do between two steps",
-        formerly="input_course",
         of_a_run=True,
     )
     holding: str = holding_choice("the pack")

@@ -20,7 +20,6 @@ from typing import Any
 from ..errors import ParameterError
 from ..model.registry import find_model
 from ..model.toml_tables import from_plain
-from ..moved import warn_renamed
 from ..native.files import user_cache
 from ..storage.digests import (
     CHECK,
@@ -38,7 +37,6 @@ SCHEMA = 4
 SAFETY = 1.5  # between the largest error found at points and what is promised between them
 OWN = "own-"  # begins the name of a table that lies in the user's cache
 FOLDER = "THRUSTWASHER_TABLES"  # environment: one more folder with tables
-FORMER = "THRUSTWASHER_CARDS"  # its name before, for one version
 VERIFY = "python -m lab.verify"  # measures the package's own
 # Unit of each quantity's error; None: relative to the value, or to ``floor`` if that is more.
 QUANTITIES = {"friction_torque": None, "temperature": "K", "film_thickness": "m", "film_ratio": "1"}
@@ -229,10 +227,8 @@ def own_folder() -> Path:
 
 
 def named_folder() -> str | None:
-    """Return the folder that the environment names, also by the variable's name before."""
-    if FORMER in os.environ and FOLDER not in os.environ:
-        warn_renamed(FORMER, FOLDER)
-    return os.environ.get(FOLDER) or os.environ.get(FORMER)
+    """Return the folder that the environment names."""
+    return os.environ.get(FOLDER)
 
 
 def table_folders() -> list[Path]:

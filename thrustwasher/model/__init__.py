@@ -9,8 +9,8 @@
 ``advice``       warnings of a solution, one line each
 ``idle``         parameters without effect, or kept though what they belong to was changed
 ``point``        an operating point: what is given, fixed by the box, left to the defaults
+``quantity``     what is given, with unit and range; what comes out
 ``scatter``      laws of what is known within bounds only: tables ``[scatter]``, draws, correlation
-``part_places``  what of a part can scatter
 ``unread``       which parameters are not read, because of the value of another one
 ``oil``          an oil by name, data sheet or points, as parameters of a model
 ``oil_laws``     viscosity of an oil over temperature: ASTM D341, and the laws that the models have

@@ -8,6 +8,7 @@ from typing import Any
 
 from ..errors import Status
 from ..units import format_quantity
+from .quantity import Figure
 from .spec import ModelSpec, Signal
 
 VERIFIED = "{value} is outside {range}, for which the accuracy was verified; use with care"
@@ -47,7 +48,7 @@ class LawRange:
         return f"{self.low:g} .. {self.high:g}{unit}"
 
 
-def quantity_text(signal: Signal, value: float) -> str:
+def quantity_text(signal: Signal | Figure, value: float) -> str:
     """Return name and value of an input or output as a person reads them."""
     return f"{signal.name} = {format_quantity(value, signal.unit, difference=signal.relative)}"
 

@@ -11,7 +11,6 @@ from operator import attrgetter
 from typing import Any, TypeVar
 
 from ..errors import ParameterError
-from ..moved import now_named
 from ..units import into_range, meant
 from .spec import ModelSpec, Rule, derived
 from .unread import condition_words
@@ -96,19 +95,16 @@ def extended(params: type[T], name: str, more: Mapping[str, object]) -> type[T]:
 def other_names(params: type[T]) -> type[T]:
     """Let fields be given and read by another name in their metadata as well.
 
-    ``also``: a name that means the same; ``formerly``: the name in earlier versions, with a
-    warning.
+    ``also``: a name that means the same.
     """
-    others, before, plain = other_names_of(params), former_names_of(params), params.__init__
+    others, plain = other_names_of(params), params.__init__
 
     @wraps(plain)
     def init(self: object, **given: object) -> None:
-        plain(self, **plainly_named(others, now_named(params.__name__, before, given)))
+        plain(self, **plainly_named(others, given))
 
     params.__init__ = init  # type: ignore[method-assign]
     for other, name in others.items():
-        setattr(params, other, property(attrgetter(name)))
-    for other, name in before.items():
         setattr(params, other, property(attrgetter(name)))
     return params
 
@@ -193,11 +189,6 @@ def with_changes(params: object, given: Mapping[str, object], changes: Mapping[s
 def other_names_of(params: type[Any]) -> dict[str, str]:
     """Return the other names of fields: other name -> name."""
     return {f.metadata["also"]: f.name for f in fields(params) if "also" in f.metadata}
-
-
-def former_names_of(params: type[Any]) -> dict[str, str]:
-    """Return the names that fields had in earlier versions: former name -> name."""
-    return {f.metadata["formerly"]: f.name for f in fields(params) if "formerly" in f.metadata}
 
 
 def plainly_named(others: Mapping[str, str], given: Mapping[str, object]) -> dict[str, Any]:

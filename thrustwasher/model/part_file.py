@@ -32,7 +32,6 @@ from typing import Any
 
 from ..errors import ParameterError, Suggesting, within
 from ..face_load import LIMITED, over_limits
-from ..moved import now_named
 from ..units import exact_quantity, format_quantity
 from .levels import level_named
 from .oil import Oil, oil_doubts, refuse_two_ways, sheet_oil
@@ -40,17 +39,16 @@ from .parameters import (
     allowed,
     check_number,
     earlier_of,
-    former_names_of,
     held_choices,
     other_names_of,
     plainly_named,
     renewed_values,
     with_changes,
 )
-from .part_places import part_places
 from .point import point_of
+from .quantity import Quantity, part_quantities
 from .registry import MODELS, find_model
-from .scatter import Place, Scatter, read_scatter
+from .scatter import Scatter, read_scatter
 from .spec import ModelSpec, tailored
 from .toml_tables import (
     key_text,
@@ -208,9 +206,9 @@ class PartFile:
         most = {n: float(max(x) if hasattr(x, "__len__") else x) for n, x in values.items()}
         return over_limits(self.limits, most)
 
-    def places(self, inputs: Mapping[str, float] | None = None) -> dict[str, Place]:
+    def places(self, inputs: Mapping[str, float] | None = None) -> dict[str, Quantity]:
         """Return what of the part can scatter, by name; ``inputs`` [SI], others at their starts."""
-        found = part_places(self.spec, self.params, {**self.starts, **(inputs or {})})
+        found = part_quantities(self.spec, self.params, {**self.starts, **(inputs or {})})
         return self.suggesting(found)
 
     def scattered(
@@ -436,7 +434,6 @@ def read_parameters(where: str, spec: ModelSpec, table: Mapping[str, object]) ->
     """Return the values [SI] of a table of parameters by their names."""
     known = {f.name: f.metadata for f in fields(spec.params)}
     earlier = earlier_of(spec.params)
-    table = now_named(where, former_names_of(spec.params), table)
     given = plainly_named(other_names_of(spec.params), table)
     nothing_else(where, [key for key in given if key not in known and key not in earlier], known)
     known |= earlier

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError, suggestion, within
 from ..units import format_quantity, parse_quantity
+from .quantity import Quantity
 
 if TYPE_CHECKING:  # part files are read without numpy
     import numpy as np
@@ -27,38 +28,6 @@ MUCH_CUT = 0.01  # share of the probability outside the allowed range that is wo
 LEAST_LEFT = 1e-6  # of the probability, inside the allowed range
 LARGEST_WEIGHT = 1e100  # so that their sum is a number
 LEAST_U = 2.0**-53  # quantiles at 0 and 1 would be infinite
-
-
-@dataclass(frozen=True, kw_only=True)
-class Place:
-    """Something that can scatter: a parameter, an input, a choice of the model."""
-
-    name: str
-    unit: str
-    nominal: float | str | bool
-    """Value [SI]; of a parameter that takes it from another one, that one's."""
-    low: float = -math.inf
-    high: float = math.inf
-    """Allowed range [SI]; no matter for a choice."""
-    choices: tuple[Any, ...] = ()
-    """Allowed values of a choice (enumeration, Boolean, whole number, level); else none."""
-    relative: bool = False
-    """A difference of temperatures, no absolute temperature."""
-
-    def text(self, value: Any) -> str:
-        """Return a value as a person reads it."""
-        if self.choices:
-            return str(value).lower() if isinstance(value, bool) else str(value)
-        return format_quantity(value, self.unit, difference=self.relative)
-
-    @property
-    def range_text(self) -> str:
-        """The allowed values in words."""
-        if not self.choices:
-            return f"{self.text(self.low)} .. {self.text(self.high)}"
-        if isinstance(self.choices[0], int) and not isinstance(self.choices[0], bool):
-            return f"whole numbers {self.choices[0]} .. {self.choices[-1]}"
-        return ", ".join(map(self.text, self.choices))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -124,7 +93,7 @@ class Law:
 class Source:
     """A place that scatters by a law."""
 
-    place: Place
+    place: Quantity
     law: Law
     reason: str = ""
     """Where the law comes from: a source, "estimate", or "" if the user gave none."""
@@ -195,7 +164,9 @@ class Scatter:
         return [{n: c[row] for n, c in zip(names, columns, strict=True)} for row in range(len(u))]
 
 
-def read_scatter(where: str, table: Mapping[str, object], places: Mapping[str, Place]) -> Scatter:
+def read_scatter(
+    where: str, table: Mapping[str, object], places: Mapping[str, Quantity]
+) -> Scatter:
     """Return what a table ``[scatter]`` says.
 
     Parameters
@@ -212,7 +183,7 @@ def read_scatter(where: str, table: Mapping[str, object], places: Mapping[str, P
 
     Examples
     --------
-    >>> place = Place(name="roughness", unit="m", nominal=5e-7, low=1e-7, high=1e-5)
+    >>> place = Quantity(name="roughness", unit="m", nominal=5e-7, low=1e-7, high=1e-5)
     >>> scatter = read_scatter("[scatter]", {"roughness": "10 %"}, {"roughness": place})
     >>> scatter.sources[0].law.words()
     'normal, standard deviation 10 %'
@@ -232,7 +203,7 @@ def read_scatter(where: str, table: Mapping[str, object], places: Mapping[str, P
 
 
 def _lines(
-    where: str, table: Mapping[str, object], places: Mapping[str, Place], above: str = ""
+    where: str, table: Mapping[str, object], places: Mapping[str, Quantity], above: str = ""
 ) -> Iterator[tuple[str, Any]]:
     for key, given in table.items():
         name = above + key
@@ -245,7 +216,7 @@ def _lines(
             raise ParameterError(f"{where}: there is no {name!r} that could scatter{hint}")
 
 
-def _source(place: Place, given: object) -> Source:
+def _source(place: Quantity, given: object) -> Source:
     table = given if isinstance(given, Mapping) else {"normal": given}
     kinds = [k for k in table if k in LAWS]
     if len(kinds) != 1 or table.keys() - {*LAWS, "weights", "source"}:
@@ -277,7 +248,7 @@ def _number(value: object, unit: str, name: str, *, difference: bool) -> float:
     return parse_quantity(value, unit, name, difference=difference)
 
 
-def _refuse_share(place: Place, words: str) -> None:
+def _refuse_share(place: Quantity, words: str) -> None:
     """Refuse a law that is relative to the nominal value where that makes no sense."""
     if place.unit == "K" and not place.relative:
         raise ParameterError(
@@ -291,7 +262,7 @@ def _refuse_share(place: Place, words: str) -> None:
         )
 
 
-def _normal(place: Place, given: object) -> Law:
+def _normal(place: Quantity, given: object) -> Law:
     """Return the normal law about the nominal value: a share of it, or a standard deviation."""
     mean, words = float(place.nominal), f"normal = {given!r}"
     is_share = isinstance(given, str) and given.rstrip().endswith("%")
@@ -308,7 +279,7 @@ def _normal(place: Place, given: object) -> Law:
     return replace(_truncated(place, "normal", mean, spread, text), is_share=is_share)
 
 
-def _lognormal(place: Place, given: object) -> Law:
+def _lognormal(place: Quantity, given: object) -> Law:
     """Return the lognormal law whose median is the nominal value."""
     words = f"lognormal = {given!r}"
     factor = _number(given, "1", "lognormal", difference=True)
@@ -326,7 +297,7 @@ def _lognormal(place: Place, given: object) -> Law:
     return replace(_truncated(place, "lognormal", middle, math.log(factor), text), is_share=True)
 
 
-def _truncated(place: Place, kind: str, middle: float, spread: float, text: str) -> Law:
+def _truncated(place: Quantity, kind: str, middle: float, spread: float, text: str) -> Law:
     law = Law(kind=kind, low=place.low, high=place.high, middle=middle, spread=spread, text=text)
     low, high = law._scores()
     start, end = map(NormalDist().cdf, (low, high))
@@ -340,7 +311,7 @@ def _truncated(place: Place, kind: str, middle: float, spread: float, text: str)
     return replace(law, cut=1.0 - (end - start))
 
 
-def _uniform(place: Place, given: object) -> Law:
+def _uniform(place: Quantity, given: object) -> Law:
     words = f"uniform = {given!r}"
     if not isinstance(given, Sequence) or isinstance(given, str) or len(given) != 2:
         raise ParameterError(f"{words}, allowed: [low, high]")
@@ -356,7 +327,7 @@ def _uniform(place: Place, given: object) -> Law:
     )
 
 
-def _either(place: Place, given: Any, weights: Any) -> Law:
+def _either(place: Quantity, given: Any, weights: Any) -> Law:
     words = f"either = {given!r}"
     good = isinstance(given, list | tuple) and len(given) > 1
     if not good or any(_choice(place, x) is None for x in given):
@@ -378,7 +349,7 @@ def _either(place: Place, given: Any, weights: Any) -> Law:
     return Law(kind="either", options=tuple(given), weights=shares, text=text)
 
 
-def _choice(place: Place, value: object) -> Any:
+def _choice(place: Quantity, value: object) -> Any:
     """Return the allowed value that equals this one and is of its kind; None if there is none."""
     return next((c for c in place.choices if c == value and type(c) is type(value)), None)
 

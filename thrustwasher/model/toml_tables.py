@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any, get_args, get_origin, get_type_hints
 
 from ..errors import ParameterError, refuse_pipe, suggestion, within
-from ..moved import now_named
 from ..units import has_unit, parse_quantity
 from .parameters import allowed, check_number, check_value
 from .spec import ModelSpec, Rule
@@ -111,7 +110,7 @@ def spec_beside(
     the ``ModelSpec`` that are no data.
     """
     path = Path(module).with_name("interface.toml")
-    table = now_named(str(path), {"course": "profile"}, table_beside(module, path.name))
+    table = table_beside(module, path.name)
     numbers = {"inputs": ("low", "high", "nominal", "start"), "outputs": ("nominal",)}
     signals: dict[str, Any] = {"inputs": [], "outputs": []}
     for kind, names in numbers.items():

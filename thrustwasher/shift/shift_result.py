@@ -15,7 +15,7 @@ from .account.shift_record import record_of
 from .account.summary import sentences, warnings_of
 from .checks.step_estimate import StepError
 from .key_figures.events_and_phases import Event, Phase
-from .key_figures.figure_list import Figures, KeyFigure
+from .key_figures.figure_list import KeyFigure
 from .oscillation.chatter import Chatter
 from .oscillation.judder import Judder
 from .scene.connections import PARTS
@@ -90,7 +90,7 @@ class ShiftResult(Tabled):
     @property
     def figures(self) -> dict[str, float | None]:
         """The key figures by name, SI units; None where there is no such thing."""
-        return Figures({figure.name: figure.value for figure in self.key_figures})
+        return {figure.name: figure.value for figure in self.key_figures}
 
     @property
     def known_bands(self) -> dict[str, KnownBand]:

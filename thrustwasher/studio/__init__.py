@@ -9,6 +9,7 @@
 ``explore``       a model or a shift in one page for the browser
 ``report``        pages and plots
 ``calibration``   parameters fitted to measurements
+``evaluators``    what is studied in one form: values by path in, figures by name out
 ``sweep``         a model over ranges of inputs
 ``verification``  the errors of a part's levels, measured
 ``jobs``          many jobs on all cores or a cluster, resumable

@@ -61,7 +61,7 @@ NOTHING = np.zeros(0)
 Answer = tuple[Array, int, bool]  # outputs (SHOWN,), status, whether the film is lost
 
 
-class Place:
+class CurvePlace:
     """A place on a curve of solutions, with a heat factor of its own that serves the next draw."""
 
     def __init__(self, par: Array, nodes: tuple[int, int]) -> None:
@@ -138,9 +138,9 @@ class Bench:
     def __init__(self, par: Array, nodes: tuple[int, int], *, above: bool) -> None:
         self.par, self.fold_kind = par.copy(), LOWER if above else UPPER
         self.own, self.other = ("contact", "film") if above else ("film", "contact")
-        self.places = {name: Place(self.par, nodes) for name in ("film", "contact", "fold")}
+        self.places = {name: CurvePlace(self.par, nodes) for name in ("film", "contact", "fold")}
         self.known = {name: Family() for name in self.places}
-        self.plain = Place(self.par, nodes)
+        self.plain = CurvePlace(self.par, nodes)
         self.state, self.inp = np.zeros(size_of_state(*nodes)), np.zeros(L.NINP + 1)
         self.inp[L.I_BRANCH] = L.CONTACT_BRANCH if above else L.ANY
         self.step = bound(
@@ -313,7 +313,7 @@ class Bench:
             self.known["fold"].add(x, self._here(place, pt))
 
     @staticmethod
-    def _here(place: Place, pt: Point) -> Array:
+    def _here(place: CurvePlace, pt: Point) -> Array:
         return np.append(place.take(pt), (place.film, math.log(place.w.curve[L.AT_LOAD])))
 
 
@@ -327,7 +327,7 @@ def _extremum(loads: dict[int, float], sign: float) -> tuple[int, int, int] | No
     return None
 
 
-def _shown(place: Place) -> Array:
+def _shown(place: CurvePlace) -> Array:
     row: Array = place.w.outputs[:SHOWN].copy()
     row[L.O_OIL_HEAT] = row[L.O_POWER]  # steady: all that is made
     return row

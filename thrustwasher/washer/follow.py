@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 from dataclasses import fields as dataclass_fields
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,7 +14,6 @@ from ..model.levels import gone_level, level_named
 from ..model.parameters import as_numbers
 from ..model.prepare import profile_of, rising
 from ..model.solutions import OverTime
-from ..moved import renamed, warn_renamed
 from ..numerics.jit import Array
 from .kernel_arguments import constants
 from .kernels import layout as L
@@ -24,8 +23,6 @@ from .parameters import BODIES, SPEC, WasherParams, property_of, washer_face
 from .solve import RANGES, check_far_face, resolve_grid
 
 __all__ = ["HistoryError", "WasherHistory", "follow_washer"]
-
-RENAMED = {"WasherCourse": "WasherHistory", "CourseError": "HistoryError"}
 
 PIECE = 0.1  # of the slowest body's time: how long inputs are held on their way between points
 MOST_PIECES = 32
@@ -80,17 +77,6 @@ class HistoryError(SolveError):
     def __init__(self, text: str, history: WasherHistory) -> None:
         super().__init__(text)
         self.history = history
-
-    @property
-    def course(self) -> WasherHistory:
-        """The name of ``history`` in earlier versions."""
-        warn_renamed("HistoryError.course", "HistoryError.history")
-        return self.history
-
-
-def __getattr__(name: str) -> Any:
-    """Return a class under the name it had in earlier versions."""
-    return renamed(__name__, globals(), name, RENAMED)
 
 
 def follow_washer(

@@ -14,7 +14,6 @@ from thrustwasher.cli import main
 from thrustwasher.native.files import write
 from thrustwasher.storage import journal
 from thrustwasher.studio.sweep import run_sweep as runs
-from thrustwasher.studio.sweep.solve_rows import solve_task
 
 MEASURED = Path(__file__).with_name("measured.csv")
 SWEEP = "sweep gearmesh --over load=10:200:10 --over speed=50:300:50 --workers 1 --out".split()
@@ -64,8 +63,9 @@ def test_a_sweep_whose_journal_fills_the_disk_goes_on_later(out, monkeypatch):
     whole = table.read_bytes()
     table.unlink()
     solved = []
+    solve = runs.solve_piece
     monkeypatch.setattr(
-        runs, "solve_task", lambda t: (solved.append(len(t.inputs)), solve_task(t))[1]
+        runs, "solve_piece", lambda *job: (solved.append(len(job[2].rows)), solve(*job))[1]
     )
     monkeypatch.setattr(journal, "INTERVAL", 0.0)
     with full_disk(20_000):
@@ -98,7 +98,7 @@ def test_a_sweep_whose_table_does_not_fit_is_not_solved_again(out, monkeypatch):
     table.unlink()
     with full_disk(len(whole) - 1):
         refused(out, *SWEEP, table, left=["map.csv.journal"])
-    monkeypatch.setattr(runs, "solve_task", None)
+    monkeypatch.setattr(runs, "solve_piece", None)
     assert command(*SWEEP, table)[0] == 0
     assert table.read_bytes() == whole
 

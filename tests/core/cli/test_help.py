@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from thrustwasher import cli, optimise
+from thrustwasher import cli
 from thrustwasher.cli import main
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
@@ -45,15 +45,3 @@ def test_help_of_a_command_ends_with_two_examples_that_run(command, tmp_path, mo
         assert any(words[0] == command for words in parts(line))
         for words in parts(line):
             assert main(words) == 0, (words, capsys.readouterr().err)
-
-
-def test_names_of_before_go_on_for_a_version(capsys):
-    assert main(["cards", "clutch"]) == 0
-    assert "cards is now fidelity" in capsys.readouterr().err
-    main(["optimise", "clutch", "--figures", "--least", "temperature"])
-    assert "--least is now --minimise" in capsys.readouterr().err
-    with (
-        pytest.warns(DeprecationWarning, match="least= is now minimise="),
-        pytest.raises(ValueError, match="vary"),
-    ):
-        optimise("clutch", vary={}, least="temperature")

@@ -10,7 +10,7 @@ from thrustwasher.gearmesh.kernels import contact
 from thrustwasher.gearmesh.kernels import layout as L
 from thrustwasher.gearmesh.solve import prepare
 from thrustwasher.model.part_file import find_part
-from thrustwasher.model.part_places import part_places
+from thrustwasher.model.quantity import part_quantities
 
 # AGMA 925-A03: alpha [mm2/N] = k eta^s of eta [mPa s].
 AGMA = {"mineral": (0.010471, 0.1348), "pao": (0.010326, 0.0507), "polyglycol": (0.0047, 0.1572)}
@@ -103,5 +103,5 @@ def test_micropitting_has_its_own_law_of_temperature_once():
 
 def test_the_value_behind_the_zero_is_what_scatters():
     part = find_part("gearmesh")
-    place = part_places(part.spec, part.params, {s.name: s.usual for s in part.spec.inputs})
+    place = part_quantities(part.spec, part.params, {s.name: s.usual for s in part.spec.inputs})
     assert place["pressure_viscosity"].nominal == pytest.approx(alpha(part.params), rel=1e-12)

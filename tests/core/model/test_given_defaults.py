@@ -10,7 +10,7 @@ from thrustwasher.cli.common._options import read_settings
 from thrustwasher.model.idle import idle_warnings, kept_warnings
 from thrustwasher.model.parameters import as_numbers
 from thrustwasher.model.part_file import find_part, load_part, preset_parts
-from thrustwasher.model.part_places import other_of
+from thrustwasher.model.quantity import other_of
 from thrustwasher.model.registry import all_models
 from thrustwasher.model.unread import unread
 

@@ -8,24 +8,25 @@ from scipy import stats
 
 from thrustwasher import ParameterError, WasherParams, load_part
 from thrustwasher.model.part_file import find_part, part_text, preset_parts
+from thrustwasher.model.quantity import Quantity
 from thrustwasher.model.registry import all_models, models_with_points
-from thrustwasher.model.scatter import Place, read_scatter
+from thrustwasher.model.scatter import read_scatter
 
 PLACES = {
     p.name: p
     for p in (
-        Place(name="roughness", unit="m", nominal=5e-7, low=1.5e-7, high=1e-5),
-        Place(name="share", unit="1", nominal=0.08, low=0.0, high=1.0),
-        Place(name="tilt", unit="rad", nominal=0.002, low=0.0, high=0.01),
-        Place(name="slip", unit="rad/s", nominal=-50.0, low=-1e3, high=1e3),
-        Place(name="oil_temperature", unit="K", nominal=353.15, low=233.15, high=473.15),
-        Place(name="rise", unit="K", nominal=40.0, low=0.0, high=400.0, relative=True),
-        Place(name="bearing", unit="m", nominal=0.0, low=0.0, high=1e-3),
-        Place(name="shear", unit="1", nominal="full", choices=("full", "liquid")),
-        Place(name="cooling", unit="1", nominal=True, choices=(False, True)),
-        Place(name="stage", unit="1", nominal=10, choices=tuple(range(1, 15))),
-        Place(name="clutch.points.3", unit="Pa", nominal=4e5, low=0.0, high=1e7),
-        Place(name="clutch.scale", unit="1", nominal=1.0, low=0.1, high=2.0),
+        Quantity(name="roughness", unit="m", nominal=5e-7, low=1.5e-7, high=1e-5),
+        Quantity(name="share", unit="1", nominal=0.08, low=0.0, high=1.0),
+        Quantity(name="tilt", unit="rad", nominal=0.002, low=0.0, high=0.01),
+        Quantity(name="slip", unit="rad/s", nominal=-50.0, low=-1e3, high=1e3),
+        Quantity(name="oil_temperature", unit="K", nominal=353.15, low=233.15, high=473.15),
+        Quantity(name="rise", unit="K", nominal=40.0, low=0.0, high=400.0, relative=True),
+        Quantity(name="bearing", unit="m", nominal=0.0, low=0.0, high=1e-3),
+        Quantity(name="shear", unit="1", nominal="full", choices=("full", "liquid")),
+        Quantity(name="cooling", unit="1", nominal=True, choices=(False, True)),
+        Quantity(name="stage", unit="1", nominal=10, choices=tuple(range(1, 15))),
+        Quantity(name="clutch.points.3", unit="Pa", nominal=4e5, low=0.0, high=1e7),
+        Quantity(name="clutch.scale", unit="1", nominal=1.0, low=0.1, high=2.0),
     )
 }
 U = np.linspace(0.001, 0.999, 400)

@@ -5,7 +5,7 @@ import pytest
 
 from thrustwasher import ClutchParams, ParameterError, calibrate, solve_clutch
 from thrustwasher.studio.calibration.identifiability import information
-from thrustwasher.studio.calibration.least_squares import Problem
+from thrustwasher.studio.calibration.least_squares import FitProblem
 from thrustwasher.studio.calibration.row_groups import GROUPS
 from thrustwasher.studio.calibration.signs import folded, too_fast
 
@@ -48,7 +48,7 @@ def test_what_points_tell_takes_no_memory_of_rows_squared(monkeypatch):
         shapes.extend(part.shape for part in parts)
         return parts
 
-    class Line(Problem):
+    class Line(FitProblem):
         resolution = 1e-9
 
         def curve(self, guess):

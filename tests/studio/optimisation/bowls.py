@@ -5,15 +5,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thrustwasher.model.scatter import Law, Place, Scatter, Source
-from thrustwasher.studio.optimisation.designs import Effort
-from thrustwasher.studio.scatter.target import Figure
+from thrustwasher.model.quantity import Figure, Quantity
+from thrustwasher.model.scatter import Law, Scatter, Source
+from thrustwasher.studio.evaluators.evaluator import Answers, Slopes
+from thrustwasher.studio.optimisation.designs import Budget
 
 LEAST = 0.3, -0.4
-PLACES = {n: Place(name=n, unit="1", nominal=0.9, low=-1.0, high=1.0) for n in ("x", "y")}
+PLACES = {n: Quantity(name=n, unit="1", nominal=0.9, low=-1.0, high=1.0) for n in ("x", "y")}
 FIGURES = {n: Figure(n, "1", "") for n in ("bowl", "sum", "other")}
 SPREAD = 0.1  # of x
-EFFORT = Effort(sample=8, starts=2, rounds=2, tries=60)
+BUDGET = Budget(sample=8, starts=2, rounds=2, tries=60)
 
 
 @dataclass(frozen=True)
@@ -25,16 +26,13 @@ class Bowl:
     step: float = 0.0
     kind = "part"
     name = "Bowl"
-    places = PLACES
+    quantities = PLACES
     figures = FIGURES
-    notes = warnings = ()
+    remarks = ()
 
     @property
     def identity(self):
         return {"bowl": f"{self.step:g}"}
-
-    def effort(self, figures, variables):
-        return EFFORT
 
     def one(self, row):
         x, y = row["x"] - LEAST[0], row["y"] - LEAST[1]
@@ -45,10 +43,11 @@ class Bowl:
         }
         return dict.fromkeys(found, math.nan) if row["x"] > self.gone else found
 
-    def solve(self, rows, figures, whole=False):
-        return np.array([[self.one(row)[n] for n in figures] for row in rows])
+    def evaluate(self, rows, figures, effort="search"):
+        values = np.array([[self.one(row)[n] for n in figures] for row in rows])
+        return Answers(values, np.zeros(len(rows), np.int32))
 
-    def slopes(self, row, figures, names, whole=False):
+    def gradient(self, row, figures, names, effort="search"):
         if not self.sloped:
             return None
         x, y = row["x"] - LEAST[0], row["y"] - LEAST[1]
@@ -57,12 +56,12 @@ class Bowl:
             "sum": {"x": 1.0, "y": 1.0},
             "other": {"x": 2.0 * (x + 1.0), "y": 2.0 * y},
         }
-        values = self.solve([row], figures)[0]
-        return values, np.array([[of[f][n] for n in names] for f in figures])
+        values = self.evaluate([row], figures).values[0]
+        return Slopes(values, np.array([[of[f][n] for n in names] for f in figures]))
 
-    def scatter(self, row):
+    def scattered(self, table, row):
         law = Law(kind="normal", middle=row["x"], spread=SPREAD, text="normal")
-        place = Place(name="x", unit="1", nominal=row["x"])
+        place = Quantity(name="x", unit="1", nominal=row["x"])
         return Scatter(sources=(Source(place=place, law=law),))
 
     def shorter_step(self, rows, figures, gain):
@@ -73,5 +72,5 @@ class Bowl:
     def with_step(self, step):
         return replace(self, step=step)
 
-    def text(self, row):
+    def file(self, row):
         return f"{row}\n"

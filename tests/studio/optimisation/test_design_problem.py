@@ -5,9 +5,8 @@ import pytest
 from bowls import FIGURES, PLACES
 
 from thrustwasher.errors import ParameterError
-from thrustwasher.model.scatter import Place
+from thrustwasher.model.quantity import Figure, Quantity
 from thrustwasher.studio.optimisation.design_problem import read_problem
-from thrustwasher.studio.scatter.target import Figure
 
 SOUND = {"vary": {"x": "-1:1"}, "minimise": ["bowl"]}
 
@@ -38,13 +37,13 @@ def test_what_is_wrong_is_named(changes, words):
 
 
 def test_a_choice_is_no_variable():
-    places = {"law": Place(name="law", unit="1", nominal="a", choices=("a", "b"))}
+    places = {"law": Quantity(name="law", unit="1", nominal="a", choices=("a", "b"))}
     with pytest.raises(ParameterError, match="vary law: is a choice or a count"):
         read_problem(places, FIGURES, vary={"law": "1:2"}, minimise=["bowl"])
 
 
 def test_units_count_in_ranges_and_limits():
-    places = {"p": Place(name="p", unit="Pa", nominal=1e5, low=0.0, high=1e7)}
+    places = {"p": Quantity(name="p", unit="Pa", nominal=1e5, low=0.0, high=1e7)}
     figures = {"t": Figure("t", "K", "")}
     found = read_problem(
         places, figures, vary={"p": "1 bar:0.5 MPa"}, minimise=["t"], limits=["t <= 80 degC"]

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from bowls import LEAST, Bowl
+from bowls import BUDGET, LEAST, Bowl
 
 from thrustwasher import ClutchParams, load_part, optimise
 from thrustwasher.errors import ParameterError, SolveError
@@ -27,6 +27,7 @@ def bowl(monkeypatch):
 
     def made(**options):
         monkeypatch.setattr(module, "designs_of", lambda *_: Bowl(**options))
+        monkeypatch.setattr(module, "budget_of", lambda *_: BUDGET)
 
     made()
     return made
@@ -104,26 +105,29 @@ def test_the_start_is_the_target_as_it_is_also_outside_the_ranges(bowl):
 
 
 def test_a_best_design_that_is_none_when_solved_again_is_named(bowl, monkeypatch):
-    solve = Bowl.solve
+    evaluate = Bowl.evaluate
 
-    def gone(self, rows, figures, whole=False):
-        return np.full((len(rows), len(figures)), np.nan) if whole else solve(self, rows, figures)
+    def gone(self, rows, figures, effort="search"):
+        found = evaluate(self, rows, figures)
+        return found._replace(values=np.nan * found.values) if effort == "shown" else found
 
-    monkeypatch.setattr(Bowl, "solve", gone)
+    monkeypatch.setattr(Bowl, "evaluate", gone)
     with pytest.raises(SolveError, match="the best design has no bowl when it is solved again, at"):
         optimise("bowl", vary=BOX, minimise="bowl", workers=1)
 
 
 def test_what_is_off_when_solved_again_is_made_up_for(bowl, monkeypatch):
-    solve = Bowl.solve
+    evaluate = Bowl.evaluate
     shift = [[0.0, 0.1]]  # bowl, sum
 
-    def off(self, rows, figures, whole=False):
-        found = solve(self, rows, figures)
-        return found - np.array(shift)[:, : found.shape[1]] if whole and "sum" in figures else found
+    def off(self, rows, figures, effort="search"):
+        found = evaluate(self, rows, figures)
+        if effort != "shown" or "sum" not in figures:
+            return found
+        return found._replace(values=found.values - np.array(shift)[:, : len(figures)])
 
     monkeypatch.setattr(Bowl, "figures", {n: f for n, f in Bowl.figures.items() if n != "other"})
-    monkeypatch.setattr(Bowl, "solve", off)
+    monkeypatch.setattr(Bowl, "evaluate", off)
     found = optimise("bowl", vary=BOX, minimise="bowl", limits=["sum>=0.5"], workers=1)
     assert 0.5 <= found.best.figures["sum"] < 0.51
 
@@ -243,8 +247,8 @@ def test_a_search_that_was_stopped_goes_on_with_what_it_has_tried(bowl, tmp_path
     with pytest.raises(StoppedError):
         optimise("bowl", out=tmp_path, progress=stop, **asked)
     assert (tmp_path / JOURNAL).exists()
-    tried, solve = [], Bowl.slopes
-    monkeypatch.setattr(Bowl, "slopes", lambda *a: (tried.append(1), solve(*a))[1])
+    tried, solve = [], Bowl.gradient
+    monkeypatch.setattr(Bowl, "gradient", lambda *a: (tried.append(1), solve(*a))[1])
     again = optimise("bowl", out=tmp_path, **asked)
     assert again.best.values == whole.best.values and again.tries == whole.tries
     assert len(tried) < whole.tries - 9 and not (tmp_path / JOURNAL).exists()
@@ -263,8 +267,8 @@ def test_a_stop_in_the_search_with_shorter_steps_loses_none_of_both(bowl, tmp_pa
     with pytest.raises(KeyboardInterrupt):
         optimise("bowl", out=tmp_path, progress=stop, **asked)
     assert len(list(tmp_path.glob("*.journal"))) == 2
-    tried, solve = [], Bowl.slopes
-    monkeypatch.setattr(Bowl, "slopes", lambda *a: (tried.append(1), solve(*a))[1])
+    tried, solve = [], Bowl.gradient
+    monkeypatch.setattr(Bowl, "gradient", lambda *a: (tried.append(1), solve(*a))[1])
     again = optimise("bowl", out=tmp_path, **asked)
     assert again.best.values == whole.best.values and again.tries == whole.tries
     assert len(tried) < whole.tries / 2 and not list(tmp_path.glob("*.journal"))
@@ -286,15 +290,15 @@ def test_slopes_of_a_washer_are_those_of_its_figures():
     designs = module.designs_of("washer", {"load": 300.0, "speed": 545.0, "tilt": 0.002}, "below")
     row, names = {"roughness": 5e-7, "inner_radius": 0.0111}, ("roughness", "inner_radius")
     figures = ("friction_torque", "film_lost_load")
-    values, slopes = designs.slopes(row, figures, names)
-    assert values == pytest.approx(designs.solve([row], figures)[0], rel=1e-5)
+    values, slopes = designs.gradient(row, figures, names)
+    assert values == pytest.approx(designs.evaluate([row], figures).values[0], rel=1e-5)
     for i, name in enumerate(names):
         step = 1e-3 * row[name]
         ends = [{**row, name: row[name] + side * step} for side in (1.0, -1.0)]
-        found = designs.solve(ends, figures)
+        found = designs.evaluate(ends, figures).values
         difference = (found[0] - found[1]) / (2.0 * step)
         assert slopes[:, i] == pytest.approx(difference, rel=0.02)
-    assert designs.slopes({**row, "load": 200.0}, figures, (*names, "load")) is None
+    assert designs.gradient({**row, "load": 200.0}, figures, (*names, "load")) is None
 
 
 @pytest.mark.slow
@@ -326,6 +330,6 @@ def test_a_washer_at_a_point_is_as_good_as_a_fine_grid_says():
         for r in np.linspace(3e-7, 1e-6, 15)
         for t in np.linspace(5e-4, 2e-3, 7)
     ]
-    torque, film = designs.solve(rows, ("friction_torque", "film_ratio")).T
+    torque, film = designs.evaluate(rows, ("friction_torque", "film_ratio")).values.T
     assert found.best.figures["film_ratio"] >= 18.0
     assert found.best.figures["friction_torque"] <= torque[film >= 18.0].min() * (1.0 + 1e-5)

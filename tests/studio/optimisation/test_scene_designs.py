@@ -6,16 +6,17 @@ from scene_runs import NOMINAL, changed
 from thrustwasher import optimise
 from thrustwasher.shift import load_scene
 from thrustwasher.shift.scene.variation import varied_scene
-from thrustwasher.studio.optimisation import scene_designs
-from thrustwasher.studio.optimisation.designs import Effort
+from thrustwasher.studio.evaluators.scene import scene_evaluator
+from thrustwasher.studio.optimisation import whole_search
+from thrustwasher.studio.optimisation.designs import Budget
 
 VARY = {"shift.duration": "0.05 s:0.6 s", "clutch.friction_scale": "0.8:1.2"}
 
 
 @pytest.fixture
 def quick(monkeypatch):
-    effort = Effort(sample=8, starts=2, rounds=1, tries=12)
-    monkeypatch.setattr(scene_designs.SceneDesigns, "effort", lambda *_: effort)
+    budget = Budget(sample=8, starts=2, rounds=1, tries=12)
+    monkeypatch.setattr(whole_search, "budget_of", lambda *_: budget)
 
 
 @pytest.mark.slow
@@ -56,11 +57,11 @@ def test_what_is_shown_is_what_the_shift_gives(quick, tmp_path):
 @pytest.mark.slow
 def test_the_step_is_shortened_where_its_error_is_as_large_as_the_gain(tmp_path):
     """At 1 ms the jerk of this design errs by about 1 %."""
-    designs = scene_designs.SceneDesigns(changed(tmp_path, NOMINAL))
+    designs = scene_evaluator(changed(tmp_path, NOMINAL))
     row = {"pressure.clutch.points.3": 395e3, "pressure.clutch.times.3": 0.53}
-    errs = designs.target.step_error(row).peak_jerk
+    errs = designs._step_error(row).peak_jerk
     step, error = designs.shorter_step([row], ["peak_jerk"], errs)
-    assert step == 0.5e-3 and "step = 0.0005" in designs.with_step(step).text(row)
+    assert step == 0.5e-3 and "step = 0.0005" in designs.with_step(step).file(row)
     assert "with communication steps of 1 ms the best design errs by about" in error
     assert designs.shorter_step([row], ["peak_jerk"], 0.2)[0] is None
     step, error = designs.shorter_step([row], ["slip_energy"], 0.01)

@@ -2,13 +2,13 @@
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
 from thrustwasher.errors import SolveError
-from thrustwasher.model.scatter import Place, Scatter, read_scatter
-from thrustwasher.studio.scatter.target import Figure
+from thrustwasher.model.quantity import Figure, Quantity
+from thrustwasher.model.scatter import Scatter, read_scatter
+from thrustwasher.studio.evaluators.evaluator import Answers, efforts
 
 PI = {"uniform": [-math.pi, math.pi]}
 ANGLES = {"x1": PI, "x2": PI, "x3": PI}
@@ -35,7 +35,7 @@ def never(a=10.0):
 
 def of_places(table, nominal):
     """Return a scatter of places without unit."""
-    places = {n: Place(name=n, unit="1", nominal=x) for n, x in nominal.items()}
+    places = {n: Quantity(name=n, unit="1", nominal=x) for n, x in nominal.items()}
     return read_scatter("test", table, places)
 
 
@@ -53,18 +53,28 @@ class Swing:
             {"a": 10.0, "b": 20.0, "d": 1.0},
         )
     )
-    name: str = "swing"
-    kind: str = "scene"
-    figures: tuple[Figure, ...] = (
-        Figure("peak", "N m", "largest value", low=25.0, high=33.0),
-        Figure("lasting", "s", "there for a > 9"),
-        Figure("dear", "1", "costs much"),
-    )
-    outcomes: tuple[str, ...] = ("high",)
-    series: tuple[str, ...] = ("signal",)
-    warnings: tuple[str, ...] = ()
-    costly: tuple[str, ...] = ("dear",)
-    reasons: tuple[str, ...] = ("broken", "b is too large")
+    name = "swing"
+    kind = "scene"
+    costly = ("dear",)
+    remarks = ()
+
+    @property
+    def figures(self):
+        found = (
+            Figure("peak", "N m", "largest value", low=25.0, high=33.0),
+            Figure("lasting", "s", "there for a > 9"),
+            Figure("dear", "1", "costs much"),
+            Figure("high", "1", "", kind="outcome"),
+        )
+        return {f.name: f for f in found}
+
+    @property
+    def signals(self):
+        return {"signal": ""}
+
+    @property
+    def reasons(self):
+        return {1: "broken", 2: "b is too large"}
 
     @property
     def time(self):
@@ -80,20 +90,26 @@ class Swing:
     def why(self, row):
         return ""
 
-    def doubts(self, base):
+    def doubts(self, figures, base):
         return []
 
     def error(self):
         return {"peak": 0.01}
 
-    def nominal(self):
-        return self._row({"a": 10.0, "b": 20.0, "d": 1.0}, True)
+    def under(self, scatter, figures):
+        return self
 
-    def solve(self, rows: list[dict[str, Any]], costly):
+    def nominal(self, figures, signals):
+        return self.evaluate([{"a": 10.0, "b": 20.0, "d": 1.0}], figures, "search", signals)
+
+    def evaluate(self, rows, figures, effort="search", signals=()):
+        costly = [own == "search" for own in efforts(effort, len(rows))]
         found = np.array([self._row(*pair) for pair in zip(rows, costly, strict=True)])
         codes = np.array([2 if row["b"] > self.limit else 0 for row in rows], np.int32)
         found[codes > 0] = np.nan
-        return found, codes
+        columns = [list(self.figures).index(name) for name in figures]
+        series = found[:, np.newaxis, 4:] if signals else None
+        return Answers(found[:, columns], codes, series)
 
     def _row(self, row, costly):
         a, b, d = row["a"], row["b"], row["d"]

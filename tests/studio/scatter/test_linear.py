@@ -8,14 +8,15 @@ import pytest
 
 from thrustwasher import GearMeshParams, propagate
 from thrustwasher.model.part_file import find_part
+from thrustwasher.studio.evaluators.part import part_evaluator
 from thrustwasher.studio.scatter.linear import linear_deviations
-from thrustwasher.studio.scatter.part_target import part_target
+from thrustwasher.studio.scatter.target import target_of
 
 
 def deviations(name, table, **parameters):
     part = find_part(name)
     part = replace(part, parameters={**part.parameters, **parameters})
-    target = part_target(part, part.scattered(table), part.starts)
+    target = target_of(part_evaluator(part, part.starts), part.scattered(table))
     return linear_deviations(target), dict(
         zip((f.name for f in target.figures), target.nominal(), strict=False)
     )

@@ -9,7 +9,8 @@ import pytest
 from thrustwasher import ParameterError, load_curve, solve_washer
 from thrustwasher.model.part_file import find_part, preset_part
 from thrustwasher.model.registry import spec_of
-from thrustwasher.studio.scatter.part_target import LOST, REASONS, part_target
+from thrustwasher.studio.evaluators.part import LOST, REASONS, part_evaluator
+from thrustwasher.studio.scatter import target as asked
 
 WASHER = find_part("washer")
 SURFACES = {"roughness": "15 %", "viscosity_scale": "8 %", "tilt": {"lognormal": 1.3}}
@@ -18,7 +19,8 @@ BRANCH = {"below": None, "above": "contact"}
 
 
 def target_of(part, table, reached="below", inputs=None, outputs=None):
-    return part_target(part, part.scattered(table), inputs or part.starts, reached, outputs)
+    evaluator = part_evaluator(part, inputs or part.starts, reached)
+    return asked.target_of(evaluator, part.scattered(table), outputs)
 
 
 def rows_of(target, n, seed=1):
@@ -42,7 +44,7 @@ def single(part, row, reached="below", **more):
 
 def test_what_does_not_scatter_is_said():
     target = target_of(WASHER, SURFACES)
-    assert target.model == "washer" and target.setting["fidelity level"] == "field"
+    assert target.evaluator.model == "washer" and target.setting["fidelity level"] == "field"
     assert target.setting["speed"] == "545 rad/s" and "tilt" not in target.setting
 
 
@@ -152,9 +154,9 @@ def test_a_map_answers_where_inputs_scatter_and_leaves_parameters_to_the_field()
             found = single(WASHER, row, fidelity="map")
         alone.append(found.friction_torque)
     assert solved(inputs, rows)[0]["friction_torque"].tolist() == alone
-    assert (inputs.fidelity, inputs.warnings) == ("map", ())
+    assert (inputs.evaluator.fidelity, inputs.warnings) == ("map", ())
     both = target_of(mapped, {"roughness": "5 %"})
-    assert both.fidelity == "field" and "own parameters alone" in both.warnings[0]
+    assert both.evaluator.fidelity == "field" and "own parameters alone" in both.warnings[0]
 
 
 # Any model
@@ -225,7 +227,7 @@ def test_the_nominal_run_is_the_part_itself_and_its_error_its_own():
     target = target_of(WASHER, {"roughness": "5 %"})
     own = WASHER.solve()
     assert target.nominal()[0] == pytest.approx(own.friction_torque, rel=1e-6)
-    assert target.error().get("friction_torque") == own.error_estimate
+    assert target.evaluator.error().get("friction_torque") == own.error_estimate
 
 
 def test_a_target_goes_to_workers_and_knows_what_makes_it_another():
@@ -249,10 +251,11 @@ def test_what_a_single_solve_warns_of_is_said_of_the_nominal_and_the_base_runs()
     inputs = {**clutch.starts, "load": 2000.0, "speed": 30.0}
     target = target_of(clutch, {"friction_scale": "6 %"}, inputs=inputs)
     base, _ = target.solve(rows_of(target, 8), np.ones(8, bool))
-    nominal, runs = target.doubts(base)
+    names = [f.name for f in target.figures]
+    nominal, runs = target.evaluator.doubts(names, base[:, : len(names)])
     assert nominal.startswith("nominal run: at worst temperature = ") and "250 degC" in nominal
     assert runs.startswith("8 of 8 base runs, at worst temperature = ")
-    assert "load = 2 kN" in target.notes[0] and repr(target.fidelity) in target.notes[0]
+    assert "load = 2 kN" in target.notes[0] and repr(target.evaluator.fidelity) in target.notes[0]
 
 
 def test_a_refused_draw_says_which_value_does_not_go_together():
@@ -260,5 +263,5 @@ def test_a_refused_draw_says_which_value_does_not_go_together():
     target = target_of(mesh, {"addendum": {"uniform": [0.5, 1.0]}})
     row = {"addendum": 0.4}
     assert target.solve([row], np.ones(1, bool))[1].tolist() == [1]
-    assert "addendum" in target.why(row) and "allowed" in target.why(row)
-    assert target.why({"addendum": 1.0}) == ""
+    assert "addendum" in target.evaluator.why(row) and "allowed" in target.evaluator.why(row)
+    assert target.evaluator.why({"addendum": 1.0}) == ""

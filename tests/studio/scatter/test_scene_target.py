@@ -10,9 +10,12 @@ from thrustwasher.errors import ParameterError
 from thrustwasher.fmu.fmu_cache import fmu_paths
 from thrustwasher.fmu.stepper import Instance
 from thrustwasher.shift import cosimulate, load_scene
+from thrustwasher.shift.scene.places import scene_scatter
 from thrustwasher.shift.scene.variation import varied_scene
-from thrustwasher.studio.scatter import scene_target as module
-from thrustwasher.studio.scatter.scene_target import OF_WASHERS, scene_target
+from thrustwasher.studio.evaluators import scene as module
+from thrustwasher.studio.evaluators import scene_shortcut
+from thrustwasher.studio.evaluators.scene import OF_WASHERS, scene_evaluator
+from thrustwasher.studio.scatter.target import target_of
 
 LONG = 5e-3  # s, a step that keeps full runs short
 
@@ -22,7 +25,9 @@ def target():
     """Return the default scene with long steps, compared with a few full runs only."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(module, "FULL_RUNS", 4)
-        yield scene_target(load_scene("planetary").with_options(step=LONG))
+        patch.setattr(scene_shortcut, "FULL_RUNS", 4)
+        scene = load_scene("planetary").with_options(step=LONG)
+        yield target_of(scene_evaluator(scene), scene_scatter(scene))
 
 
 @pytest.fixture(scope="module")
@@ -39,9 +44,12 @@ def column(target, answers, name):
 def test_its_figures_are_those_of_full_runs(target, rows):
     """Runs with fresh instances; the band is that of the draws."""
     answers, codes = target.solve(rows, np.ones(4, bool))
-    full, paths = [], fmu_paths({p.spec.name for p in target.scene.parts.values()}, "native")
+    full, paths = (
+        [],
+        fmu_paths({p.spec.name for p in target.evaluator.scene.parts.values()}, "native"),
+    )
     for row in rows:
-        scene = varied_scene(target.scene, row)
+        scene = varied_scene(target.evaluator.scene, row)
         parts = {
             n: Instance(paths[p.spec.name], parameters=p.parameters())
             for n, p in scene.parts.items()
@@ -58,13 +66,13 @@ def test_its_figures_are_those_of_full_runs(target, rows):
 
 
 def test_the_error_of_the_shortcut_is_said(target):
-    assert 0.0 < max(target.shortcut.values()) < module.SHARE
+    assert 0.0 < max(target.evaluator.shortcut.values()) < module.SHARE
     assert "compared with 4 full runs this errs by at most" in target.notes[0]
     assert target.warnings == ()
 
 
 def test_what_decides_on_washers_alone_touches_nothing_else(target, rows):
-    alone = [n for n in target.scatter.names if not target.touches(n)]
+    alone = [n for n in target.scatter.names if not target.evaluator.touches(n)]
     assert alone == ["transmission.thrust_share", "transmission.planet_tilt"] + [
         n for n in target.scatter.names if n.startswith("washer.")
     ]
@@ -128,26 +136,27 @@ def test_a_run_without_end_is_a_named_failure_and_leaves_no_trace(target, rows):
 
 @pytest.mark.slow
 def test_some_outputs_can_be_asked_for(target):
-    some = scene_target(target.scene, replace(target.scatter, sources=()), ["lock_time"])
+    some = target_of(target.evaluator, replace(target.scatter, sources=()), ["lock_time"])
     assert [f.name for f in some.figures] == ["lock_time"] and some.series == ()
     assert some.nominal()[0] == column(target, target.nominal()[None], "lock_time")
     with pytest.raises(ParameterError, match=r"lock_tim.*did you mean 'lock_time'"):
-        scene_target(target.scene, target.scatter, ["lock_tim"])
+        target_of(target.evaluator, target.scatter, ["lock_tim"])
 
 
 @pytest.mark.slow
 def test_where_the_shortcut_errs_too_much_all_runs_are_full(target, rows, monkeypatch):
     full = pickle.loads(pickle.dumps(target))
     monkeypatch.setattr(module, "SHARE", 0.0)
-    full.learn(np.ones(len(full.figures)), np.ones(len(full.figures)))
-    assert full.costly == () and full.touches("washer.roughness")
+    names = [f.name for f in full.figures]
+    full.evaluator._learn(np.ones(len(names)), np.ones(len(names)), names)
+    assert full.costly == () and full.evaluator.touches("washer.roughness")
     assert full.warnings[0].endswith("so that all runs are full ones") and full.notes == ()
     answers, codes = full.solve(rows[:1], np.array([False]))
     assert codes[0] == 0 and np.isfinite(answers).all()
 
 
 def test_numerical_errors_of_the_step_and_of_the_washers_mesh_are_known(target):
-    found = target.error()
+    found = target.evaluator.error()
     of_the_shift = {"lock_time", "lock_after_ramp_start", "slip_energy", "slip_energy_per_area"}
     assert set(found) == of_the_shift | {"peak_jerk", "washer_torque"}
     assert all(0.0 < x < 0.5 for x in found.values())
@@ -155,7 +164,7 @@ def test_numerical_errors_of_the_step_and_of_the_washers_mesh_are_known(target):
 
 def test_several_shifts_are_refused():
     with pytest.raises(ParameterError, match=r"it has a \[sequence\]"):
-        scene_target(load_scene("duty-cycle"))
+        scene_evaluator(load_scene("duty-cycle"))
 
 
 def test_usual_ranges_and_units_are_those_of_the_report(target):

@@ -16,6 +16,7 @@ from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.studio.scatter.design import Design, make_design
 from thrustwasher.studio.scatter.evaluation import Runs
 from thrustwasher.studio.scatter.propagate import JOURNAL, study_of
+from thrustwasher.studio.scatter.target import target_of
 
 
 class Stop(Exception):
@@ -31,7 +32,7 @@ def stopping_after(n):
 
 
 def result_of(target, **more):
-    study, warnings = study_of(target, **more)
+    study, warnings = study_of(target_of(target, target.scatter), **more)
     numbers, codes = study.run(None, workers=1)
     return Runs(study, numbers, codes).result(reached="below", seed=1, warnings=warnings)
 

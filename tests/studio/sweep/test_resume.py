@@ -11,7 +11,6 @@ from thrustwasher import ParameterError, run_sweep
 from thrustwasher.storage.journal import Journal
 from thrustwasher.studio.sweep import run_sweep as runs
 from thrustwasher.studio.sweep.run_sweep import journal_of
-from thrustwasher.studio.sweep.solve_rows import solve_task
 
 OVER = {"load": "10:200:10", "speed": "50:300:50"}
 
@@ -38,11 +37,13 @@ def solved(monkeypatch):
     """Count the points that are solved."""
     counts = []
 
-    def counting(task):
-        counts.append(len(task.inputs))
-        return solve_task(task)
+    solve = runs.solve_piece
 
-    monkeypatch.setattr(runs, "solve_task", counting)
+    def counting(evaluator, figures, piece):
+        counts.append(len(piece.rows))
+        return solve(evaluator, figures, piece)
+
+    monkeypatch.setattr(runs, "solve_piece", counting)
     return counts
 
 

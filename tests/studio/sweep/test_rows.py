@@ -19,8 +19,9 @@ from thrustwasher import (
 from thrustwasher.gearmesh.parameters import SPEC as GEARMESH
 from thrustwasher.model.registry import find_model
 from thrustwasher.storage import journal
-from thrustwasher.studio.sweep import solve_rows, sweep_table
-from thrustwasher.studio.sweep.solve_rows import output_signals
+from thrustwasher.studio.evaluators import lines
+from thrustwasher.studio.evaluators.lines import output_signals
+from thrustwasher.studio.sweep import sweep_table
 from thrustwasher.washer.parameters import SPEC
 
 UP = "200:1200:200"
@@ -207,9 +208,9 @@ def test_memory_does_not_grow_with_the_outputs_of_a_sweep_to_a_file(tmp_path, mo
 
 def test_no_two_threads_write_to_one_work_array():
     spec, params = GEARMESH, GEARMESH.params()
-    par = solve_rows._constants(spec.key, "field", params)
-    here = solve_rows._work(spec, "field", params, par)
-    assert here is solve_rows._work(spec, "field", params, par)
+    par = lines._constants(spec.key, "field", params)
+    here = lines._work(spec, "field", params, par)
+    assert here is lines._work(spec, "field", params, par)
     with ThreadPoolExecutor(1) as pool:
-        there = pool.submit(solve_rows._work, spec, "field", params, par).result()
+        there = pool.submit(lines._work, spec, "field", params, par).result()
     assert not np.shares_memory(here, there)

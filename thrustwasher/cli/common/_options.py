@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ...errors import ParameterError, suggestion
 from ...model.idle import idle_warnings
 from ...model.oil import refuse_two_ways, sheet_oil
-from ...model.parameters import allowed, check_number, earlier_of, former_names_of
+from ...model.parameters import allowed, check_number, earlier_of
 from ...model.part_file import (
     PartFile,
     find_part,
@@ -20,10 +20,10 @@ from ...model.part_file import (
     scene_parts,
 )
 from ...model.point import Point, point_of
+from ...model.quantity import of_field
 from ...model.record import Model, Option
 from ...model.registry import find_model, models_with_points, spec_of
-from ...moved import now_named
-from ...settings import Place, places, split_settings
+from ...settings import places, split_settings
 from ...units import has_unit, parse_quantity
 from ._output import note, parameters_of, warn
 
@@ -298,7 +298,6 @@ def read_settings(
     if part is not None:
         metadata = part.suggesting(metadata)
         given = {part.flat_name(name): text for name, text in given.items()}
-    given = now_named("--set", former_names_of(spec.params), given)
     for name, text in given.items():
         if name not in metadata:
             hint = suggestion(name, metadata, "did you mean {}? ")
@@ -308,7 +307,7 @@ def read_settings(
                 f"--set {name}={text}: {spec.name} has no parameter {name!r}; {hint}"
                 f"thrustwasher {spec.key} --parameters lists them"
             )
-    return {name: Place(name, False, metadata[name]).check(text) for name, text in given.items()}
+    return {n: of_field(n, 0.0, metadata[n]).check(text) for n, text in given.items()}
 
 
 def parameter_table(spec: "ModelSpec") -> str:

@@ -8,7 +8,8 @@ from ...model.oil import NUMBERS as OIL
 from ...model.oil import SHEET
 from ...model.parameters import earlier_of
 from ...model.part_file import PartFile
-from ...model.scatter import CORRELATION, LAWS, Place, Scatter, read_scatter
+from ...model.quantity import Quantity
+from ...model.scatter import CORRELATION, LAWS, Scatter, read_scatter
 from ...model.toml_tables import quantity
 from ...transmission.parameters import POINTS, PROFILES, profile_fields
 from ...transmission.vehicle import Vehicle
@@ -81,7 +82,7 @@ def scene_scatter(scene: Scene, table: Mapping[str, object] | None = None) -> Sc
     return replace(found, warnings=(*found.warnings, *words))
 
 
-def scene_places(scene: Scene) -> dict[str, Place]:
+def scene_places(scene: Scene) -> dict[str, Quantity]:
     """Return what can scatter in a scene, by path: numbers [SI] and choices of its models."""
     given = dict(scene.table)
     found = [_place("oil_temperature", scene.oil_temperature, NUMBERS["oil_temperature"])]
@@ -107,11 +108,11 @@ def scene_places(scene: Scene) -> dict[str, Place]:
     return {p.name: p for p in found}
 
 
-def _place(name: str, nominal: float, rule: tuple[str, float, float]) -> Place:
-    return Place(name=name, nominal=nominal, unit=rule[0], low=rule[1], high=rule[2])
+def _place(name: str, nominal: float, rule: tuple[str, float, float]) -> Quantity:
+    return Quantity(name=name, nominal=nominal, unit=rule[0], low=rule[1], high=rule[2])
 
 
-def _of_part(part: Part, table: Mapping[str, object]) -> dict[str, Place]:
+def _of_part(part: Part, table: Mapping[str, object]) -> dict[str, Quantity]:
     """Return the parameters of a part that a scene may give, by their own names.
 
     Those of an earlier form are among them where the part's ``table`` is of that form.
@@ -123,7 +124,7 @@ def _of_part(part: Part, table: Mapping[str, object]) -> dict[str, Place]:
     return {k: p for k, p in file.places().items() if k in known}
 
 
-def _of_vehicle(scene: Scene) -> list[Place]:
+def _of_vehicle(scene: Scene) -> list[Quantity]:
     if scene.vehicle is None:
         return []
     rules = {f.name: f.metadata for f in fields(Vehicle)}
@@ -133,7 +134,7 @@ def _of_vehicle(scene: Scene) -> list[Place]:
     ]
 
 
-def _of_oil(table: Mapping[str, object]) -> list[Place]:
+def _of_oil(table: Mapping[str, object]) -> list[Quantity]:
     """Return the factor of the viscosity, and the numbers that a scene's oil is given by."""
     rules = {k: (unit, low, high) for k, (unit, low, high, _) in OIL.items() if k in table}
     rules |= {k: rule for k, rule in SHEET.items() if k in table}
@@ -144,7 +145,7 @@ def _of_oil(table: Mapping[str, object]) -> list[Place]:
     ]
 
 
-def _of_profile(path: str, factor: str, profile: str, table: Mapping[str, Any]) -> list[Place]:
+def _of_profile(path: str, factor: str, profile: str, table: Mapping[str, Any]) -> list[Quantity]:
     """Return the factor of a profile, and times and values of its points."""
     found = [_place(f"{path}.{factor}", float(table.get(factor, 1.0)), SCALE)]
     rules = "s", -1e9, 1e9

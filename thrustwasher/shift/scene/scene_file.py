@@ -27,7 +27,7 @@ from ...model.oil import (
     viscosity_of,
 )
 from ...model.oil_laws import ZERO
-from ...model.parameters import earlier_of, former_names_of, other_names_of, plainly_named
+from ...model.parameters import earlier_of, other_names_of, plainly_named
 from ...model.part_file import PartFile, load_part, preset_part, scene_of_part, scene_parts
 from ...model.registry import MODELS as ALL_MODELS
 from ...model.registry import find_model
@@ -42,8 +42,7 @@ from ...model.toml_tables import (
     read_value,
     table_beside,
 )
-from ...moved import now_named
-from ..key_figures.figure_list import FIGURES, RENAMED
+from ..key_figures.figure_list import FIGURES
 from ..masters.master import FIXED_STEPS
 from .connections import MESHES, PARTS, REQUIRED
 from .doubts import doubts
@@ -182,8 +181,8 @@ def _parse(name: str) -> dict[str, Any]:
     for part, spec in PARTS.items():
         if isinstance(table.get(part), dict):
             with within(f"scene {name!r} [{part}]"):
-                own = now_named(part, former_names_of(spec.params), table[part])
-                own = table[part] = plainly_named(other_names_of(spec.params), own)
+                own = plainly_named(other_names_of(spec.params), table[part])
+                table[part] = own
             if isinstance(own.get("part"), str) and name.endswith(".toml"):
                 own["part"] = str(Path(name).parent / own["part"])  # lies next to the scene
     return table
@@ -398,7 +397,6 @@ def _published(where: str, table: dict[str, Any] | None) -> Published | None:
     source = values.pop("source", None)
     if not isinstance(source, str):
         raise ParameterError(f"{where}: source = {source!r}, allowed: a text")
-    values = now_named(where, RENAMED, values)
     nothing_else(where, values, ["source", *FIGURES])
     figures = {k: quantity(where, k, v, FIGURES[k].unit) for k, v in values.items()}
     return Published(source=source, figures=figures)

@@ -9,7 +9,7 @@ from ...errors import ParameterError, suggestion
 from ...numerics.jit import Array
 from .estimates import Estimate
 from .identifiability import Information, Verdict, combination, information, verdicts
-from .least_squares import Problem, best_fit, profile_end, settled
+from .least_squares import FitProblem, best_fit, profile_end, settled
 
 
 def chosen_names(fit: Sequence[str], known: Sequence[str], words: str) -> tuple[str, ...]:
@@ -27,7 +27,7 @@ def chosen_names(fit: Sequence[str], known: Sequence[str], words: str) -> tuple[
 
 
 def fitted(
-    problem: Problem, first: Array, confidence: float, profile: bool
+    problem: FitProblem, first: Array, confidence: float, profile: bool
 ) -> tuple[dict[str, Any], list[Verdict]]:
     """Return what a ``Calibration`` says of the constants, and the verdicts.
 
@@ -61,7 +61,7 @@ def fitted(
 
 
 def _settled(
-    problem: Problem, first: Array, confidence: float
+    problem: FitProblem, first: Array, confidence: float
 ) -> tuple[Array, Information, list[Verdict]]:
     """Return the fit, its information, the verdicts; what is not known stays near ``first``."""
     best, weak = best_fit(problem, first), np.zeros(len(first))
@@ -85,7 +85,7 @@ def _settled(
 
 
 def _estimate(
-    problem: Problem, best: Array, learned: Information, i: int, verdict: Verdict, profile: bool
+    problem: FitProblem, best: Array, learned: Information, i: int, verdict: Verdict, profile: bool
 ) -> Estimate:
     """Return value, error and intervals of one constant."""
 

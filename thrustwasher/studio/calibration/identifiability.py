@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...numerics.jit import Array
-from .least_squares import Problem
+from .least_squares import FitProblem
 
 VANISHES = (
     1e-4  # a singular value is rounding too if as much smaller compared with the measured values
@@ -69,7 +69,7 @@ class Information:
         return [direction * self.scale for direction in self.directions[wide]]
 
 
-def information(problem: Problem, best: Array, confidence: float) -> Information:
+def information(problem: FitProblem, best: Array, confidence: float) -> Information:
     """Return what the points tell, by linearising at the optimum.
 
     Without known errors the scatter of the residuals gives the standard deviation of a point, and
@@ -130,13 +130,13 @@ def _widened(strength: Array, directions: Array, moved: Array, known: Array) -> 
     return 1.0 / np.sqrt(variance), axes.T
 
 
-def members(problem: Problem, direction: Array) -> list[int]:
+def members(problem: FitProblem, direction: Array) -> list[int]:
     """Return the places of the constants that a direction is about, the largest share first."""
     share = np.abs(direction / problem.scale)
     return [int(i) for i in np.argsort(-share) if share[i] > NAMED * share.max()]
 
 
-def combination(problem: Problem, best: Array, direction: Array) -> str:
+def combination(problem: FitProblem, best: Array, direction: Array) -> str:
     """Say in one sentence which constants the points cannot tell apart."""
     named, names = members(problem, direction), problem.names
     if len(named) == 1:
@@ -160,7 +160,7 @@ class Verdict:
     reason: str
 
 
-def verdicts(problem: Problem, best: Array, learned: Information, weak: Array) -> list[Verdict]:
+def verdicts(problem: FitProblem, best: Array, learned: Information, weak: Array) -> list[Verdict]:
     """Return the verdict on every constant.
 
     A constant counts as identifiable where the half width of its interval is below a change that
@@ -180,7 +180,7 @@ def verdicts(problem: Problem, best: Array, learned: Information, weak: Array) -
     return found
 
 
-def _bound_text(problem: Problem, best: Array, i: int, side: str) -> str:
+def _bound_text(problem: FitProblem, best: Array, i: int, side: str) -> str:
     """Say that a bound stops the fit, and what would free it."""
     text = f"at its {side} bound {problem.shown(best)[i]:g}"
     gradient = problem.slopes(best)[:, i] @ problem.misfit(best) * problem.scale[i]
@@ -189,7 +189,7 @@ def _bound_text(problem: Problem, best: Array, i: int, side: str) -> str:
     return f"{text}: the points pull beyond it{problem.why_bound(best, i, side)}"
 
 
-def _why_not(problem: Problem, best: Array, learned: Information, i: int, half: float) -> str:
+def _why_not(problem: FitProblem, best: Array, learned: Information, i: int, half: float) -> str:
     """Return the reason why the points do not tell a constant, the most tangible one first."""
     count = len(problem.measured)
     few = f"{counted(count, problem.counted_as)} for {counted(len(best), 'constant')}"

@@ -19,7 +19,7 @@ PRESSES = (
 
 
 @dataclass(frozen=True, kw_only=True)
-class Problem:
+class FitProblem:
     """Measured values and the constants that may be changed to meet them.
 
     A guess holds one number per constant: its value, or the logarithm of it. A fit of something
@@ -109,7 +109,7 @@ class Problem:
         return replace(self, base=base, names=self.names[:i] + self.names[i + 1 :], **parts)
 
 
-def best_fit(problem: Problem, first: Array, more: Sequence[Array] = ()) -> Array:
+def best_fit(problem: FitProblem, first: Array, more: Sequence[Array] = ()) -> Array:
     """Return the constants with the minimum sum of squares that any start leads to.
 
     Starts are ``first``, those of the problem and ``more``. Where several fit equally well, the
@@ -142,7 +142,7 @@ def best_fit(problem: Problem, first: Array, more: Sequence[Array] = ()) -> Arra
     return found[int(np.argmin(np.where(equal, near, np.inf)))]
 
 
-def settled(problem: Problem, best: Array, first: Array, weak: Array, deviation: float) -> Array:
+def settled(problem: FitProblem, best: Array, first: Array, weak: Array, deviation: float) -> Array:
     """Return the fit with its weak constants drawn to their first values.
 
     Constants that the points do not tell may end anywhere without fitting worse; next to the misfit
@@ -158,7 +158,7 @@ def settled(problem: Problem, best: Array, first: Array, weak: Array, deviation:
     return _pressed(problem, _on_bounds_exactly(problem, reached[int(np.argmin(pulled))]))
 
 
-def profile_end(problem: Problem, best: Array, index: int, end: float, more: float) -> float:
+def profile_end(problem: FitProblem, best: Array, index: int, end: float, more: float) -> float:
     """Return where one constant alone costs ``more``, the others refitted.
 
     ``end`` is a first guess of the place, on one side of ``best``. Where the sum of squares
@@ -186,7 +186,7 @@ def profile_end(problem: Problem, best: Array, index: int, end: float, more: flo
 
 
 def _refine(
-    problem: Problem, start: Array, tolerance: float, pull: tuple[Array, Array] | None = None
+    problem: FitProblem, start: Array, tolerance: float, pull: tuple[Array, Array] | None = None
 ) -> Array | None:
     """Return the local optimum next to a start, or None if it was not reached.
 
@@ -212,7 +212,7 @@ def _refine(
     return np.asarray(found.x) if found.status > 0 and np.isfinite(found.cost) else None
 
 
-def _on_bounds(problem: Problem, guess: Array) -> Array:
+def _on_bounds(problem: FitProblem, guess: Array) -> Array:
     """Return the guess with constants close to a bound put on it, where that fits no worse."""
     for i in range(len(problem.names)):
         for bound in (problem.low[i], problem.high[i]):
@@ -225,7 +225,7 @@ def _on_bounds(problem: Problem, guess: Array) -> Array:
     return _on_bounds_exactly(problem, guess)
 
 
-def _pressed(problem: Problem, guess: Array) -> Array:
+def _pressed(problem: FitProblem, guess: Array) -> Array:
     """Return the guess with constants put on a bound that only the pull keeps them from."""
     gain = PRESSES * float(np.sum((problem.measured * problem.weight) ** 2))
     for i in range(len(guess)):
@@ -238,7 +238,7 @@ def _pressed(problem: Problem, guess: Array) -> Array:
     return guess
 
 
-def _on_bounds_exactly(problem: Problem, guess: Array) -> Array:
+def _on_bounds_exactly(problem: FitProblem, guess: Array) -> Array:
     """Return the guess without the hair's breadth that the search keeps from its bounds."""
     hair = 1e-12 * problem.scale
     guess = np.where(guess - problem.low <= hair, problem.low, guess)

@@ -14,7 +14,7 @@ from ...model.spec import ModelSpec
 from ...numerics.jit import Array
 from ...settings import places
 from ...units import parse_quantity
-from ..sweep.solve_rows import Task, output_signals, solve_task
+from ..evaluators.lines import Task, output_signals, solve_task
 from ..sweep.sweep_plan import Plan, make_plan
 from .signs import folded, odd_pressure, too_fast
 

@@ -10,11 +10,11 @@ from ...errors import ParameterError, SolveError
 from ...model.parameters import allowed
 from ...model.registry import find_model
 from ...numerics.jit import Array
-from ..sweep.solve_rows import check_level
+from ..evaluators.lines import check_level
 from .estimates import Calibration
 from .fit import chosen_names
 from .identifiability import Verdict, counted
-from .least_squares import Problem
+from .least_squares import FitProblem
 from .measured import Measured, output_units
 
 ModelCalibration = Calibration  # its name while a law's fit was another one
@@ -30,7 +30,7 @@ SCATTERS = 3.0  # a value further off than this many standard deviations is off
 
 
 @dataclass(frozen=True, kw_only=True)
-class ModelProblem(Problem):
+class ModelProblem(FitProblem):
     """Measured outputs of a model and its parameters; ``base``: what is held."""
 
     points: Measured

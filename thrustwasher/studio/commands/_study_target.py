@@ -35,7 +35,7 @@ def add_part_options(parser: argparse.ArgumentParser) -> None:
 def read_target(arguments: argparse.Namespace) -> tuple[Any, dict[str, str] | None]:
     """Return the part or scene and the inputs that are given."""
     from ...model.part_file import PartFile
-    from ..scatter.propagate import part_or_scene
+    from ..evaluators.make import part_or_scene
 
     given = {
         n: getattr(arguments, n)

@@ -8,8 +8,9 @@ from typing import Any
 from ...cli.common import _options, _output
 from ...errors import ParameterError
 from ...model.oil import oil
+from ...model.quantity import Quantity
 from ...numerics.power_flow import FLOWS, FORWARD
-from ...settings import Place, split_settings
+from ...settings import split_settings
 from ...units import format_quantity
 from ..sweep.axes import parse_values
 
@@ -110,7 +111,7 @@ def _axes(given: Mapping[str, str], ranges: Any, usual: Mapping[str, str]) -> di
     if unknown := [name for name in given if name not in ranges]:
         raise ParameterError(f"--over {unknown[0]}: allowed: {' and '.join(ranges)}")
     places = {
-        name: Place(name, True, {"kind": "real", "unit": unit, "min": low, "max": high})
+        name: Quantity(name=name, unit=unit, low=low, high=high, is_input=True)
         for name, (unit, low, high) in ranges.items()
     }
     return {n: parse_values(given.get(n, usual[n]), place) for n, place in places.items()}

@@ -112,9 +112,10 @@ def _share(text: str | None) -> float | None:
 
 
 def _list_figures(target: Any, at: Any, reached: str) -> int:
+    from ..optimisation.designs import figures_to_search
     from ..optimisation.whole_search import designs_of
 
-    for name, figure in designs_of(target, at or {}, reached).figures.items():
+    for name, figure in figures_to_search(designs_of(target, at or {}, reached)).items():
         unit = "" if figure.unit == "1" else f" [{figure.unit}]"
         print(f"{name}{unit}: {figure.help}")
     return 0
@@ -139,7 +140,7 @@ def say(found: "Optimum", folder: Path) -> None:
         value = shown(figure, found.best.figures[figure.name])
         print(f"  {figure.name} = {value} (was {found.before(figure)})")
     for v in problem.variables:
-        print(f"  {v.name} = {v.place.text(found.best.values[v.name])}")
+        print(f"  {v.name} = {v.text(found.best.values[v.name])}")
     if found.front:
         first, second = (g.figure for g in problem.goals)
         print(f"Front of {len(found.front)} designs: {first.name}, {second.name}")

@@ -4,7 +4,6 @@ import argparse
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +16,6 @@ from ...storage.whole_files import new_folder
 from ._study_target import add_part_options, read_target
 
 if TYPE_CHECKING:
-    from ...model.part_file import PartFile
     from ..scatter.result import Band, Index, ScatterResult
 
 HELP = "uncertainty of results: the scatter of inputs, and what decides it"
@@ -149,8 +147,7 @@ def write_files(result: "ScatterResult", target: Any, at: Any, folder: Path) -> 
 
     Files of an earlier study of which this one has none go.
     """
-    from ...model.part_file import PartFile, part_text
-    from ...shift.scene.variation import scene_text
+    from ..evaluators.make import file_of
     from ..report.html import render
     from ..report.scatter import scatter_page
     from ..report.scatter.study_page import MOST_FIGURES, main_figures
@@ -160,10 +157,7 @@ def write_files(result: "ScatterResult", target: Any, at: Any, folder: Path) -> 
     with _output.whole_folder(folder) as draft:
         for name in main_figures(result, MOST_FIGURES):
             for level, values in result.nearest.get(name, {}).items():
-                if isinstance(target, PartFile):
-                    text = part_text(_drawn(target, at or {}, values))
-                else:
-                    text = scene_text(target, values)
+                text = file_of(target, at, values)
                 file = f"{name}-{100.0 * level:02.0f}.toml"
                 (draft / file).write_text(f"{NEAREST}{file}\n{text}", encoding="utf-8")
                 files.setdefault(name, {})[level] = file
@@ -189,15 +183,6 @@ def _first_line(path: Path) -> str:
             return stream.readline(1000)
     except OSError:
         return ""
-
-
-def _drawn(part: "PartFile", at: dict[str, str], values: dict[str, Any]) -> "PartFile":
-    """Return a part as one draw has it: its parameters, and the inputs as its box."""
-    from ..scatter.propagate import inputs_of
-
-    params, inputs = part.varied(values)
-    box = {name: (x, x) for name, x in {**inputs_of(part, at), **inputs}.items()}
-    return replace(part, parameters=_output.parameters_of(params), box=box, scatter={})
 
 
 def say(result: "ScatterResult", folder: Path | None) -> None:

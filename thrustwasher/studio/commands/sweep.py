@@ -3,13 +3,17 @@
 import argparse
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from ...cli.common import _options, _output
 from ...cli.common._options import option_name
 from ...cli.common._table import read_columns
 from ...errors import ParameterError, SolveError
+from ...model.levels import level_named
+from ...model.part_file import PartFile
+from ...model.quantity import Quantity
 from ...model.registry import find_model, models_with_points
 from ...model.spec import ModelSpec
 from ...settings import places, split_settings
@@ -20,7 +24,9 @@ EXAMPLES = (
     'thrustwasher sweep washer --over "load=100:500:n9" --speed "9100 rpm" --out sweep.csv',
     'thrustwasher sweep clutch --over "speed [rpm]=50,100,200" --over faces=4,6,8 '
     "--load 3000 --out packs.csv",
+    "thrustwasher sweep engage --over inertia=0.1:0.4:n4 --over load=3000,4000 --speed 100",
 )
+ENGAGE = "engage"
 OPTIONS = {
     "--over NAME=VALUES ...": "vary an input or parameter: load=50:1850:50 (start:stop:step), "
     "load=20:1850:x40 (40 values, equal ratios; n40: even), speed=136,545, "
@@ -41,7 +47,10 @@ OPTIONS = {
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     models = ", ".join(models_with_points())
-    parser.add_argument("model", metavar="MODEL|FILE", help=f"{models}, or a part file (.toml)")
+    what = f"{models}, a part file (.toml); {ENGAGE}; a scene (.toml, built-in): each point a shift"
+    parser.add_argument("model", metavar="MODEL|FILE", help=what)
+    what = f"of {ENGAGE}: the wet pack that closes, a part file, default clutch"
+    parser.add_argument("part", metavar="PART", nargs="?", help=what)
     held = "hold an input or parameter at a value, e.g. --set roughness=4e-7; may be repeated"
     _options.add_settings(parser, held)
     _options.add(parser, OPTIONS)
@@ -54,30 +63,86 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Sweep, then write the table and say how it went."""
+    from ..evaluators.make import is_at_points
+
+    if arguments.model == ENGAGE:
+        return _run_engagements(arguments)
+    if arguments.part is not None:
+        where = f"sweep {arguments.model} {arguments.part}"
+        raise ParameterError(f"{where}: a second name is allowed after {ENGAGE} alone")
+    if not is_at_points(arguments.model):
+        return _run_scene(arguments)
     part = _options.solvable(arguments.model, arguments.preset)
     spec = part.spec
     at = _held(arguments, spec)
-    out = None
-    if arguments.out:
-        out = _output.check_file(arguments.out, "--out", (".csv", ".parquet"))
-    points = _points(arguments.points, spec, arguments.column or ()) if arguments.points else None
     over = split_settings(arguments.over, "--over", VALUES)
+    points = None
+    if arguments.points:
+        points = _points(arguments, {p.name: p for p in places(spec).values()})
     part = _options.with_oil(
         arguments, part, (*at, *(n.partition("[")[0].strip() for n in over), *(points or ()))
     )
+    return _sweep(
+        arguments, part, over, at, points, _progress(spec), lambda: _options.tell_oil(part)
+    )
 
+
+def _run_engagements(arguments: argparse.Namespace) -> int:
+    """Sweep engagements of a wet pack."""
+    from ..evaluators.make import engagements
+
+    part = _options.solvable(arguments.part or "clutch", arguments.preset)
+    if arguments.fidelity is not None:
+        part = replace(part, fidelity=level_named(part.spec, arguments.fidelity))
+    part = _options.with_oil(arguments, part, split_settings(arguments.settings, "--set", VALUES))
+    evaluator = engagements(part)
+    at = _held(arguments, part.spec, [*evaluator.quantities])
+    over = split_settings(arguments.over, "--over", VALUES)
+    points = _points(arguments, evaluator.quantities) if arguments.points else None
+    show = _output.time_left("sweep engage:")
+    return _sweep(arguments, evaluator, over, at, points, show, lambda: _options.tell_oil(part))
+
+
+def _run_scene(arguments: argparse.Namespace) -> int:
+    """Sweep gear shifts."""
+    from ...shift import load_scene
+    from ..evaluators.make import evaluator
+
+    unused = (*_options.inputs_of_all_models(), "preset", "fidelity")
+    _options.refuse_unused(arguments, "a scene", unused)
+    found = evaluator(load_scene(arguments.model, arguments.oil))
+    at = split_settings(arguments.settings, "--set", VALUES)
+    over = split_settings(arguments.over, "--over", VALUES)
+    points = _points(arguments, found.quantities) if arguments.points else None
+    show = _output.time_left(f"sweep {found.name}:")
+    return _sweep(arguments, found, over, at, points, show, lambda: None)
+
+
+def _sweep(
+    arguments: argparse.Namespace,
+    target: Any,
+    over: dict[str, str],
+    at: dict[str, str],
+    points: dict[str, Any] | None,
+    show: Callable[[int, int], None],
+    tell: Callable[[], None],
+) -> int:
+    """Sweep, then write the table and say how it went."""
     from ..sweep.run_sweep import journal_of, run_sweep
     from ..sweep.sweep_table import write_csv
 
+    out = None
+    if arguments.out:
+        out = _output.check_file(arguments.out, "--out", (".csv", ".parquet"))
     began = time.perf_counter()
     journal = journal_of(out) if out else None
-    with _output.going_on(arguments, journal, _progress(spec)) as progress:
+    with _output.going_on(arguments, journal, show) as progress:
         table = run_sweep(
-            part,
+            target,
             over,
             at=at,
             points=points,
-            fidelity=arguments.fidelity,
+            fidelity=arguments.fidelity if isinstance(target, PartFile) else None,
             out=out,
             workers=arguments.workers,
             cluster=arguments.cluster,
@@ -86,7 +151,7 @@ def run(arguments: argparse.Namespace) -> int:
         )
     for message in filter(None, [table.choice, table.taken]):
         _output.note(message)
-    _options.tell_oil(part)
+    tell()
     _output.warn(table.warnings)
     if not out:
         write_csv(table, sys.stdout)
@@ -101,10 +166,12 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _held(arguments: argparse.Namespace, spec: ModelSpec) -> dict[str, str]:
+def _held(
+    arguments: argparse.Namespace, spec: ModelSpec, more: Sequence[str] = ()
+) -> dict[str, str]:
     """Return what ``--set`` and the inputs' options hold, by name."""
     held = split_settings(arguments.settings, "--set", VALUES)
-    known = places(spec)
+    known = {*places(spec), *more}
     for name in _options.inputs_of_all_models():
         value = getattr(arguments, name)
         if value is not None:
@@ -116,15 +183,15 @@ def _held(arguments: argparse.Namespace, spec: ModelSpec) -> dict[str, str]:
     return held
 
 
-def _points(path: str, spec: ModelSpec, names: Sequence[str]) -> dict[str, Any]:
-    """Return the columns of a file of points; any of the model's names may be a column."""
-    known = places(spec)
-    units = {p.name: p.unit for p in known.values() if p.kind in ("real", "integer")}
+def _points(arguments: argparse.Namespace, known: Mapping[str, Quantity]) -> dict[str, Any]:
+    """Return the columns of a file of points; any of the names may be a column."""
+    path, names = arguments.points, arguments.column or ()
+    units = {name: p.unit for name, p in known.items() if p.kind in ("real", "integer")}
     columns: dict[str, Any] = dict(
         read_columns(path, {**units, "line": "1"}, (*units, "line"), names=names)
     )
     if not set(columns) - {"line"}:
-        inputs = ", ".join(p.name for p in known.values() if p.is_input)
+        inputs = ", ".join(p.name for p in known.values() if p.is_input) or "a path of the scene"
         raise ParameterError(f"{path}: no column is an input or parameter, required: {inputs}")
     return columns
 

@@ -5,8 +5,8 @@ from dataclasses import asdict
 from typing import Any
 
 from ...model.part_file import PartFile
-from ...model.part_places import other_of
-from ...model.scatter import Law, Place
+from ...model.quantity import Quantity, other_of
+from ...model.scatter import Law
 from ...numerics.jit import Array
 
 DRAWS = 32  # a power of two: of each source one draw lies in each 32nd of its probability
@@ -52,7 +52,9 @@ def fixed_points(n: int) -> Array:
     return points
 
 
-def _change(part: PartFile, place: Place, law: Law, values: list[Any], load: str) -> dict[str, Any]:
+def _change(
+    part: PartFile, place: Quantity, law: Law, values: list[Any], load: str
+) -> dict[str, Any]:
     name, how = place.name, "set"
     if law.is_share or (name == "load" and (law.kind == "uniform" or load != "load")):
         how, values = "times", [float(x / place.nominal) for x in values]

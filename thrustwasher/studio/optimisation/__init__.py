@@ -2,9 +2,7 @@
 
 ===================  ===========================================================================
 ``design_problem``   What is varied, what is requested, under which limits: from words to numbers
-``designs``          What a search needs to know of what it varies
-``part_designs``     A part at a point, and the folds of a washer's load curve
-``scene_designs``    A gear shift
+``designs``          What a search asks of an evaluator, and how much it does with it
 ``whole_search``     The whole search, from what is requested to the result
 ``archive``          All designs tried: costs, constraint violation, order
 ``multistart``       A sample of the box, local searches from its best, along a front

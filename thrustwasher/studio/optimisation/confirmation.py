@@ -8,7 +8,7 @@ import numpy as np
 from ...errors import SolveError
 from .archive import Archive
 from .design_problem import Problem, shown
-from .designs import Array
+from .designs import Array, figures_to_search
 from .front import spread
 from .multistart import (
     NEAR,
@@ -31,13 +31,13 @@ def solved_again(pool: WorkerPool, archive: Archive, places: Sequence[int]) -> l
     """Return designs with all figures, solved on the finest means."""
     designs = pool.designs
     rows = [archive.row(place) for place in places]
-    names = tuple(dict.fromkeys([*archive.problem.figures, *designs.figures]))
+    names = tuple(dict.fromkeys([*archive.problem.figures, *figures_to_search(designs)]))
     values = pool.figures(rows, names, whole=True, each=1)
     return [
         Design(
             values=row,
             figures=dict(zip(names, own.tolist(), strict=True)),
-            text=designs.text(row),
+            text=designs.file(row),
         )
         for row, own in zip(rows, values, strict=True)
     ]
@@ -89,8 +89,8 @@ def best_design(means: Means, archive: Archive) -> tuple[Archive, Design]:
 
 
 def _polished(means: Means, archive: Archive) -> Archive:
-    """Search on the finest means from the best design, if the effort says so."""
-    tries = means.effort.polish
+    """Search on the finest means from the best design, if the budget says so."""
+    tries = means.budget.polish
     if not tries:
         return archive
     place = int(archive.ranked(0)[0])
@@ -153,5 +153,5 @@ def active_bounds(archive: Archive, best: Design) -> tuple[str, ...]:
         share = (best.values[v.name] - v.low) / (v.high - v.low)
         if min(share, 1.0 - share) <= BINDS:
             end, sign = (v.low, ">=") if share < 0.5 else (v.high, "<=")
-            found.append(f"{v.name} {sign} {v.place.text(end)}")
+            found.append(f"{v.name} {sign} {v.text(end)}")
     return tuple(found)

@@ -2,34 +2,18 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...errors import ParameterError, suggestion
-from ...model.scatter import Place
-from ...shift.key_figures.figure_list import current
+from ...model.quantity import Figure, Quantity
 from ...shown import text_of
 from ...units import into_range, parse_quantity
-from ..scatter.target import Figure
 from .designs import Array, Row
 
 MOST_GOALS = 2
 SURE = (0.5, 0.999)  # share of the draws that a robust design meets its limits in
-
-
-@dataclass(frozen=True, kw_only=True)
-class Variable:
-    """Something that is varied between two values [SI]."""
-
-    place: Place
-    low: float
-    high: float
-
-    @property
-    def name(self) -> str:
-        """Name of the parameter or input, path of the value in a scene."""
-        return self.place.name
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,7 +47,7 @@ class Limit:
 class Problem:
     """All of it; designs are points u of the unit cube, (k,) for k variables."""
 
-    variables: tuple[Variable, ...]
+    variables: tuple[Quantity, ...]
     goals: tuple[Goal, ...]
     limits: tuple[Limit, ...]
     robust: float | None = None
@@ -128,7 +112,7 @@ def shown(figure: Figure, value: float, digits: int = 4) -> str:
 
 
 def read_problem(
-    places: Mapping[str, Place],
+    places: Mapping[str, Quantity],
     figures: Mapping[str, Figure],
     *,
     vary: Mapping[str, str | tuple[float, float]],
@@ -172,14 +156,15 @@ def read_problem(
 
 
 def _figure(option: str, name: str, figures: Mapping[str, Figure]) -> Figure:
-    name = current(name)
     if name not in figures:
         hint = suggestion(name, figures, "; did you mean {}?")
         raise ParameterError(f"{option} {name}: allowed: {', '.join(figures)}{hint}")
     return figures[name]
 
 
-def _variable(name: str, given: str | tuple[float, float], places: Mapping[str, Place]) -> Variable:
+def _variable(
+    name: str, given: str | tuple[float, float], places: Mapping[str, Quantity]
+) -> Quantity:
     if name not in places:
         hint = suggestion(name, places, "; did you mean {}?")
         raise ParameterError(f"vary {name}: there is no such parameter, input or path{hint}")
@@ -196,7 +181,7 @@ def _variable(name: str, given: str | tuple[float, float], places: Mapping[str, 
             raise ParameterError(f"vary {name}: {text}, allowed: {place.range_text}")
     if not low < high:
         raise ParameterError(f"vary {name}={given}: allowed: low below high")
-    return Variable(place=place, low=low, high=high)
+    return replace(place, low=low, high=high)
 
 
 def _limit(text: str, figures: Mapping[str, Figure]) -> Limit:

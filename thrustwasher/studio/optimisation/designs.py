@@ -1,20 +1,25 @@
-"""What a search needs to know of what it varies: a part, a load curve, a gear shift."""
+"""What a search asks of an evaluator, and how much it does with it."""
 
-from collections.abc import Mapping, Sequence
-from typing import Any, Literal, NamedTuple, Protocol
+from collections.abc import Sequence
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model.scatter import Place, Scatter
-from ..scatter.target import Figure
+from ...errors import Suggesting
+from ...model.quantity import Figure
+from ..evaluators.evaluator import Array, Evaluator, Row, some_figures, texts
 
-Array = NDArray[np.float64]
+__all__ = ["Array", "Budget", "Designs", "Places", "Row"]
+
 Places = NDArray[np.intp]
-Row = Mapping[str, Any]  # values [SI] by name
+NOTE = (
+    "while searching the washers have the torque of the scene's own run; the designs shown here "
+    "are run again with their washers solved"
+)
 
 
-class Effort(NamedTuple):
+class Budget(NamedTuple):
     """How much a search does."""
 
     sample: int
@@ -28,53 +33,8 @@ class Effort(NamedTuple):
     """Designs that a last search tries on the finest means."""
 
 
-class Designs(Protocol):
-    """What is varied; it can be pickled, for the workers."""
-
-    @property
-    def kind(self) -> Literal["part", "scene"]:
-        """What it is."""
-
-    @property
-    def name(self) -> str:
-        """Name of the part or scene."""
-
-    @property
-    def places(self) -> Mapping[str, Place]:
-        """What may be varied, with its value now and its range."""
-
-    @property
-    def figures(self) -> Mapping[str, Figure]:
-        """Numbers of a design by name."""
-
-    @property
-    def identity(self) -> Mapping[str, str]:
-        """What makes a search another one, in words by kind; for the journal."""
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """What must not be missed, a line each."""
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """How designs are judged, a line each."""
-
-    def effort(self, figures: Sequence[str], variables: int) -> Effort:
-        """Return what a search for these figures does."""
-
-    def solve(self, rows: Sequence[Row], figures: Sequence[str], whole: bool = False) -> Array:
-        """Return figures of designs (n, m); NaN where there is none.
-
-        ``whole``: as they are shown at the end, on the finest means; else as a search takes them.
-        """
-
-    def slopes(
-        self, row: Row, figures: Sequence[str], names: Sequence[str], whole: bool = False
-    ) -> tuple[Array, Array] | None:
-        """Return figures (m,) and their exact slopes (m, k) over variables; None: not known."""
-
-    def scatter(self, row: Row) -> Scatter:
-        """Return how a design scatters about its own values."""
+class Designs(Evaluator, Protocol):
+    """An evaluator whose rows are designs."""
 
     def shorter_step(
         self, rows: Sequence[Row], figures: Sequence[str], gain: float
@@ -87,5 +47,32 @@ class Designs(Protocol):
     def with_step(self, step: float) -> "Designs":
         """Return the same with another time step [s]; ParameterError, SolveError: as when made."""
 
-    def text(self, row: Row) -> str:
-        """Return a design as the text of a file that runs."""
+
+def budget_of(designs: Designs, figures: Sequence[str], variables: int) -> Budget:
+    """Return what a search for these figures does.
+
+    Less where each design takes a whole load curve; a scene has no slopes, as a figure such as the
+    jerk has corners.
+    """
+    if designs.kind == "scene":
+        return Budget(sample=64 * variables, starts=4, rounds=2, tries=12 + 5 * variables)
+    if any(designs.figures[name].of_curve for name in figures):
+        return Budget(sample=3 * variables, starts=2, rounds=1, tries=15, polish=4)
+    return Budget(sample=16 * variables, starts=3, rounds=2, tries=60)
+
+
+def figures_to_search(designs: Designs) -> Suggesting[Figure]:
+    """Return the figures that a search can be for."""
+    return some_figures(designs, (n for n, f in designs.figures.items() if f.kind == "real"))
+
+
+def notes_of(designs: Designs) -> tuple[str, ...]:
+    """Return how designs are evaluated, a line each."""
+    if designs.kind == "scene":
+        return (NOTE,) if getattr(designs, "played", None) else ()
+    return tuple(filter(None, [getattr(designs, "note", "")]))
+
+
+def warnings_of(designs: Designs) -> tuple[str, ...]:
+    """Return what must not be missed of designs, a line each."""
+    return texts(designs.remarks, "warning")

@@ -9,6 +9,7 @@ from typing import Any, TypedDict
 
 import numpy as np
 
+from ..evaluators.evaluator import Effort
 from .design_problem import Problem
 from .designs import Array, Designs
 from .under_scatter import UnderScatter, Uniforms, judged_by
@@ -136,11 +137,12 @@ class _Tried:
     def _judge(self, u: Array) -> _Judged:
         problem, search = self.problem, self.search
         row, figures = problem.row(u), problem.figures
-        found = self.designs.slopes(row, figures, problem.names, search.whole)
+        effort: Effort = "shown" if search.whole else "search"
+        found = self.designs.gradient(row, figures, problem.names, effort)
         if found is None:
-            values, slopes = self.designs.solve([row], figures, search.whole)[0], None
+            values, slopes = self.designs.evaluate([row], figures, effort).values[0], None
         else:
-            values, slopes = found[0], found[1] * problem.spans
+            values, slopes = found.values, found.slopes * problem.spans
         self.rows.append(np.concatenate((u, values)))
         if not np.isfinite(values).all() or (slopes is not None and not np.isfinite(slopes).all()):
             k = len(u)

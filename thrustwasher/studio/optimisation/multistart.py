@@ -12,7 +12,7 @@ import numpy as np
 from ...errors import SolveError
 from .archive import Archive
 from .design_problem import Problem, shown
-from .designs import Array, Effort, Row
+from .designs import Array, Budget, Row
 from .front import apart, levels
 from .local_search import VIOLATION, LocalSearch, Ways
 from .worker_pool import WorkerPool
@@ -24,7 +24,7 @@ class Means(NamedTuple):
     """What a search has to search with."""
 
     pool: WorkerPool
-    effort: Effort
+    budget: Budget
     points: int
     """Designs of a front."""
     seed: int
@@ -38,10 +38,10 @@ def sample_box(means: Means) -> tuple[Archive, dict[str, float]]:
     from scipy.stats import qmc  # late: it takes a third of a second
 
     pool, problem = means.pool, means.pool.problem
-    nominal = {n: float(pool.designs.places[n].nominal) for n in problem.names}
+    nominal = {n: float(pool.designs.quantities[n].nominal) for n in problem.names}
     now = problem.point(nominal)
     drawn = qmc.Sobol(len(now), seed=np.random.default_rng(means.seed))
-    n = 1 << (means.effort.sample - 1).bit_length()
+    n = 1 << (means.budget.sample - 1).bit_length()
     points = np.vstack((now, drawn.random(n)))
     rows = [problem.row(u) for u in points]
     values = pool.figures(rows, problem.figures)
@@ -77,7 +77,7 @@ def search_from(
     means: Means, archive: Archive, place: int, goal: int, radius: float, **ways: Unpack[Ways]
 ) -> LocalSearch:
     """Return the local search that begins at a design of the archive."""
-    tries: Ways = {"tries": means.effort.tries}
+    tries: Ways = {"tries": means.budget.tries}
     return LocalSearch(
         start=tuple(archive.points[place].tolist()),
         aim=goal,
@@ -97,7 +97,7 @@ def searched(means: Means, archive: Archive, searches: Sequence[LocalSearch]) ->
 def search_goals(means: Means, archive: Archive, radius: float) -> Archive:
     """Search for the minimum of each goal, from the best that are known."""
     goals = range(len(archive.problem.goals))
-    each = max(1, means.effort.starts // len(goals))
+    each = max(1, means.budget.starts // len(goals))
     return searched(
         means,
         archive,
@@ -118,7 +118,7 @@ def search_front(means: Means, archive: Archive) -> tuple[Archive, list[float]]:
     if not len(feasible):
         return archive, []
     tops = levels(archive.costs[feasible], means.points).tolist()
-    tries = means.effort.tries // 2
+    tries = means.budget.tries // 2
     searches = [
         search_from(means, archive, place, 0, NEAR, levels=((1, top),), tries=tries)
         for top, place in zip(tops, least_below(archive, tops), strict=True)
@@ -138,7 +138,7 @@ def restore_feasibility(means: Means, archive: Archive) -> Archive:
     if len(archive.feasible):
         return archive
     for radius in (FAR, NEAR):
-        starts = apart(archive.points, archive.violation.argsort(), means.effort.starts)
+        starts = apart(archive.points, archive.violation.argsort(), means.budget.starts)
         archive = searched(
             means,
             archive,
@@ -167,4 +167,4 @@ def _infeasible(archive: Archive) -> SolveError:
 
 def design_text(problem: Problem, row: Row) -> str:
     """Return the values of a design as a person reads them."""
-    return ", ".join(f"{v.name} = {v.place.text(row[v.name])}" for v in problem.variables)
+    return ", ".join(f"{v.name} = {v.text(row[v.name])}" for v in problem.variables)

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...model.quantity import Figure
 from ...shown import Card, Line, Tabled, Words
 from ..scatter.result import write_columns
-from ..scatter.target import Figure
 from .design_problem import Problem, shown
 from .designs import Array
 from .robustness import Share
@@ -80,7 +80,7 @@ class Optimum(Tabled):
         return values | {n: np.array([d.figures[n] for d in designs]) for n in self.best.figures}
 
     def _words(self) -> dict[str, Words]:
-        places = (v.place for v in self.problem.variables)
+        places = self.problem.variables
         known = {p.name: Words(p.unit, "", p.relative) for p in places}
         figures = self.problem.every_figure
         return known | {f.name: Words(f.unit, f.help, f.relative) for f in figures}
@@ -92,7 +92,7 @@ class Optimum(Tabled):
             for f in problem.every_figure
         ]
         lines += [
-            Line(v.name, v.place.text(best.values[v.name]), f"was {v.place.text(v.place.nominal)}")
+            Line(v.name, v.text(best.values[v.name]), f"was {v.text(v.nominal)}")
             for v in problem.variables
         ]
         wanted = " and ".join(g.words for g in problem.goals)
@@ -117,7 +117,7 @@ class Optimum(Tabled):
         for number, design in enumerate(self.front, 1):
             (folder / front_file(number)).write_text(design.text, encoding="utf-8")
         columns: dict[str, Any] = {"design": [front_file(n + 1) for n in range(len(self.front))]}
-        units = {v.name: v.place.unit for v in self.problem.variables}
+        units = {v.name: v.unit for v in self.problem.variables}
         for name in units:
             columns[name] = np.array([d.values[name] for d in self.front])
         for goal in self.problem.goals:

@@ -31,7 +31,7 @@ def with_critical_scenarios(means: Means, archive: Archive) -> Archive:
     if share is None:
         return archive
     row = archive.row(int(archive.ranked(0)[0]))
-    straight = means.effort.polish > 0
+    straight = means.budget.polish > 0
     found = drawn(means.pool, row, DRAWS, means.seed, straight=straight)
     return _judged_by(means, archive, critical(archive.problem, *found, share))
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from ...errors import ParameterError
 from ...model.scatter import Scatter
+from ..evaluators.evaluator import Answers, Effort, Slopes
 from .design_problem import Problem
 from .designs import Array, Designs, Row
 
@@ -27,27 +28,30 @@ class UnderScatter:
     problem: Problem
     uniforms: Uniforms
 
-    def solve(self, rows: Sequence[Row], figures: Sequence[str], whole: bool = False) -> Array:
-        """Return figures of designs (n, m); NaN where a design or one of its draws has none."""
+    def evaluate(
+        self, rows: Sequence[Row], figures: Sequence[str], effort: Effort = "search"
+    ) -> Answers:
+        """Return figures of designs; NaN where a design or one of its draws has none."""
         worst = np.full((len(rows), len(figures)), np.nan)
         for i, row in enumerate(rows):
             with suppress(ParameterError):  # values that do not go together
-                worst[i] = (self.designs.solve(self._draws(row), figures, whole) * self._signs).max(
-                    0
-                )
-        return worst * self._signs
+                drawn = self.designs.evaluate(self._draws(row), figures, effort).values
+                worst[i] = (drawn * self._signs).max(0)
+        return Answers(worst * self._signs, np.zeros(len(rows), np.int32))
 
-    def slopes(
-        self, row: Row, figures: Sequence[str], names: Sequence[str], whole: bool = False
-    ) -> tuple[Array, Array] | None:
+    def gradient(
+        self, row: Row, figures: Sequence[str], names: Sequence[str], effort: Effort = "search"
+    ) -> Slopes | None:
         """Return figures (m,) and their slopes (m, k) in the worst draw of each."""
         found = []
         try:
             draws = self._draws(row)
         except ParameterError:
-            return np.full(len(figures), np.nan), np.full((len(figures), len(names)), np.nan)
+            return Slopes(
+                np.full(len(figures), np.nan), np.full((len(figures), len(names)), np.nan)
+            )
         for drawn in draws:
-            one = self.designs.slopes(drawn, figures, names, whole)
+            one = self.designs.gradient(drawn, figures, names, effort)
             if one is None:
                 return None
             follows = np.array([drawn[n] / row[n] if row[n] else 1.0 for n in names])
@@ -55,7 +59,8 @@ class UnderScatter:
         values = np.array([one[0] for one in found])
         worst = (values * self._signs).argmax(0)
         m = range(len(figures))
-        return values[worst, m], np.array([found[j][1][i] for i, j in zip(m, worst, strict=True)])
+        slopes = np.array([found[j][1][i] for i, j in zip(m, worst, strict=True)])
+        return Slopes(values[worst, m], slopes)
 
     @property
     def _signs(self) -> Array:
@@ -78,7 +83,7 @@ def judged_by(designs: Designs, problem: Problem, uniforms: Uniforms) -> Designs
 
 def sources_of(designs: Designs, row: Row) -> Scatter:
     """Return how a design scatters; ParameterError: it does not."""
-    found = designs.scatter(row)
+    found = designs.scattered(None, row)
     if not found.sources:
         raise ParameterError("robust: nothing scatters; add [scatter] to the file")
     return found

@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-from warnings import warn
 
 import numpy as np
 
@@ -16,12 +15,19 @@ from ...numerics.jit import kernel_digest
 from ...storage.journal import Journal
 from ...storage.whole_files import new_folder, whole_folder
 from ...units import format_quantity
+from ..evaluators.make import evaluator
 from ..jobs.runner import Progress, check_workers
 from ..scatter.design import MOST_SEED
-from ..scatter.propagate import inputs_of, part_or_scene
 from .confirmation import AGAIN, MORE, active_bounds, best_design, costs_of, front_designs
 from .design_problem import Problem, read_problem
-from .designs import Designs, Effort
+from .designs import (
+    Budget,
+    Designs,
+    budget_of,
+    figures_to_search,
+    notes_of,
+    warnings_of,
+)
 from .front import knee
 from .multistart import (
     FAR,
@@ -61,8 +67,6 @@ def optimise(
     out: str | Path | None = None,
     progress: Progress | None = None,
     finish: Callable[[Optimum, Path], None] | None = None,
-    least: str | Sequence[str] = (),
-    most: str | Sequence[str] = (),
 ) -> Optimum:
     """Return the design of a part or a gear shift with the minimum or maximum of a figure.
 
@@ -86,7 +90,6 @@ def optimise(
         ``front.csv`` and ``front-NN.toml``
     progress : called with designs tried and planned
     finish : called with the result and the folder before it is complete
-    ``least``, ``most`` : ``minimise`` and ``maximise`` in earlier versions, for one version
 
     Raises
     ------
@@ -101,11 +104,6 @@ def optimise(
     result depends neither on the workers nor on a stop in between.
     """
     began = time.perf_counter()
-    for old, now, given in (("least", "minimise", least), ("most", "maximise", most)):
-        if given:
-            text = f"optimise: {old}= is now {now}=; the next version takes only this"
-            warn(text, DeprecationWarning, stacklevel=2)
-    minimise, maximise = minimise or least, maximise or most
     check_workers(workers, None)
     for name, value, low, high in (
         ("points", points, 3, MOST_POINTS),
@@ -117,8 +115,8 @@ def optimise(
     part = getattr(designs, "part", None)
     named = str if part is None else part.flat_name
     problem = read_problem(
-        designs.places,
-        designs.figures,
+        designs.quantities,
+        figures_to_search(designs),
         vary={named(name): ends for name, ends in vary.items()},
         minimise=[*map(named, [minimise] if isinstance(minimise, str) else minimise)],
         maximise=[*map(named, [maximise] if isinstance(maximise, str) else maximise)],
@@ -138,16 +136,16 @@ def optimise(
                         file.unlink()
                 identity = _identity(designs, problem, points, seed)
                 journals.append(Journal(folder / name, identity, "search"))
-        effort = designs.effort(problem.figures, len(problem.variables))
+        budget = budget_of(designs, problem.figures, len(problem.variables))
         with WorkerPool(
             designs,
             problem,
-            planned=_planned(problem, effort, points),
+            planned=_planned(problem, budget, points),
             workers=workers,
             journal=journals[-1] if journals else None,
             progress=progress,
         ) as pool:
-            return search(Means(pool, effort, points, seed))
+            return search(Means(pool, budget, points, seed))
 
     try:
         found = _searched_with_steps_that_do(designs, searched)
@@ -223,26 +221,17 @@ def _gain(found: Optimum) -> float:
     return gain if np.isfinite(gain) else 0.0
 
 
-def designs_of(target: Any, at: Mapping[str, Any], reached: str) -> Designs:
+def designs_of(target: Any, at: Mapping[str, Any], reached: str) -> Any:
     """Return what is varied; ParameterError if there is no such part or scene."""
-    found = part_or_scene(str(target)) if isinstance(target, str | Path) else target
-    if isinstance(found, PartFile):
-        from .part_designs import part_designs
-
-        return part_designs(found, inputs_of(found, at), reached)
-    if at:
-        raise ParameterError("at: is of a part's inputs; a scene has its own")
-    from .scene_designs import SceneDesigns
-
-    return SceneDesigns(found)
+    return evaluator(target, at=at, reached=reached).searched()
 
 
-def _planned(problem: Problem, effort: Effort, points: int) -> int:
+def _planned(problem: Problem, budget: Budget, points: int) -> int:
     """Return how many designs are tried, about."""
-    found = effort.sample + effort.polish
+    found = budget.sample + budget.polish
     if len(problem.goals) == 1:
-        return found + effort.rounds * effort.starts * effort.tries + AGAIN
-    found += effort.starts * effort.tries + effort.rounds * points * (effort.tries // 2)
+        return found + budget.rounds * budget.starts * budget.tries + AGAIN
+    found += budget.starts * budget.tries + budget.rounds * points * (budget.tries // 2)
     return found + int(MORE * points)
 
 
@@ -251,7 +240,7 @@ def search(means: Means) -> Optimum:
     pool, problem = means.pool, means.pool.problem
     archive, start = sample_box(means)
     two, tops = len(problem.goals) == 2, list[float]()
-    for number in range(means.effort.rounds + two):
+    for number in range(means.budget.rounds + two):
         archive = with_critical_scenarios(means, archive)
         if two and number > 0:
             archive, found = search_front(means, archive)
@@ -265,7 +254,7 @@ def search(means: Means) -> Optimum:
         best = front[knee(costs_of(problem, front))]
     else:
         archive, best = best_design(means, archive)
-    share, warnings = None, pool.designs.warnings
+    share, warnings = None, warnings_of(pool.designs)
     if problem.robust is not None:
         best, share, archive, more = validated(means, archive, best, problem.robust)
         warnings = (*warnings, *more)
@@ -282,5 +271,5 @@ def search(means: Means) -> Optimum:
         tried=archive.values[:, [problem.figures.index(g.figure.name) for g in problem.goals]],
         feasible=archive.violation <= 0.0,
         warnings=warnings,
-        notes=pool.designs.notes,
+        notes=notes_of(pool.designs),
     )

@@ -8,6 +8,7 @@ from typing import Any, Protocol, Self
 import numpy as np
 
 from ...storage.journal import Journal
+from ..evaluators.evaluator import Effort
 from ..jobs.runner import Progress, Runner, Work
 from .design_problem import Problem
 from .designs import Array, Designs, Row
@@ -51,7 +52,8 @@ class Given:
     def run(self, designs: Designs, problem: Problem) -> Array:
         """Return their figures (n, m)."""
         by = judged_by(designs, problem, self.uniforms)
-        return by.solve(self.rows, self.figures, self.whole)
+        effort: Effort = "shown" if self.whole else "search"
+        return by.evaluate(self.rows, self.figures, effort).values
 
 
 class WorkerPool:

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 
 from ...errors import SolveError
+from ...model.quantity import Figure
+from ..evaluators.evaluator import Array, Codes
 from .estimates import (
     LEAST_BOUNDED,
     LEVELS,
@@ -20,7 +22,6 @@ from .estimates import (
 from .linear import doubts_of_linear, linear_deviations
 from .result import Band, Index, Probability, ScatterResult, Series, SourceLine
 from .study import Study
-from .target import Array, Figure, Flags
 
 NONE = Index(first=None, total=None, confidence=None, first_confidence=None, total_confidence=None)
 NO_EFFECT = Index(first=0.0, total=0.0, confidence=0.0, first_confidence=0.0, total_confidence=0.0)
@@ -29,13 +30,13 @@ NO_EFFECT = Index(first=0.0, total=0.0, confidence=0.0, first_confidence=0.0, to
 class Runs:
     """The numbers of a study's runs, base points first."""
 
-    def __init__(self, study: Study, numbers: Array, codes: Flags) -> None:
+    def __init__(self, study: Study, numbers: Array, codes: Codes) -> None:
         self.study, self.target, self.design = study, study.target, study.design
         shape = self.design.n, self.design.rows_per_point, -1
         self.numbers = numbers.reshape(shape)
         self.base = self.numbers[:, 0]
         """(N, m)"""
-        self.base_codes: Flags = codes.reshape(shape[:2])[:, 0]
+        self.base_codes: Codes = codes.reshape(shape[:2])[:, 0]
         self.codes = codes
         reasons = self.target.reasons
         counts = Counter(reasons[code - 1] for code in codes[codes > 0].tolist())
@@ -44,7 +45,7 @@ class Runs:
     def result(self, *, reached: str, seed: int, warnings: tuple[str, ...]) -> ScatterResult:
         """Return what the runs say."""
         target, scatter = self.target, self.target.scatter
-        error = target.error()
+        error = target.evaluator.error()
         linear = linear_deviations(target) if target.kind == "part" else {}
         try:
             nominal = target.nominal()
@@ -93,9 +94,9 @@ class Runs:
                 (scatter.names[i], scatter.names[k], float(scatter.correlation[i, k]))
                 for i, k in np.argwhere(np.triu(scatter.correlation, 1))
             ),
-            model=getattr(target, "model", ""),
-            setting=getattr(target, "setting", {}),
-            notes=getattr(target, "notes", ()),
+            model=getattr(target.evaluator, "model", ""),
+            setting=target.setting,
+            notes=target.notes,
         )
 
     def sample(self) -> dict[str, Any]:
@@ -211,7 +212,7 @@ class Runs:
                     nominal=nominal[where],
                     quantiles=dict(zip(LEVELS, at[:, where], strict=True)),
                     indices=indices,
-                    unit=getattr(self.target, "series_units", {}).get(name, ""),
+                    unit=self.target.evaluator.signals[name],
                 ),
             )
 
@@ -240,10 +241,11 @@ class Runs:
             )
             points = int((self.codes.reshape(n, -1) > 0).any(1).sum())
             text += f"; indices leave out {points} of {n} base points" if self.design.groups else ""
-            why = (self.target.why(row) for row in self._failed_base())
+            why = (self.target.evaluator.why(row) for row in self._failed_base())
             example = next(filter(None, why), "")
             yield f"{text}; for example: {example}" if example else text
-        yield from self.target.doubts(self.base)
+        every = [f.name for f in self.target.figures]
+        yield from self.target.evaluator.doubts(every, self.base[:, : len(every)])
         for absent in sorted({band.absent for band in figures.values()} - {0}):
             names = ", ".join(name for name, band in figures.items() if band.absent == absent)
             yield f"{absent} of {n} base runs have no {names}: quantiles are of the others"

@@ -6,23 +6,19 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...errors import ParameterError, SolveError, suggestion
-from ...model.part_file import PartFile, find_part, holds_part, scene_parts
-from ...model.point import point_of
-from ...model.registry import find_model, models_with_points
-from ...model.scatter import Scatter
-from ...settings import find_place, places
+from ...errors import ParameterError, SolveError
 from ...storage.journal import Journal
 from ...storage.whole_files import new_folder, whole_folder
+from ..evaluators.make import scattering
 from ..jobs.runner import Progress, check_workers
 from .design import LEAST_RUNS, MOST_RUNS, ROWS, ROWS_OF_PART, make_design, rounded_runs
 from .evaluation import Runs
-from .function_target import function_target
 from .result import SAMPLE, ScatterResult, write_columns
 from .study import Study
-from .target import Target
+from .target import Target, target_of
 
 if TYPE_CHECKING:
+    from ...model.part_file import PartFile
     from ...shift.scene.scene import Scene
 
 JOURNAL = "scatter.journal"
@@ -103,7 +99,8 @@ def propagate(
     folder = None if out is None else _folder(out)
     if runs is not None:
         rounded_runs(runs)  # before the target is made, which may take a while
-    found = target_of(target, scatter=scatter, outputs=outputs, reached=reached, at=at)
+    made, drawn = scattering(target, scatter=scatter, at=at, reached=reached)
+    found = target_of(made, drawn, outputs)
     study, warnings = study_of(found, runs=runs, seed=seed, indices=indices)
     journal, finished = None, False
     try:
@@ -112,18 +109,18 @@ def propagate(
             with new_folder(folder):
                 journal = Journal(folder / JOURNAL, study.identity(**settings), "scatter")
         numbers, codes = study.run(journal, workers=workers, cluster=cluster, progress=progress)
-        drawn = Runs(study, numbers, codes)
-        if (drawn.base_codes > 0).all():
+        solved = Runs(study, numbers, codes)
+        if (solved.base_codes > 0).all():
             if folder is not None:
                 with whole_folder(folder) as draft:
-                    write_columns(draft / SAMPLE, drawn.sample(), drawn.units)
+                    write_columns(draft / SAMPLE, solved.sample(), solved.units)
             finished = True  # the sample has all there is
-            n, why = study.design.n, next(iter(drawn.failed))
+            n, why = study.design.n, next(iter(solved.failed))
             raise SolveError(
                 f"none of the {n} base runs has a solution, mostly: {why}; check the nominal "
                 "values, or narrow the scatter"
             )
-        result = drawn.result(reached=reached, seed=seed, warnings=warnings)
+        result = solved.result(reached=reached, seed=seed, warnings=warnings)
         result = replace(result, wall_time=time.perf_counter() - began)
         if folder is not None:
             result.write(folder)
@@ -149,76 +146,11 @@ def study_of(
     groups = [
         group
         for group in (scatter.groups if indices else ())
-        if costly or any(target.touches(scatter.names[i]) for i in group)
+        if costly or any(target.evaluator.touches(scatter.names[i]) for i in group)
     ]
     rows = ROWS_OF_PART if target.kind == "part" else ROWS
     design = make_design(n, len(scatter.sources), groups, seed, rows)
     return Study(target, design, costly=costly), tuple(warnings)
-
-
-def target_of(
-    target: Any,
-    *,
-    scatter: Mapping[str, Any] | None = None,
-    outputs: Sequence[str] | None = None,
-    reached: str = "below",
-    at: Mapping[str, object] | None = None,
-) -> Target:
-    """Return a part, a scene or a function as a target; ParameterError if nothing scatters."""
-    if callable(target):
-        if at:
-            raise ParameterError("at: is of a part's inputs; give a function its defaults")
-        return function_target(target, scatter, outputs)
-    if isinstance(target, str | Path):
-        target = part_or_scene(str(target))
-    if isinstance(target, PartFile):
-        from .part_target import part_target
-
-        inputs = inputs_of(target, at or {})
-        drawn = target.scattered(scatter, inputs)
-        _refuse_nothing(drawn, "part file", 'load = "5 %"')
-        of_part: Target = part_target(target, drawn, inputs, reached, outputs)
-        return of_part
-    if at:
-        raise ParameterError("at: is of a part's inputs; a scene has its own")
-    from ...shift.scene.places import scene_scatter
-    from .scene_target import scene_target
-
-    drawn = scene_scatter(target, scatter)
-    _refuse_nothing(drawn, "scene", 'oil_temperature = "3 K"')
-    of_scene: Target = scene_target(target, drawn, outputs)
-    return of_scene
-
-
-def inputs_of(part: PartFile, at: Mapping[str, object]) -> dict[str, float]:
-    """Return the values [SI] of the model's inputs: those given, others at box or default."""
-    known = {n: p for n, p in places(part.spec).items() if p.is_input}
-    given = {name: float(find_place(name, known, part.spec).check(x)) for name, x in at.items()}
-    return find_model(part.spec.key).place(point_of(part, given).values)
-
-
-def _refuse_nothing(scatter: Scatter, what: str, example: str) -> None:
-    if not scatter.sources:
-        raise ParameterError(
-            f"nothing scatters: add [scatter] to the {what}, such as {example}; in Python "
-            "scatter = {name: law, ...}" + "".join(f" ({text})" for text in scatter.warnings)
-        )
-
-
-def part_or_scene(name: str) -> Any:
-    """Return the part or scene of a name or a file; ParameterError if there is none."""
-    parts = [*models_with_points(), *scene_parts()]
-    if name in parts or (name.endswith(".toml") and holds_part(name)):
-        return find_part(name)
-    from ...shift import builtin_scenes, load_scene
-
-    if name.endswith(".toml") or name in builtin_scenes():
-        return load_scene(name)
-    known = [*parts, *builtin_scenes()]
-    hint = suggestion(name, known, "; did you mean {!r}?")
-    raise ParameterError(
-        f"target = {name!r}, allowed: a file (.toml) of a part or a scene, {', '.join(known)}{hint}"
-    )
 
 
 def _folder(out: str | Path) -> Path:

@@ -6,12 +6,10 @@ from typing import Any
 import numpy as np
 
 from ...errors import ParameterError, suggestion
-from ...model.scatter import Place, Scatter
-from ...shift.key_figures.figure_list import current
+from ...model.quantity import Quantity
 from ...shift.scene.places import scene_places
 from ...shift.scene.scene import Scene
-from .scene_target import SceneTarget, scene_target
-from .target import Array
+from ..evaluators.scene import scene_evaluator
 
 FIGURES = ("lock_time", "slip_energy", "peak_jerk")
 STEP = 1e-3  # of a value
@@ -42,9 +40,9 @@ def scene_sensitivities(
     ParameterError : there is no such figure or number, one is 0, or the scene has a sequence
     SolveError : the scene cannot be run
     """
-    target, places = scene_target(scene, Scatter()), scene_places(scene)
-    known = [f.name for f in target.figures]
-    figures = [n for n in FIGURES if n in known] if figures is None else [*map(current, figures)]
+    evaluator, places = scene_evaluator(scene), scene_places(scene)
+    known = [n for n, f in evaluator.figures.items() if f.kind == "real"]
+    figures = [n for n in FIGURES if n in known] if figures is None else list(figures)
     for name in figures:
         if name not in known:
             hint = suggestion(name, known, "; did you mean {}?")
@@ -52,9 +50,8 @@ def scene_sensitivities(
     chosen = _usual(places) if paths is None else {path: _place(path, places) for path in paths}
     ends = {path: _ends(place) for path, place in chosen.items()}
     rows: list[dict[str, Any]] = [{p: x} for p, xs in ends.items() for x in xs]
-    columns = [known.index(name) for name in figures]
-    found = _solved(target, rows, figures)[:, columns].reshape(len(chosen), 4, -1)
-    at = target.nominal()[columns]
+    found = evaluator.evaluate(rows, figures).values.reshape(len(chosen), 4, -1)
+    at = evaluator.nominal(figures, ()).values[0]
     slopes: Slopes = {name: {} for name in figures}
     for (path, xs), own in zip(ends.items(), found, strict=True):
         wide, narrow = ((own[k + 1] - own[k]) / (xs[k + 1] - xs[k]) for k in (0, 2))
@@ -67,12 +64,7 @@ def scene_sensitivities(
     return slopes
 
 
-def _solved(target: SceneTarget, rows: list[dict[str, Any]], figures: Sequence[str]) -> Array:
-    costly = any(name in target.costly for name in figures)
-    return target.solve(rows, np.full(len(rows), costly))[0]
-
-
-def _usual(places: Mapping[str, Place]) -> dict[str, Place]:
+def _usual(places: Mapping[str, Quantity]) -> dict[str, Quantity]:
     return {
         path: place
         for path, place in places.items()
@@ -80,11 +72,11 @@ def _usual(places: Mapping[str, Place]) -> dict[str, Place]:
     }
 
 
-def _moves(place: Place) -> bool:
+def _moves(place: Quantity) -> bool:
     return not place.choices and place.nominal != 0.0
 
 
-def _place(path: str, places: Mapping[str, Place]) -> Place:
+def _place(path: str, places: Mapping[str, Quantity]) -> Quantity:
     if path not in places or places[path].choices:
         hint = suggestion(path, places, "; did you mean {}?")
         raise ParameterError(f"{path}: is no real number of the scene{hint}")
@@ -93,7 +85,7 @@ def _place(path: str, places: Mapping[str, Place]) -> Place:
     return places[path]
 
 
-def _ends(place: Place) -> tuple[float, ...]:
+def _ends(place: Quantity) -> tuple[float, ...]:
     """Return values on both sides, far and near; inside the range."""
     x, step = float(place.nominal), STEP * abs(float(place.nominal))
     every = (x - step, x + step, x - 0.5 * step, x + 0.5 * step)

@@ -11,10 +11,11 @@ from ...errors import ParameterError
 from ...native.files import to_stderr
 from ...numerics.jit import kernel_digest
 from ...storage.journal import Journal
+from ..evaluators.evaluator import Array, Codes
 from ..jobs.rows import Rows
 from ..jobs.runner import Progress, Runner, Work
 from .design import Design
-from .target import Array, Flags, Target, n_columns
+from .target import Target
 
 MOST_NUMBERS = 500_000_000  # 4 GB
 
@@ -32,7 +33,7 @@ class Study:
 
     def __init__(self, target: Target, design: Design, *, costly: bool) -> None:
         self.target, self.design, self.costly = target, design, costly
-        numbers = design.n_rows * n_columns(target)
+        numbers = design.n_rows * target.n_columns
         if numbers > MOST_NUMBERS:
             raise ParameterError(
                 f"runs = {design.n}: {numbers * 8e-9:.0f} GB of results, allowed: "
@@ -56,7 +57,7 @@ class Study:
         workers: int | None = None,
         cluster: Any = None,
         progress: Progress | None = None,
-    ) -> tuple[Array, Flags]:
+    ) -> tuple[Array, Codes]:
         """Return what all runs give (n_rows, m) and their codes (n_rows,).
 
         They do not depend on the workers, nor on a stop in between: a batch is solved as a whole.
@@ -64,7 +65,7 @@ class Study:
         n_rows = self.design.n_rows
         rows = Rows(
             n=n_rows,
-            numbers=np.full((n_rows, n_columns(self.target)), np.nan),
+            numbers=np.full((n_rows, self.target.n_columns), np.nan),
             flags=np.zeros((n_rows, 1), np.int32),
             journal=journal,
             progress=progress,
@@ -113,7 +114,7 @@ def _sendable(target: Target, workers: int | None, *, needed: bool) -> int | Non
     return workers
 
 
-def _solve(target: Target, batch: Batch) -> tuple[Array, Flags]:
+def _solve(target: Target, batch: Batch) -> tuple[Array, Codes]:
     """Return what the runs of a batch give (n, m), NaN where they failed, and codes (n, 1)."""
     numbers, codes = target.solve(target.scatter.values(batch.uniforms), batch.costly)
     codes = np.asarray(codes, np.int32)[:, np.newaxis]

@@ -3,9 +3,8 @@
 ===============  =================================================================================
 ``axes``         What is varied: texts such as ``50:1850:50`` into values
 ``run_sweep``    A whole sweep, from what is varied to its table
-``solve_rows``   Solves lines; runs in the workers
+``run_plan``     The rows of a sweep of engagements, shifts or a function
 ``sweep_plan``   The rows in their order, cut into lines that are solved one point after the other
 ``sweep_table``  The rows as columns, as CSV or Parquet
-``row_doubts``   Rows of a sweep whose outputs are beyond what a part bears: counted by pieces
 ===============  =================================================================================
 """

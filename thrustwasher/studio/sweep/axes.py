@@ -2,13 +2,14 @@
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ...errors import ParameterError
+from ...errors import ParameterError, suggestion
+from ...model.quantity import Quantity
 from ...model.spec import ModelSpec
-from ...settings import Place, find_place
+from ...settings import find_place
 from ...units import parse_quantity
 
 MOST_POINTS = 4_000_000
@@ -18,12 +19,15 @@ MOST_POINTS = 4_000_000
 class Axis:
     """One thing that is varied, with its values in the order of the sweep."""
 
-    place: Place
+    place: Quantity
     values: tuple[Any, ...]
 
 
 def read_axis(
-    name: str, values: str | Iterable[object], known: dict[str, Place], spec: ModelSpec
+    name: str,
+    values: str | Iterable[object],
+    known: Mapping[str, Quantity],
+    spec: ModelSpec | None = None,
 ) -> Axis:
     """Return the axis that a name ("load", or "load [kN]" for bare numbers) and values make.
 
@@ -34,7 +38,7 @@ def read_axis(
         raise ParameterError(
             f"{name!r}: allowed: the name of an input or parameter, or NAME [UNIT]"
         )
-    place = find_place(match[1].replace("-", "_"), known, spec)
+    place = find_quantity(match[1].replace("-", "_"), known, spec)
     if isinstance(values, str):
         found = parse_values(values, place, (match[2] or "").strip())
     else:
@@ -45,7 +49,17 @@ def read_axis(
     return Axis(place, tuple(found))
 
 
-def parse_values(text: str, place: Place, written: str = "") -> list[Any]:
+def find_quantity(name: str, known: Mapping[str, Quantity], spec: ModelSpec | None) -> Quantity:
+    """Return the quantity of that name; ParameterError with the nearest names if there is none."""
+    if spec is not None:
+        return find_place(name, dict(known), spec)
+    if name not in known:
+        hint = suggestion(name, known, "; did you mean {}?")
+        raise ParameterError(f"{name}: there is no such parameter, input or path{hint}")
+    return known[name]
+
+
+def parse_values(text: str, place: Quantity, written: str = "") -> list[Any]:
     """Return the values of a text: single ones and ranges, separated by commas.
 
     ``start:stop:step`` goes on as long as it is not past ``stop``; ``start:stop:n40`` has 40 values
@@ -78,7 +92,7 @@ def _with_unit(item: str, written: str) -> str:
     return f"{item} {written}" if written and bare else item
 
 
-def _range(item: str, place: Place, written: str) -> list[Any]:
+def _range(item: str, place: Quantity, written: str) -> list[Any]:
     """Return the values of ``start:stop:step``, ``start:stop:n40`` or ``start:stop:x40``."""
     where = f"{place.name} = {item}"
     parts = [part.strip() for part in item.split(":")]

@@ -3,25 +3,33 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model.part_file import PartFile
+from ...errors import ParameterError
 from ...processes import refuse_import_by_worker
 from ...storage.journal import Journal
+from ..evaluators.evaluator import Evaluator
+from ..evaluators.evaluator import Rows as Points
+from ..evaluators.lines import check_level
+from ..evaluators.make import evaluator, is_at_points
 from ..jobs.rows import Rows
 from ..jobs.runner import Progress, Runner, Work, check_workers
-from .solve_rows import Task, check_level, output_signals, solve_task
+from .run_plan import RunPlan, make_run_plan
 from .sweep_plan import Plan, make_plan
 from .sweep_table import SweepTable, check_output, make_table, pieces, write_table
+
+if TYPE_CHECKING:
+    from ...model.part_file import PartFile
+    from ...shift.scene.scene import Scene
 
 TASK_POINTS = 4096
 
 
 def run_sweep(
-    model: str | PartFile,
+    model: "str | PartFile | Scene | Evaluator",
     over: Mapping[str, object] | None = None,
     *,
     at: Mapping[str, object] | None = None,
@@ -38,7 +46,8 @@ def run_sweep(
 
     Parameters
     ----------
-    model : "washer", "clutch" (slipping for ever) or "gearmesh", or a part (``load_part``)
+    model : "washer", "clutch" (slipping for ever) or "gearmesh", or a part (``load_part``); a scene
+        (``load_scene``) or its name: every point is a gear shift; ``engagements(part)``
     over : values by name of an input or parameter (``gearmesh`` takes ``power`` for ``load`` too):
         numbers, or a text such as "50:1850:50", "20:1850:x40", "24 degC, 80 degC"
     at : one value by name for what is held; the rest is at the model's defaults, moved into the
@@ -81,12 +90,9 @@ def run_sweep(
     refuse_import_by_worker()
     check_workers(workers, cluster)
     target = None if out is None else check_output(out)
-    plan = make_plan(model, over or {}, at or {}, points, params, fidelity)
-    if len(plan.params) == 1:
-        check_level(plan.spec, plan.fidelity, plan.params[0])
-    real, whole = output_signals(plan.spec)
+    plan = _plan(model, over or {}, at or {}, points, params, fidelity)
     n = plan.n_rows if keep or not target else 0
-    kept = np.full((n, len(real)), np.nan), np.zeros((n, len(whole)), np.int32)
+    kept = np.full((n, len(plan.figures)), np.nan), np.zeros((n, 1), np.int32)
     journal = Journal(journal_of(target), plan.identity) if target else None
     finished = False
     try:
@@ -97,7 +103,7 @@ def run_sweep(
             runner.run(_Lines(plan, rows).work())
         table = make_table(plan, *kept)
         if target and journal:
-            blocks = journal.blocks(len(real), len(whole))
+            blocks = journal.blocks(len(plan.figures), 1)
             counts, found = write_table(pieces(plan, blocks), target)
             table = table if n else replace(table, columns={}, counts=counts, beyond=found)
         finished = True
@@ -107,30 +113,68 @@ def run_sweep(
     return table
 
 
+def _plan(
+    model: Any,
+    over: Mapping[str, object],
+    at: Mapping[str, object],
+    points: Mapping[str, object] | None,
+    params: object,
+    fidelity: str | None,
+) -> Plan | RunPlan:
+    """Return what is evaluated, row by row."""
+    if is_at_points(model):
+        plan = make_plan(model, over, at, points, params, fidelity)
+        if len(plan.params) == 1:
+            check_level(plan.spec, plan.fidelity, plan.params[0])
+        return plan
+    if params is not None or fidelity is not None:
+        raise ParameterError(
+            "params, fidelity: allowed: of a part at points; others have their own"
+        )
+    found = model if hasattr(model, "evaluate") else evaluator(model)
+    return make_run_plan(found, over, at, points)
+
+
 def journal_of(out: Path) -> Path:
     """Return the journal that lies next to an output while its sweep is not done."""
     return out.with_name(out.name + ".journal")
+
+
+class Piece(NamedTuple):
+    """Some consecutive lines, complete with all that a worker needs to know next to the target."""
+
+    first_row: int
+    rows: Points
+
+
+def solve_piece(
+    evaluator: Evaluator, figures: tuple[str, ...], piece: Piece
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """Return the figures of the rows (n, m), NaN where one failed, and their codes (n, 1)."""
+    values, codes, _ = evaluator.evaluate(piece.rows, figures, "shown")
+    return values, codes[:, np.newaxis]
 
 
 @dataclass(frozen=True)
 class _Lines:
     """The lines of a plan, and which of their rows are done."""
 
-    plan: Plan
+    plan: Plan | RunPlan
     rows: Rows
 
-    def work(self) -> Work[Task, tuple[NDArray[np.float64], NDArray[np.int32]]]:
+    def work(self) -> Work[Piece, tuple[NDArray[np.float64], NDArray[np.int32]]]:
         """Return what is left to do."""
         return Work(
-            solve=solve_task,
-            open_jobs=self._tasks,
-            take=lambda task, found: self.rows.take(task.first_row, *found),
-            size=lambda task: len(task.inputs),
+            solve=solve_piece,
+            context=(self.plan.evaluator, self.plan.figures),
+            open_jobs=self._pieces,
+            take=lambda piece, found: self.rows.take(piece.first_row, *found),
+            size=lambda piece: len(piece.rows),
             left=lambda: self.rows.left,
-            most=len(self.plan.params_of),
+            most=len(self.plan.starts) - 1,
         )
 
-    def _tasks(self, n: int) -> Iterator[Task]:
+    def _pieces(self, n: int) -> Iterator[Piece]:
         """Give the lines that are not done, some at a time: enough work to be worth the way."""
         plan = self.plan
         size = min(TASK_POINTS, max(1, plan.n_rows // (32 * n)))
@@ -140,16 +184,14 @@ class _Lines:
         for line in open_lines:
             begins = starts[group[0]] if group else 0
             if group and (line != group[-1] + 1 or starts[line + 1] - begins > size):
-                yield self._task(group[0], group[-1] + 1)
+                yield self._piece(group[0], group[-1] + 1)
                 group = []
             group.append(line)
         if group:
-            yield self._task(group[0], group[-1] + 1)
+            yield self._piece(group[0], group[-1] + 1)
 
-    def _task(self, a: int, b: int) -> Task:
-        """Return the task of lines ``a .. b - 1``."""
-        plan = self.plan
-        starts = plan.starts[a : b + 1]
-        lines, rows = tuple((starts - starts[0]).tolist()), plan.inputs[starts[0] : starts[-1]]
-        params = tuple(plan.params[i] for i in plan.params_of[a:b])
-        return Task(plan.spec.key, plan.fidelity, int(starts[0]), rows, lines, params)
+    def _piece(self, a: int, b: int) -> Piece:
+        """Return the piece of lines ``a .. b - 1``."""
+        rows = self.plan.rows
+        assert rows is not None
+        return Piece(int(self.plan.starts[a]), rows.lines(a, b))

@@ -2,7 +2,7 @@
 
 import hashlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any
 
 import numpy as np
@@ -18,10 +18,14 @@ from ...model.oil import oil_doubts
 from ...model.parameters import params_of
 from ...model.part_file import PartFile, find_part
 from ...model.point import from_box, taken_text
+from ...model.quantity import Quantity
 from ...model.registry import find_model, spec_of
 from ...model.spec import ModelSpec
-from ...settings import Place, find_place, places
-from .axes import MOST_POINTS, Axis, read_axis
+from ...settings import places
+from ..evaluators.evaluator import Rows
+from ..evaluators.lines import output_signals
+from ..evaluators.part import PartEvaluator
+from .axes import MOST_POINTS, Axis, find_quantity, read_axis
 
 Array = NDArray[np.float64]
 
@@ -45,11 +49,24 @@ class Plan:
     choice: str = ""  # why this level was chosen, if it was
     taken: str = ""  # the inputs that were not given, and where their values come from
     warnings: tuple[str, ...] = ()  # of points outside the part's box
+    evaluator: Any = None  # the part
+    rows: Rows | None = None  # what it evaluates
 
     @property
     def n_rows(self) -> int:
         """Number of points."""
         return len(self.inputs)
+
+    @property
+    def model(self) -> str:
+        """Key of the model."""
+        return self.spec.key
+
+    @property
+    def figures(self) -> tuple[str, ...]:
+        """What is asked of each row: outputs, real ones first, but the status."""
+        real, whole = output_signals(self.spec)
+        return tuple(s.name for s in (*real, *whole[:-1]))
 
 
 def make_plan(
@@ -69,15 +86,15 @@ def make_plan(
     asked = part.fidelity if fidelity is None else fidelity
     level, tolerance = chooser.level_and_tolerance(spec.key, spec, asked)
     base = params_of(spec, params)
-    held = _held(at, known, spec)
+    held = held_values(at, known, spec)
     axes = [read_axis(name, values, known, spec) for name, values in over.items()]
     if points is None:
-        rows, lines, order = _grid(axes)
+        rows, lines, order = grid(axes)
     else:
         if axes:
             raise ParameterError("points: allowed: without axes to vary; it names every point")
         points = {part.flat_name(name): values for name, values in points.items()}
-        rows, lines, order = _listed(points, known, spec)
+        rows, lines, order = listed(points, known, spec)
     given = [*held, *(a.place.name for a in axes), *(rows if points is not None else ())]
     twice = [name for name in given if given.count(name) > 1]
     if twice:
@@ -106,10 +123,14 @@ def _chosen(plan: Plan, tolerance: float) -> Plan:
         points=[dict(zip(names, row, strict=True)) for row in rows_to_compare(rows).tolist()],
     )
     identity = {**plan.identity, "fidelity": choice.fidelity}
-    return replace(plan, fidelity=choice.fidelity, choice=str(choice), identity=identity)
+    chosen = replace(plan.evaluator, fidelity=choice.fidelity)
+    more: dict[str, Any] = {"choice": str(choice), "identity": identity, "evaluator": chosen}
+    return replace(plan, fidelity=choice.fidelity, **more)
 
 
-def _held(at: Mapping[str, object], known: dict[str, Place], spec: ModelSpec) -> dict[str, Any]:
+def held_values(
+    at: Mapping[str, object], known: Mapping[str, Quantity], spec: ModelSpec | None = None
+) -> dict[str, Any]:
     """Return what is held at one value, by name."""
     found = {}
     for name, value in at.items():
@@ -120,7 +141,7 @@ def _held(at: Mapping[str, object], known: dict[str, Place], spec: ModelSpec) ->
     return found
 
 
-def _grid(axes: list[Axis]) -> tuple[dict[str, Any], NDArray[np.int64], list[str]]:
+def grid(axes: list[Axis]) -> tuple[dict[str, Any], NDArray[np.int64], list[str]]:
     """Return the columns of a full grid, the starts of its lines, the names, fastest first."""
     if not axes:
         raise ParameterError("over: nothing is varied, allowed: NAME=VALUES, e.g. load=50:1850:50")
@@ -140,15 +161,17 @@ def _grid(axes: list[Axis]) -> tuple[dict[str, Any], NDArray[np.int64], list[str
     return columns, np.arange(0, n + 1, long), [a.place.name for a in order]
 
 
-def _listed(
-    points: Mapping[str, Any], known: dict[str, Place], spec: ModelSpec
+def listed(
+    points: Mapping[str, Any],
+    known: Mapping[str, Quantity],
+    spec: ModelSpec | None = None,
 ) -> tuple[dict[str, Any], NDArray[np.int64], list[str]]:
     """Return the columns of given points; rows with the same number in ``line`` are one line."""
     columns: dict[str, Any] = {}
     for name, values in points.items():
         if name == "line":
             continue
-        place = find_place(name, known, spec)
+        place = find_quantity(name, known, spec)
         kind = float if place.kind == "real" else object
         columns[name] = np.array([_checked(place, i, v) for i, v in enumerate(values)], kind)
     lengths = {name: len(values) for name, values in points.items()}
@@ -167,7 +190,7 @@ def _listed(
     return columns, np.append(np.flatnonzero(first), n), list(columns)
 
 
-def _checked(place: Place, i: int, value: object) -> Any:
+def _checked(place: Quantity, i: int, value: object) -> Any:
     """Return one value of a column, or say at which point it is not allowed."""
     try:
         return place.check(value)
@@ -182,7 +205,7 @@ def _assemble(
     held: dict[str, Any],
     rows: dict[str, Any],
     starts: NDArray[np.int64],
-    order: list[Place],
+    order: list[Quantity],
 ) -> Plan:
     """Fill in what is not varied and give every line its parameters."""
     n, spec = int(starts[-1]), part.spec
@@ -223,7 +246,14 @@ def _assemble(
     )
     rows_and_lines = inputs, shown, units, starts, params, params_of
     taken = taken_text(box, default, spec.inputs)
-    plan = Plan(spec, level, *rows_and_lines, taken=taken, warnings=warnings)
+    own = replace(part, parameters={f.name: getattr(base, f.name) for f in fields(spec.params)})
+    evaluator = PartEvaluator(part=own, inputs=starts_at, reached="below", fidelity=level)
+    columns = {s.name: inputs[:, i] for i, s in enumerate(spec.inputs)}
+    columns |= {name: rows[name] for name in varied}
+    evaluated = Rows(columns=columns, starts=starts, held=fixed)
+    more: dict[str, Any] = {"taken": taken, "warnings": warnings}
+    more |= {"evaluator": evaluator, "rows": evaluated}
+    plan = Plan(spec, level, *rows_and_lines, **more)
     plan.identity.update(_identity(plan, base, fixed, varied))
     return plan
 
@@ -316,17 +346,17 @@ def _identity(
     plan: Plan, base: Any, fixed: dict[str, Any], varied: Iterable[str]
 ) -> dict[str, str]:
     """Return a digest of each thing that makes this sweep another one than the next."""
-    from ...native.digest import digest
+    from ...native.digest import digest as native_digest
     from ...numerics.jit import kernel_digest
 
     held = {k: v for k, v in {**asdict(base), **fixed}.items() if k not in set(varied)}
     parts: dict[str, Any] = {"model": plan.spec.key, "fidelity": plan.fidelity}
     parts |= {"parameters": repr(held), **plan.shown, "lines": plan.starts}
-    parts["version of thrustwasher"] = kernel_digest() + digest(plan.spec.kernel)
-    return {name: _digest(part) for name, part in parts.items()}
+    parts["version of thrustwasher"] = kernel_digest() + native_digest(plan.spec.kernel)
+    return {name: digest(part) for name, part in parts.items()}
 
 
-def _digest(part: Any) -> str:
+def digest(part: Any) -> str:
     """Return the digest of a text or of a column."""
     if not isinstance(part, str):
         part = repr(part.tolist()) if part.dtype == object else part.tobytes()

@@ -18,11 +18,13 @@ from ...model.spec import NAMED
 from ...shown import Card, Tabled, Words, column_lines, plain_dict
 from ...storage.journal import Block
 from ...storage.whole_files import whole_file
+from ..evaluators.limits import Beyond, beyond, beyond_ranges, joined
+from ..evaluators.lines import output_signals
 from ..jobs.cluster import INSTALL
-from .row_doubts import Beyond, beyond, joined
-from .solve_rows import output_signals
+from .run_plan import RunPlan
 from .sweep_plan import Plan
 
+ADVICE = {"peak_temperature": Status.HOT.advice}
 SUFFIXES = (".csv", ".parquet")
 CHUNK = 50_000  # rows made into text, or a group of Parquet, at a time
 
@@ -48,6 +50,8 @@ class SweepTable(Tabled):
     outside: tuple[str, ...] = ()
     beyond: tuple[Beyond, ...] = ()
     model: str = ""
+    results: tuple[str, ...] = ()
+    """Names of what was computed, where that is no model at points."""
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -60,6 +64,8 @@ class SweepTable(Tabled):
         }  # told with the worst
         advised = (
             f"{n} of {len(self)} points {name}: {Status[name].advice}"
+            if name in Status.__members__
+            else f"{n} of {len(self)} runs: {name}"
             for name, n in sorted(self.counts.items())
             if name not in known
         )
@@ -78,7 +84,8 @@ class SweepTable(Tabled):
 
     def outputs(self) -> list[str]:
         """Return the names of the model's outputs among the columns."""
-        known = {s.name for s in find_model(self.model).spec.outputs} if self.model else set()
+        found = find_model(self.model).spec.outputs if self.model else ()
+        known = {*self.results, *(s.name for s in found)}
         return [name for name in self.columns if name in known]
 
     def axes(self) -> list[str]:
@@ -104,15 +111,18 @@ class SweepTable(Tabled):
     @property
     def failures(self) -> dict[str, int]:
         """How many points failed with which status."""
-        failed = {s.name for s in Status if s.is_failure}
-        return {name: n for name, n in sorted(self.counts.items()) if name in failed}
+        sound = {s.name for s in Status if not s.is_failure}
+        return {name: n for name, n in sorted(self.counts.items()) if name not in sound}
 
 
 def make_table(
-    plan: Plan, numbers: NDArray[np.float64], flags: NDArray[np.int32], first: int = 0
+    plan: Plan | RunPlan, numbers: NDArray[np.float64], flags: NDArray[np.int32], first: int = 0
 ) -> SweepTable:
     """Return the table of outputs as ``solve_task`` gives them, of the plan's rows from one on."""
+    if isinstance(plan, RunPlan):
+        return _run_table(plan, numbers, flags, first)
     real, whole = output_signals(plan.spec)
+    numbers, flags = _parted(numbers, flags, len(real))
     rows = slice(first, first + len(flags))
     columns, units = {name: column[rows] for name, column in plan.shown.items()}, dict(plan.units)
     for i, signal in enumerate(real):
@@ -134,7 +144,39 @@ def make_table(
     return SweepTable(columns, units, plan.fidelity, plan.choice, counts, *more)
 
 
-def pieces(plan: Plan, blocks: Iterable[Block]) -> Iterator[SweepTable]:
+def _run_table(
+    plan: RunPlan, values: NDArray[np.float64], codes: NDArray[np.int32], first: int
+) -> SweepTable:
+    """Return the table of rows that stand alone."""
+    rows, known = slice(first, first + len(codes)), plan.evaluator.figures
+    columns = {name: column[rows] for name, column in plan.shown.items()}
+    units = dict(plan.units)
+    for i, name in enumerate(plan.figures):
+        columns[name], units[name] = values[:, i], known[name].unit
+    words = {code: plan.status(code) for code in set(codes[:, 0].tolist())}
+    status = [words[code] for code in codes[:, 0].tolist()]
+    columns["status"] = np.array(status, object)
+    numbers = {name: f for name, f in known.items() if f.kind == "real"}
+    bounded = plan.evaluator.kind == "engagement"  # of a shift the ranges are what is usual
+    found = tuple(beyond_ranges(numbers, columns, ADVICE)) if bounded else ()
+    more: dict[str, Any] = {
+        "beyond": found,
+        "outside": plan.warnings,
+        "results": plan.figures,
+        "taken": plan.taken,
+    }
+    return SweepTable(columns, units, counts=Counter(status), **more)
+
+
+def _parted(
+    values: NDArray[np.float64], codes: NDArray[np.int32], n_real: int
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """Return real outputs, and whole numbers with the status last; 0 where a row failed."""
+    whole = np.nan_to_num(values[:, n_real:]).astype(np.int32)
+    return values[:, :n_real], np.hstack((whole, codes))
+
+
+def pieces(plan: Plan | RunPlan, blocks: Iterable[Block]) -> Iterator[SweepTable]:
     """Yield the table of consecutive blocks of rows in pieces."""
     waiting: list[Block] = []
     for block in blocks:
@@ -215,7 +257,7 @@ def _batch(table: SweepTable) -> Any:
     """Return a table of pyarrow with units in the columns' metadata; failed numbers are null."""
     pa, _ = _pyarrow()
     fields, arrays = [], []
-    bad = np.isin(table["status"], [s.name for s in Status if s.is_failure])
+    bad = np.isin(table["status"], list(table.failures))
     for title, column in table.columns.items():
         if column.dtype == object:
             array = pa.array(column.tolist())

@@ -6,10 +6,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ....model.toml_tables import table_beside
 from ....shift.account.shift_record import Record
 from ....shift.account.worst_moments import Find, of_meshes
-from ....shift.key_figures.figure_list import FILM_SPEED
+from ....shift.key_figures.figure_list import FILM_SPEED, usual_rows
 from ..html import Table
 from ..palette import CELSIUS
 from ..scatter.words import BAND, HIGH, LOW, outside_words, padded, varies
@@ -61,7 +60,7 @@ class Usual(NamedTuple):
 @cache
 def ranges() -> dict[str, Usual]:
     """Return what is usual, by the name of the figure."""
-    return {name: Usual(*row) for name, row in table_beside(__file__, "usual.toml").items()}
+    return {name: Usual(*row) for name, row in usual_rows().items()}
 
 
 def _rise(r: Record) -> float | None:

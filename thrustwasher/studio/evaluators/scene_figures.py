@@ -5,14 +5,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ...model.quantity import Figure
 from ...shift.key_figures.events_and_phases import Signals, find_events, turning
-from ...shift.key_figures.figure_list import FIGURES
+from ...shift.key_figures.figure_list import FIGURES, usual_rows
 from ...shift.key_figures.key_figures import key_figures
 from ...shift.scene.connections import DIRECT, MESHES
 from ...shift.scene.scene import Part, Scene
 from ...shift.shift_result import ShiftResult
-from ..report.shift.usual import ranges
-from .target import Array, Figure
+from .evaluator import Array
 
 WASHER_SERIES = ("washer.friction_torque", "washer.film_ratio")
 SERIES = (
@@ -41,14 +41,14 @@ UNSAFE, NO_LOCK, LOST = "_safety_below_1", "no_lock_up", "film_lost"
 
 def figures_of(nominal: ShiftResult) -> tuple[Figure, ...]:
     """Return the figures that the nominal run has; a swing of the shaft is not looked for."""
-    pack, usual, found = nominal.scene.engaging, ranges(), []
+    pack, usual, found = nominal.scene.engaging, usual_rows(), []
     for f in nominal.key_figures:
         if f.value is None or f.name.startswith("judder_"):
             continue
         key = USUAL.get(f.name, f.name)
         known = usual.get(key) or usual.get(key.replace(f"_{pack}_", "_{pack}_"))
-        low, high = known.range if known else (-math.inf, math.inf)
-        scale = known.scale if known else 1.0
+        low, high = known[1] if known else (-math.inf, math.inf)
+        scale = known[4] if known and len(known) > 4 else 1.0
         found.append(Figure(f.name, f.unit, f.text, low * scale, high * scale, f.difference))
     for name, (signal, words, unit) in AT_START.items():
         if signal in nominal.signals:

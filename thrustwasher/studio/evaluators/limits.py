@@ -10,6 +10,7 @@ import numpy as np
 
 from ...errors import Status
 from ...model.advice import quantity_text
+from ...model.quantity import Figure
 from ...model.registry import find_model
 from ...model.spec import ModelSpec, Signal
 
@@ -17,7 +18,7 @@ from ...model.spec import ModelSpec, Signal
 class Beyond(NamedTuple):
     """How many rows have an output beyond its bound, and what the worst of them says."""
 
-    signal: Signal
+    signal: Signal | Figure
     sign: float  # 1: the bound is an upper one, -1: a lower one
     advice: str
     rows: int
@@ -38,6 +39,25 @@ def beyond(spec: ModelSpec, columns: Mapping[str, Any]) -> list[Beyond]:
         if rows.any():
             worst = sign * float(np.max(sign * values[rows]))
             found.append(Beyond(s, sign, advice, int(rows.sum()), worst))
+    return found
+
+
+def beyond_ranges(
+    figures: Mapping[str, Figure], columns: Mapping[str, Any], advice: Mapping[str, str]
+) -> list[Beyond]:
+    """Return the figures that are outside their range in some rows.
+
+    ``advice``: by name, what is to be done; of others that they are usual up to there.
+    """
+    found = []
+    for name, f in figures.items():
+        for sign, bound in ((1.0, f.high), (-1.0, f.low)):
+            rows = sign * columns[name] > sign * bound if np.isfinite(bound) else np.zeros(0, bool)
+            if rows.any():
+                worst = sign * float(np.max(sign * columns[name][rows]))
+                most = quantity_text(f, bound).partition(" = ")[2]
+                text = f"{'more' if sign > 0.0 else 'less'} than {most}"
+                found.append(Beyond(f, sign, advice.get(name, text), int(rows.sum()), worst))
     return found
 
 

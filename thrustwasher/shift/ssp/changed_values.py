@@ -9,8 +9,8 @@ from dataclasses import fields, replace
 from typing import Any
 
 from ...errors import ParameterError, suggestion
+from ...model.quantity import of_field
 from ...model.unread import unread
-from ...settings import Place
 from ..scene.connections import SOURCE, SOURCE_SPEC
 from ..scene.scene import Part, Scene
 from .system_structure import BORDER, shown_as
@@ -72,8 +72,8 @@ def _paths(part: str, name: str) -> list[str]:
 
 
 def _value(path: str, params: Any, name: str, text: str) -> Any:
-    about = next(f.metadata for f in fields(params) if f.name == name)
-    return Place(path, False, about).check(text)
+    about = next(f for f in fields(params) if f.name == name)
+    return of_field(path, about.default, about.metadata).check(text)
 
 
 def _with_value(part: Part, path: str, name: str, text: str) -> Part:

@@ -244,6 +244,7 @@ def contents(shown: Interface, folder: Path, order: Order, *, reference: bool) -
         moving=native,
         compiled=compiled(in_c),
         plain_outputs=order.plain_outputs,
+        exchange=native,
     )
     try:
         results = reference_files(spec) if reference else {}

@@ -20,7 +20,7 @@ from ..digest import read
 from ..files import Note, to_stderr
 from ..shipped import digest_now, short
 from ..targets import WEB
-from .callbacks import ABI
+from .callbacks import abi
 from .objects import objects
 
 MODULE, SIZES = "module.c", "module.h"
@@ -62,7 +62,7 @@ def portable(kernel: str, header: str, note: Note = to_stderr) -> dict[str, byte
     EnvironmentProblem: wasm2c or zig is missing, or the module holds what the header does not.
     """
     found = importlib.import_module(kernel)
-    names = [symbol for name, (symbol, _) in ABI.items() if hasattr(found, name)]
+    names = [symbol for _, _, symbol, _ in abi(found)]
     text = _by_wasm2c(_linked(kernel, names, STACK, note), short(kernel))
     needed = stack_of(text, names)
     if needed > STACK:

@@ -143,8 +143,11 @@ def put(work: Array, at: int, sign: float, drag: tuple[float, float, float], ste
 
 
 @kernel
-def resist(par: Array, inp: Array, work: Array) -> None:
-    """Fill ``work`` with the torques at these inputs and their slopes."""
+def resist(par: Array, inp: Array, work: Array, sizes: bool) -> None:
+    """Fill ``work`` with the torques at these inputs and their slopes; ``sizes``: with their sizes.
+
+    A size does not pass through zero with the speed.
+    """
     clear(work)
     oil, force, smooth = inp[I_OIL], inp[I_FORCE], par[P_SPEED_SMOOTHING]
     nu, nu_slope = oil_viscosity(par, oil)
@@ -153,6 +156,8 @@ def resist(par: Array, inp: Array, work: Array) -> None:
         turning = math.sqrt(speed * speed + smooth * smooth)
         more, sign = speed / turning, math.tanh(speed / smooth)
         steep, starving = (1.0 - sign) * (1.0 + sign) / smooth, par[np.uintp(D_STARVING + i)]
+        if sizes:
+            sign, steep = 1.0, 0.0
         if i == PLANET:
             load = 2.0 * soft_size(force, LIGHT)
             n, diameter = par[P_PLANET_BEARING_COUNT], par[P_PLANET_BEARING_DIAMETER]
@@ -238,7 +243,7 @@ def step(
     if not (are_finite(inp) and oil > 0.0 and math.isfinite(dt) and dt >= 0.0):
         iout[SHAFTS] = BAD_INPUT
         return BAD_INPUT
-    resist(par, inp, work)
+    resist(par, inp, work, False)
     if are_finite(work):
         ease(par, inp, state, work, dt)
     clear(out)

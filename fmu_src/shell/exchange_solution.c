@@ -56,6 +56,13 @@ int solve_exchange(Instance *m) {
     memcpy(der, s->der, sizeof der);
     memcpy(sign, s->sign, sizeof sign);
     int rc = 0;
+    for (int i = 0; i < N_REQUIREMENTS; i++) {
+        const Requirement *r = &REQUIREMENTS[i];
+        if (s->par[r->slot] == r->value) continue;
+        s->latch = STATUS_BAD_INPUT;
+        return fail(m, "%s = %g is for co-simulation only; in model exchange allowed: %g", r->name,
+                    s->par[r->slot], r->value);
+    }
     if (s->mode == INITIALIZING) {
         rc = start(m);
         if (!is_failure(rc)) rc = update(m);

@@ -64,6 +64,13 @@ typedef struct {
     int32_t out;
 } ContinuousState;
 
+/* The value a parameter has to have in model exchange. */
+typedef struct {
+    int32_t slot;
+    double value;
+    const char *name;
+} Requirement;
+
 /* What lets a parameter be used, values of others: all that are required, and one of the rest. */
 typedef struct {
     double value;

@@ -44,7 +44,8 @@ class Variable:
     ``store`` and ``slot`` say where the number lives: "time", or element ``slot`` of the kernel
     arrays "par", "inp", "out", "iout"; for model exchange also of "own" (its parameters), "cont"
     (states), "der" (derivatives), "sign" (event indicators). ``depends`` names the inputs that act
-    on an output at once, ``states`` the continuous states that do; of a derivative likewise.
+    on an output at once, in model exchange with those in ``exchange_depends``, ``states`` the
+    continuous states that do; of a derivative likewise.
     """
 
     name: str
@@ -65,6 +66,7 @@ class Variable:
     depends: tuple[str, ...] = ()
     relative: bool = False
     states: tuple[str, ...] = ()
+    exchange_depends: tuple[str, ...] = ()
     derivative_of: str | None = None
 
     @property
@@ -243,7 +245,10 @@ def _entries(spec: ModelSpec) -> Iterator[tuple[str, dict[str, Any]]]:
     for signal in spec.outputs:
         store = "out" if signal.kind == "real" else "iout"
         own = {"causality": "output", "initial": "calculated", "depends": signal.depends}
-        own["states"] = spec.exchange.needs.get(signal.name, ()) if spec.exchange else ()
+        needs = spec.exchange.needs.get(signal.name, ()) if spec.exchange else ()
+        states = {s.name for s in spec.exchange.states} if spec.exchange else set()
+        own["states"] = tuple(n for n in needs if n in states)
+        own["exchange_depends"] = tuple(n for n in needs if n not in states)
         yield store, _signal(signal, **own)
     for signal in spec.inputs:
         if signal.late:

@@ -261,7 +261,9 @@ def structure(
 
 def _needs(shown: Interface, found: Sequence[Variable], *, states: bool = True) -> list[Any]:
     """Return pairs: variable, the inputs and, if wanted, the states that act on it at once."""
-    known = [(v, {*v.depends, *(v.states if states else ())}) for v in found]
+    known = [
+        (v, {*v.depends, *((*v.states, *v.exchange_depends) if states else ())}) for v in found
+    ]
     return [(v, [k for k in shown.everything if k.name in names]) for v, names in known]
 
 

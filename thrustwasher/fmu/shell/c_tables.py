@@ -140,6 +140,7 @@ def _lists(shown: Interface) -> dict[str, tuple[str, list[str]]]:
             [(n, len(items), _Code(f"ITEMS_{n}")) for n, items in shown.enumerations.items()],
         ),
         "CONTINUOUS_STATES": ("ContinuousState", [_state(v) for v in shown.continuous]),
+        "REQUIREMENTS": ("Requirement", _requirements(shown)),
         "CONDITIONS": ("Condition", _conditions(shown)),
         "STATUSES": ("StatusText", [(int(s), s.name, s.advice) for s in sorted(Status)]),
         "SWITCHES": ("Switch", [_switch(shown, slot, events) for slot, events in shown.switches]),
@@ -167,6 +168,11 @@ def _lists(shown: Interface) -> dict[str, tuple[str, list[str]]]:
     return {name: (kind, [_row(row) for row in rows]) for name, (kind, rows) in tables.items()}
 
 
+def _requirements(shown: Interface) -> list[list[Any]]:
+    needed = shown.spec.exchange.requires if shown.spec.exchange else {}
+    return [[v.slot, float(needed[v.name]), v.name] for v in shown.parameters if v.name in needed]
+
+
 def _state(v: Variable) -> list[Any]:
     return [v.name, _Code(float(v.nominal or 1.0).hex()), v.slot if v.store == "out" else -1]
 
@@ -175,7 +181,7 @@ def _variable(
     v: Variable, inputs: Sequence[str], states: Sequence[str], names: Sequence[str]
 ) -> list[Any]:
     kind, cause = f"TYPE_{v.type.upper()}", f"CAUSE_{v.causality.upper()}"
-    depends = sum(1 << inputs.index(name) for name in v.depends)
+    depends = sum(1 << inputs.index(name) for name in {*v.depends, *v.exchange_depends})
     codes = (kind, cause, f"STORE_{v.store.upper()}")
     return [
         v.name,

@@ -16,7 +16,7 @@ fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *eventInfo) {
     *eventInfo = nothing;
     if (update_discrete(m, &next)) return fmi2Error;
     eventInfo->nextEventTimeDefined = next < DBL_MAX;
-    if (next < DBL_MAX) eventInfo->nextEventTime = next;
+    eventInfo->nextEventTime = next; /* OpenModelica reads it in any case */
     return fmi2OK;
 }
 

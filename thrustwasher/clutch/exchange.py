@@ -50,6 +50,10 @@ EXCHANGE = Exchange(
     indicators=(
         "0.98 of the capacity, or 0.95 until the pack is held, below which a lock lasts",
         "the load below which the pack is open",
+        "film ratio 3, from film to mixed",
+        "film ratio 1, from mixed to boundary",
+        "the slip at which boundary friction becomes adhesion",
+        "the temperature from which the interface is hot",
     ),
     parameters=(
         *BRISTLE,

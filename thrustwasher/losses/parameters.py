@@ -161,6 +161,10 @@ EXCHANGE = Exchange(
         **{f"start({name}_bend)": acts for name, acts in _ACTS.items()},
         "der(oil_energy)": (*_ALL, "oil_temperature", *_BENDS),
     },
+    indicators=(
+        *(f"a change of the churning regime of the {name} gear" for name in SHAFTS),
+        "the temperatures between which the laws are meant",
+    ),
     parameters=BRISTLE,
 )
 _MORE = {

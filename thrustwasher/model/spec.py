@@ -125,10 +125,11 @@ class Exchange:
     """What a model has for model exchange, where a host's solver owns the continuous states.
 
     ``states`` are in the order of the kernels' array; one of the name of an output is that output.
-    ``needs``: output or derivative, ``der(x)``, to the states and inputs that act on it; ``start(x)``
-    to the inputs that a state starts from. ``indicators``: what is so where each passes zero. ``parameters`` are those that only model exchange reads. ``steps``: the
-    kernels have to hear of every step that the solver has completed. ``requires``: the value that
-    a parameter has to have, where another one is for co-simulation only.
+    ``needs``: output or derivative, ``der(x)``, to the states and inputs that act on it;
+    ``start(x)`` to the inputs that a state starts from. ``indicators``: what is so where each
+    passes zero. ``parameters`` are those that only model exchange reads. ``steps``: the kernels
+    have to hear of every step that the solver has completed. ``requires``: the value that a
+    parameter has to have, where another one is for co-simulation only.
     """
 
     kernel: str  # dotted name of the module with start(), rates(), update() and slopes()

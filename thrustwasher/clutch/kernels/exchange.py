@@ -37,7 +37,8 @@ A_ANGLE, A_DAMPING, A_SPEED, A_LARGEST, NOWN = range(5)
 # What is discrete: time of the next event [s], largest capacity [N m], oil at the start [K], 1 if
 # the pack is locked, since when it might be [s].
 D_NEXT, D_LARGEST, D_FIRST, D_LOCKED, D_SINCE, NMODE = range(6)
-Z_LOCKED, Z_OPEN, NSIGN = range(3)
+Z_LOCKED, Z_OPEN, Z_MIXED, Z_BOUNDARY, Z_ADHESIVE, Z_HOT, NSIGN = range(7)
+MIXED_FROM, BOUNDARY_FROM = 3.0, 1.0  # film ratios of the regimes
 NEVER = 1.7976931348623157e308
 USUAL_PRESSURE, USUAL_FRICTION = 1e6, 0.12  # Pa, -: of the largest capacity
 BASIS_GIVEN = 2  # of a lock: the plant is the host's
@@ -158,6 +159,10 @@ def rates(
     might = discrete[D_LOCKED] != 0.0 or discrete[D_SINCE] != NEVER
     sign[Z_LOCKED] = margin(b, dry, bend, FREE if might else HELD)
     sign[Z_OPEN] = inp[L.I_LOAD] / (L.OPEN_PRESSURE * par[L.D_AREA]) - 1.0
+    _, hottest = mean_surface(par, work)
+    sign[Z_MIXED], sign[Z_BOUNDARY] = out[L.O_RATIO] - MIXED_FROM, out[L.O_RATIO] - BOUNDARY_FROM
+    sign[Z_ADHESIVE] = abs(slip) * par[L.D_RADIUS] - par[L.P_STICK_SPEED]
+    sign[Z_HOT] = (hottest - L.HOT_LIMIT) / L.HOT_LIMIT
     return OK if are_finite(out) and are_finite(der) else NOT_FINITE
 
 

@@ -18,8 +18,12 @@ from ...tribology.bristle import (
     bristle_slopes,
     first_bend,
 )
+from .loss_laws import CRITICAL_RE, GAMMA, GAMMA_WIDTH
 from .step import (
+    A_IMMERSION,
     COLDEST,
+    D_AREA,
+    D_CUBE,
     HOTTEST,
     I_FORCE,
     I_OIL,
@@ -30,7 +34,9 @@ from .step import (
     O_PUMP,
     O_SEAL,
     P_PLANETS,
+    P_SHAFT,
     PLANET,
+    ROW,
     SHAFTS,
     SOURCES,
     SPEEDS,
@@ -39,6 +45,7 @@ from .step import (
     W_BY_SPEED,
     W_TORQUE,
     classed,
+    oil_viscosity,
     resist,
 )
 from .step import NINP as NINP
@@ -51,7 +58,7 @@ X_ENERGY, NCONT = SPEEDS, SPEEDS + 1  # behind the bendings
 A_ANGLE, A_DAMPING, A_SPEED, NOWN = range(4)
 # behind the time of the next event: the largest capacity of each speed [N m], inputs it is of
 D_LARGEST, D_USUAL = 1, 1 + SPEEDS
-NMODE, NSIGN = D_USUAL + NINP, 1
+NMODE, NSIGN = D_USUAL + NINP, SHAFTS + 1
 NEVER = 1.7976931348623157e308  # s, the time of an event that does not come
 USUAL_SPEED, USUAL_FORCE, USUAL_OIL = 100.0, 2000.0, 313.15  # rad/s, N, K: of the largest capacity
 LEAST = 1e-3  # N m, the least that counts as largest
@@ -136,8 +143,22 @@ def rates(
             out[np.uintp(O_BEARING + k)] += heat * share_of(work, i, k, capacity)
     out[O_HEAT] = out[O_BEARING] + out[O_CHURNING] + out[O_PUMP] + out[O_SEAL]
     out[O_ENERGY], der[X_ENERGY] = cont[X_ENERGY], out[O_HEAT]
-    sign[0] = 1.0
+    nu, _ = oil_viscosity(par, inp[I_OIL])
+    for i in range(SHAFTS):
+        sign[np.uintp(i)] = regime_sign(par, inp[np.uintp(i)], nu, i)
+    sign[SHAFTS] = (inp[I_OIL] - COLDEST) * (HOTTEST - inp[I_OIL]) / (HOTTEST - COLDEST) ** 2
     return OK if are_finite(out) and are_finite(der) else NOT_FINITE
+
+
+@kernel
+def regime_sign(par: Array, speed: float, nu: float, i: int) -> float:
+    """Return a number that passes zero where the gear of a shaft gets into another regime."""
+    if par[np.uintp(P_SHAFT + i * ROW + A_IMMERSION)] <= 0.0:
+        return 1.0
+    reynolds = abs(speed) * par[np.uintp(D_AREA + i)] / nu / CRITICAL_RE
+    gamma = speed * speed * par[np.uintp(D_CUBE + i)] / GAMMA
+    parts = (reynolds - 1.0) / (reynolds + 1.0) * (gamma - 1.0) / (gamma + 1.0)
+    return parts * (gamma - 1.0 - GAMMA_WIDTH / GAMMA) / (gamma + 1.0)
 
 
 @kernel

@@ -178,6 +178,26 @@ def test_states_that_are_no_numbers_ask_for_a_shorter_step(key):
 
 
 @each_unit
+def test_the_order_of_calls_of_openmodelica_works(key):
+    """Time of a new instance, no experiment, states in event mode, one pass, a time that is none."""
+    with unit(key) as u:
+        f = u.fmu
+        f.setTime(0.5)
+        f.enterInitializationMode()
+        f.exitInitializationMode()
+        x = u.x()
+        f.setTime(0.5)
+        u.put(x)
+        assert len(u.z()) == u.description.numberOfEventIndicators
+        f.enterEventMode()
+        *_, defined, next_time = f.newDiscreteStates()
+        assert defined or next_time > 1e300
+        f.enterContinuousTimeMode()
+        assert np.isfinite(u.dx()).all()
+        f.completedIntegratorStep()
+
+
+@each_unit
 def test_times_beyond_the_end_and_beyond_events_are_answered(key):
     with unit(key) as u:
         u.start(**at_work(key))

@@ -2,6 +2,7 @@
 
 ========================  ========================================================================
 ``asperities``            elasto-plastic asperities: the force of one, the pressure of many
+``bristle``               friction at rest and in sliding by one state, for model exchange
 ``flow_factors``          rough surfaces: mean gap, flow, shear flow factor, squeezing
 ``greenwood_tripp``       contact of a rough lining: Greenwood & Tripp's integrals
 ``greenwood_williamson``  real contact area of rough surfaces: F_1 and the area ratio

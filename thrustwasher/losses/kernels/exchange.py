@@ -1,3 +1,4 @@
+# mypy: disable-error-code="no-any-return"
 """The driveline losses for model exchange: on each shaft a bristle, whose capacity are its losses.
 
 ``speed_smoothing`` has no part in where torques pass through zero: that is the bristle's.

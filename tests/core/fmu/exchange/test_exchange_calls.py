@@ -179,7 +179,7 @@ def test_states_that_are_no_numbers_ask_for_a_shorter_step(key):
 
 @each_unit
 def test_the_order_of_calls_of_openmodelica_works(key):
-    """Time of a new instance, no experiment, states in event mode, one pass, a time that is none."""
+    """Time of a new instance, no experiment, states in event mode, one pass, no next time."""
     with unit(key) as u:
         f = u.fmu
         f.setTime(0.5)

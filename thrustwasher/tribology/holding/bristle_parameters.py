@@ -1,6 +1,6 @@
-"""What models share that rest on bristles in model exchange: parameters, states."""
+"""Parameters and states of the bristles by which units rest in model exchange."""
 
-from .spec import Signal
+from ...model.spec import Signal
 
 ANGLE = 3.490658503988659e-4  # rad, 0.02 degree
 

@@ -78,6 +78,8 @@ def exchanged(u, plant, end, tolerance=1e-6, method="Radau"):
         steps, t, y = steps + len(run.t) - 1, float(run.t[-1]), run.y[:, -1]
         times += run.t[1:].tolist()
         slips += (run.y[0] - run.y[1])[1:].tolist()
+        if run.status == 1:
+            t, y = beyond(rates, u, t, y)
         rates(t, y)
         before = u.get("locked")
         u.event(t)
@@ -94,6 +96,19 @@ def exchanged(u, plant, end, tolerance=1e-6, method="Radau"):
         "events": events,
         "locks": locks,
     }
+
+
+def beyond(rates, u, t, y):
+    """Return the time and the values just behind an event, as hosts leave their root finders."""
+    slope, h = rates(t, y), 1e-12
+    rates(t - 1e-7, y - 1e-7 * slope)
+    before = u.z() > 0.0
+    while h < 1e-6:
+        rates(t + h, y + h * slope)
+        if np.any((u.z() > 0.0) != before):
+            return t + h, y + h * slope
+        h *= 4.0
+    return t, y
 
 
 def stepped(u, plant, end, h=1e-4):

@@ -32,7 +32,7 @@ typedef struct {
 void *tw_memory(size_t size) {
     u8 *m = calloc(1, INSTANCE + size);
     if (!m) return NULL;
-    module_start(m);
+    module_open(m);
     return m + INSTANCE;
 }
 

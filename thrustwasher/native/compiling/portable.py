@@ -121,7 +121,7 @@ def translated(text: str, names: list[str], header: str) -> dict[str, bytes]:
         "",
         f"#define MODULE_SIZE {size}u /* bytes of memory */",
         "",
-        "void module_start(uint8_t *m);",
+        "void module_open(uint8_t *m);",
         *(re.sub(r"\bu(8|32|64)\b", r"uint\1_t", head).replace("f64", "double") for head in shown),
         "",
         "#endif",
@@ -129,7 +129,7 @@ def translated(text: str, names: list[str], header: str) -> dict[str, bytes]:
     ]
     start = [
         "/* Before anything else, in memory that is all 0. */",
-        "void module_start(u8 *m) {",
+        "void module_open(u8 *m) {",
         *copies,
         f"  STACK = {_number(text, r'instance->w2c_g0 = ([0-9]+)u;')}u;",
         "}",

@@ -17,6 +17,7 @@ Instance *instantiate_exchange(const Log *log, const char *guid, const char *res
     return m;
 }
 
+#if HAS_EXCHANGE
 static int not_finite(const Instance *m, const char *name, double value) {
     Text text = {0};
     add(&text, "%s = ", name);
@@ -82,3 +83,24 @@ int update_discrete(Instance *m, double *next) {
 
 /* Nothing is kept between steps: what is tried and rejected leaves no trace. */
 int complete_step(Instance *m) { return refresh(m) == GOOD ? GOOD : BAD; }
+#else
+int set_time(Instance *m, double t) { return (void)m, (void)t, BAD; }
+
+int set_continuous(Instance *m, int call, const double *states, size_t n) {
+    return (void)m, (void)call, (void)states, (void)n, BAD;
+}
+
+int get_exchanged(Instance *m, int call, const double *from, size_t there, double *to, size_t n) {
+    return (void)m, (void)call, (void)from, (void)there, (void)to, (void)n, BAD;
+}
+
+int get_nominals(Instance *m, int call, double *nominals, size_t n) {
+    return (void)m, (void)call, (void)nominals, (void)n, BAD;
+}
+
+int enter_event_mode(Instance *m) { return (void)m, BAD; }
+
+int update_discrete(Instance *m, double *next) { return (void)m, (void)next, BAD; }
+
+int complete_step(Instance *m) { return (void)m, BAD; }
+#endif

@@ -10,9 +10,6 @@ static int slopes(Instance *m) {
     Snap *s = &m->now;
     return tw_slopes(s->par, s->own, s->inp, s->cont, s->discrete, m->work, m->along, m->found);
 }
-#else
-static int slopes(Instance *m) { return (void)m, STATUS_BAD_INPUT; }
-#endif
 
 /* The place of an unknown in `found`, or -1. */
 static int unknown_of(const Variable *v) {
@@ -163,3 +160,12 @@ int exchange_adjoint(Instance *m, const Direction *d, double *sensitivity) {
     }
     return GOOD;
 }
+#else
+int exchange_directional(Instance *m, const Direction *d, double *sensitivity) {
+    return (void)m, (void)d, (void)sensitivity, BAD;
+}
+
+int exchange_adjoint(Instance *m, const Direction *d, double *sensitivity) {
+    return (void)m, (void)d, (void)sensitivity, BAD;
+}
+#endif

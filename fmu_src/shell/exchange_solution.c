@@ -20,11 +20,6 @@ static int update(Instance *m) {
     Snap *s = &m->now;
     return tw_update(GIVEN, s->solution.out, s->solution.iout, s->time);
 }
-#else
-static int start(Instance *m) { return (void)m, STATUS_BAD_INPUT; }
-static int rates(Instance *m) { return (void)m, STATUS_BAD_INPUT; }
-static int update(Instance *m) { return (void)m, STATUS_BAD_INPUT; }
-#endif
 
 static int is_failure(int rc) { return rc < 0 || rc >= FIRST_FAILURE; }
 
@@ -97,3 +92,8 @@ int update_exchange(Instance *m) {
     tell_failure(m, s->latch, s->time, 0.0);
     return BAD;
 }
+#else
+int solve_exchange(Instance *m) { return (void)m, BAD; }
+
+int update_exchange(Instance *m) { return (void)m, BAD; }
+#endif

@@ -140,3 +140,73 @@ def test_a_bristle_is_held_below_its_capacity_and_free_without_one():
     assert B.margin(ONE, 100.0, 0.97 * 100.0 / ONE.stiffness, B.HELD) < 0.0
     assert B.margin(ONE, 100.0, 0.97 * 100.0 / ONE.stiffness, B.FREE) > 0.0
     assert B.margin(ONE, 0.0, 0.0, B.FREE) < 0.0
+
+
+def beside(first, second, end, start=(60.0, 0.0), **more):
+    """Return a run of two bristles in parallel between two inertias, and both end torques."""
+    inertias, drive, load = (0.15, 1.0), 100.0, -20.0
+
+    def torques(t, y):
+        v = y[0] - y[1]
+        return [B.bristle(ONE, c(t), v, z) for c, z in zip((first, second), y[2:], strict=True)]
+
+    def rates(t, y):
+        (one, bend), (two, other) = torques(t, y)
+        both = one + two
+        return [(drive - both) / inertias[0], (load + both) / inertias[1], bend, other]
+
+    given = {"method": "LSODA", "rtol": 1e-7, "atol": [1e-6, 1e-6, 1e-11, 1e-11], **more}
+    run = solve_ivp(rates, (0.0, end), [*start, 0.0, 0.0], **given)
+    assert run.success
+    return run, [torque for torque, _ in torques(end, run.y[:, -1])]
+
+
+HELD = (100.0 / 0.15 + 20.0) / (1.0 / 0.15 + 1.0)
+
+
+def test_two_packs_in_parallel_share_the_torque_that_holds():
+    run, torques = beside(lambda t: 150.0, lambda t: 100.0, 1.0)
+    assert sum(torques) == pytest.approx(HELD, rel=1e-4)
+    assert abs(run.y[0, -1] - run.y[1, -1]) < 1e-4
+    assert 0.0 < torques[1] <= 100.0 and 0.0 < torques[0] <= 150.0
+
+
+def test_a_pack_hands_over_to_another_at_rest():
+    """The first lets go while the second takes hold: nothing slips but what the bristles bend."""
+    run, torques = beside(
+        lambda t: 200.0 * min(1.0, max(0.0, (1.0 - t) / 0.5)),
+        lambda t: 200.0 * min(1.0, t / 0.5),
+        1.5,
+        start=(50.0, 50.0),
+        max_step=5e-3,
+    )
+    assert torques[0] == pytest.approx(0.0, abs=1e-6)
+    assert torques[1] == pytest.approx(HELD, rel=1e-3)
+    late = run.t > 1.1
+    assert abs(run.y[0] - run.y[1])[late].max() < 1e-3
+
+
+def test_a_weak_washer_next_to_a_locked_pack_does_no_harm():
+    _, torques = beside(lambda t: 200.0, lambda t: 0.05, 1.0)
+    assert sum(torques) == pytest.approx(HELD, rel=1e-4) and abs(torques[1]) <= 0.05
+
+
+def test_a_capacity_from_nothing_and_through_nothing_stays_within_it():
+    """Prescribed slip, the capacity 0 at the start and once more: |T| <= C, no energy made."""
+
+    def capacity(t):
+        return 200.0 * abs(np.sin(2.0 * np.pi * t))
+
+    def rates(t, y):
+        slip = 5.0 * np.sin(31.4 * t)
+        torque, rate = B.bristle(ONE, capacity(t), slip, y[0])
+        return [rate, torque * slip]
+
+    run = solve_ivp(
+        rates, (0.0, 1.0), [0.0, 0.0], method="LSODA", rtol=1e-7, atol=[1e-11, 1e-4], max_step=1e-3
+    )
+    work, store = run.y[1], 0.5 * ONE.stiffness * run.y[0] ** 2
+    assert run.success
+    assert (np.maximum.accumulate(work) - work).max() <= store.max() * (1.0 + 1e-6) + 1e-6
+    for t, bend in zip(run.t, run.y[0], strict=True):
+        assert abs(B.bristle(ONE, capacity(t), 5.0 * np.sin(31.4 * t), bend)[0]) <= capacity(t)

@@ -1,7 +1,7 @@
 """What the wet clutch shows for model exchange."""
 
 from ..model.spec import Exchange, Signal, output
-from ..tribology.holding.bristle_parameters import BRISTLE, bend_state
+from ..tribology.holding.parameters import BRISTLE, bend_state
 from .kernels.layout import N_RINGS
 
 _INPUTS = ("load", "speed", "oil_temperature", "drum_speed")

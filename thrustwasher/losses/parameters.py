@@ -6,7 +6,7 @@ from typing import Any
 from ..model.parameters import check_ranges, check_rules, choice, count, extended, quantity
 from ..model.spec import Exchange, Rule, output
 from ..model.toml_tables import spec_beside
-from ..tribology.holding.bristle_parameters import BRISTLE, bend_state
+from ..tribology.holding.parameters import BRISTLE, bend_state
 from .kernels.skf_series import RADIAL
 
 # Shaft -> bearings, their mean diameter [m] and load [N] each, gear's diameter and width [m], depth

@@ -1,14 +1,13 @@
 """Units that hold between two shafts of a driveline they do not know.
 
-======================  ============================================================================
-``memory``              what a unit remembers: places of slips, steps, torques, sums
-``asking``              the code by which a pack asks: it lowers its torque
-``plant``               inertia and delay of the driveline, proved by the slip that answers the code
-``reversals``           reversals of the slip, and which of them are chatter
-``torque``              the torque that ends the slip with the step
-``work``                the heat: the work that the shafts do to the unit
-``drag``                friction that asks and holds nothing, but comes to rest without chatter
-``bristle_parameters``  parameters and states of the bristles by which units rest in model exchange
-``parameters``          the parameters that say how a unit holds
-======================  ============================================================================
+==============  ================================================================================
+``memory``      what a unit remembers: places of slips, steps, torques, sums
+``asking``      the code by which a pack asks: it lowers its torque
+``plant``       inertia and delay of the driveline, proved by the slip that answers the code
+``reversals``   reversals of the slip, and which of them are chatter
+``torque``      the torque that ends the slip with the step
+``work``        the heat: the work that the shafts do to the unit
+``drag``        friction that asks and holds nothing, but comes to rest without chatter
+``parameters``  the parameters that say how a unit holds; those of a bristle
+==============  ================================================================================
 """

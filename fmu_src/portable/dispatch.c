@@ -32,7 +32,7 @@ typedef struct {
 void *tw_memory(size_t size) {
     u8 *m = calloc(1, INSTANCE + size);
     if (!m) return NULL;
-    module_start(m);
+    module_open(m);
     return m + INSTANCE;
 }
 
@@ -111,3 +111,35 @@ int tw_sens(double *par, double *inp, double *state, double *work, double *seed,
     return FAULT;
 #endif
 }
+
+#if HAS_EXCHANGE
+int tw_start(double *par, double *own, double *inp, double *cont, double *discrete, double *work, double t) {
+    u8 *m = block_of(par);
+    CALL(start, INSIDE(par), INSIDE(own), INSIDE(inp), INSIDE(cont), INSIDE(discrete), INSIDE(work), t);
+    return returned(m, raised);
+}
+
+int tw_rates(double *par, double *own, double *inp, double *cont, double *discrete, double *work, double *out,
+             double *der, double *sign) {
+    u8 *m = block_of(par);
+    CALL(rates, INSIDE(par), INSIDE(own), INSIDE(inp), INSIDE(cont), INSIDE(discrete), INSIDE(work),
+         INSIDE(out), INSIDE(der), INSIDE(sign));
+    return returned(m, raised);
+}
+
+int tw_update(double *par, double *own, double *inp, double *cont, double *discrete, double *work,
+              double *out, int32_t *iout, double t) {
+    u8 *m = block_of(par);
+    CALL(update, INSIDE(par), INSIDE(own), INSIDE(inp), INSIDE(cont), INSIDE(discrete), INSIDE(work),
+         INSIDE(out), INSIDE(iout), t);
+    return returned(m, raised);
+}
+
+int tw_slopes(double *par, double *own, double *inp, double *cont, double *discrete, double *work,
+              double *along, double *found) {
+    u8 *m = block_of(par);
+    CALL(slopes, INSIDE(par), INSIDE(own), INSIDE(inp), INSIDE(cont), INSIDE(discrete), INSIDE(work),
+         INSIDE(along), INSIDE(found));
+    return returned(m, raised);
+}
+#endif

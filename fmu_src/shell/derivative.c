@@ -154,6 +154,7 @@ static int may_move(Instance *m, const Variable *v) {
 static int add_parameter(Instance *m, const Variable *v, double seed, double *dout) {
     double along[AT_LEAST_ONE(NSEED)] = {0}, found[AT_LEAST_ONE(NOUT)] = {0};
     const int place = place_in_seed(v);
+    if (v->store == STORE_OWN) return GOOD; /* for model exchange only */
     if (place < 0 || has_table_for(m, v)) return add_difference(m, v, seed, dout);
     if (!may_move(m, v)) return has_none(m, v);
     along[place] = seed;
@@ -170,6 +171,7 @@ int directional(Instance *m, const Direction *d, double *sensitivity) {
     double seed[AT_LEAST_ONE(NSEED)] = {0}, dout[AT_LEAST_ONE(NOUT)] = {0};
     double by_parameters[AT_LEAST_ONE(NOUT)] = {0};
     uint32_t moved = 0;
+    if (m->now.exchange) return exchange_directional(m, d, sensitivity);
     if (!is_possible(m, d, 1) || refresh_work(m)) return BAD;
     for (size_t i = 0; i < d->n_knowns; i++) {
         const Variable *v = &VARIABLES[d->knowns[i]];
@@ -192,6 +194,7 @@ int directional(Instance *m, const Direction *d, double *sensitivity) {
 
 /* For each known the sum over the unknowns, weighted by the seed. */
 int adjoint(Instance *m, const Direction *d, double *sensitivity) {
+    if (m->now.exchange) return exchange_adjoint(m, d, sensitivity);
     if (!is_possible(m, d, 0)) return BAD;
     for (size_t k = 0; k < d->n_knowns; k++) {
         const Variable *v = &VARIABLES[d->knowns[k]];

@@ -11,6 +11,15 @@
 #define RULE (int32_t *, void **, const double *)
 #define DERIVE (int32_t *, void **, double *)
 #define STEP (int32_t *, void **, double *, double *, double *, double *, double *, int32_t *, double, double)
+#define START (int32_t *, void **, double *, double *, double *, double *, double *, double *, double)
+#define RATES                                                                                            \
+    (int32_t *, void **, double *, double *, double *, double *, double *, double *, double *, double *, \
+     double *)
+#define UPDATE                                                                                            \
+    (int32_t *, void **, double *, double *, double *, double *, double *, double *, double *, int32_t *, \
+     double)
+#define SLOPES \
+    (int32_t *, void **, double *, double *, double *, double *, double *, double *, double *, double *)
 #define SENS (int32_t *, void **, double *, double *, double *, double *, double *, double *)
 enum { FAULT = -1000 };
 
@@ -31,6 +40,13 @@ DECLARE(tw_rule, RULE)
 #endif
 #if HAS_SENS
 DECLARE(tw_sens, SENS)
+#endif
+
+#if HAS_EXCHANGE
+DECLARE(tw_start, START)
+DECLARE(tw_rates, RATES)
+DECLARE(tw_update, UPDATE)
+DECLARE(tw_slopes, SLOPES)
 #endif
 
 /* The host may round otherwise, flush small numbers to zero or trap: numbers would differ or the
@@ -94,3 +110,24 @@ int tw_sens(double *par, double *inp, double *state, double *work, double *seed,
     return FAULT;
 #endif
 }
+
+#if HAS_EXCHANGE
+int tw_start(double *par, double *own, double *inp, double *cont, double *discrete, double *work, double t) {
+    CALL(tw_start, par, own, inp, cont, discrete, work, t);
+}
+
+int tw_rates(double *par, double *own, double *inp, double *cont, double *discrete, double *work, double *out,
+             double *der, double *sign) {
+    CALL(tw_rates, par, own, inp, cont, discrete, work, out, der, sign);
+}
+
+int tw_update(double *par, double *own, double *inp, double *cont, double *discrete, double *work,
+              double *out, int32_t *iout, double t) {
+    CALL(tw_update, par, own, inp, cont, discrete, work, out, iout, t);
+}
+
+int tw_slopes(double *par, double *own, double *inp, double *cont, double *discrete, double *work,
+              double *along, double *found) {
+    CALL(tw_slopes, par, own, inp, cont, discrete, work, along, found);
+}
+#endif

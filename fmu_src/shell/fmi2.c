@@ -23,12 +23,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
         log.environment = functions->componentEnvironment;
     }
     name_log(&log, instanceName, loggingOn, 2);
-    if (fmuType != fmi2CoSimulation) {
-        Text text = {0};
-        add(&text, "this FMU is for co-simulation, not for model exchange");
-        tell(&log, BAD, LOG_ERROR, &text);
-        return NULL;
-    }
+    if (fmuType != fmi2CoSimulation) return instantiate_exchange(&log, fmuGUID, fmuResourceLocation);
     return instantiate(&log, fmuGUID, fmuResourceLocation, 0);
 }
 

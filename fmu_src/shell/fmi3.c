@@ -1,4 +1,6 @@
 /* FMI 3.0 co-simulation: life and steps, translated. */
+#include <float.h>
+
 #include "fmi3_shell.h"
 
 const char *fmi3GetVersion(void) { return fmi3Version; }
@@ -49,9 +51,9 @@ fmi3Instance fmi3InstantiateModelExchange(fmi3String instanceName, fmi3String in
                                           fmi3String resourcePath, fmi3Boolean visible, fmi3Boolean loggingOn,
                                           fmi3InstanceEnvironment instanceEnvironment,
                                           fmi3LogMessageCallback logMessage) {
-    (void)instantiationToken, (void)resourcePath, (void)visible;
+    (void)visible;
     const Log log = open_log(instanceName, loggingOn, instanceEnvironment, logMessage);
-    return refuse_instance(&log, "is for co-simulation, not for model exchange");
+    return instantiate_exchange(&log, instantiationToken, resourcePath);
 }
 
 fmi3Instance fmi3InstantiateScheduledExecution(
@@ -104,6 +106,7 @@ fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
    parameters. */
 fmi3Status fmi3EnterEventMode(fmi3Instance instance) {
     ENTER(fmi3EnterEventMode);
+    if (m->now.exchange) return (fmi3Status)enter_event_mode(m);
     if (!m->has_events) {
         return (fmi3Status)fail(m, "fmi3EnterEventMode: the instance was made with eventModeUsed "
                                    "= false");
@@ -126,11 +129,15 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discrete
     fmi3Boolean *const flags[] = {discreteStatesNeedUpdate, terminateSimulation,
                                   nominalsOfContinuousStatesChanged, valuesOfContinuousStatesChanged,
                                   nextEventTimeDefined};
-    (void)nextEventTime; /* not defined */
+    double next = 0.0;
     ENTER(fmi3UpdateDiscreteStates);
     for (int i = 0; i < 5; i++) {
         if (flags[i]) *flags[i] = fmi3False;
     }
+    if (!m->now.exchange) return fmi3OK;
+    if (update_discrete(m, &next)) return fmi3Error;
+    if (nextEventTimeDefined) *nextEventTimeDefined = next < DBL_MAX;
+    if (nextEventTime && next < DBL_MAX) *nextEventTime = next;
     return fmi3OK;
 }
 

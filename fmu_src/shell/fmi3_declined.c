@@ -31,19 +31,5 @@ DECLINE(SetShiftFraction, fmi3Instance instance, const fmi3ValueReference valueR
         size_t nValueReferences, const fmi3UInt64 counters[], const fmi3UInt64 resolutions[])
 DECLINE(ActivateModelPartition, fmi3Instance instance, fmi3ValueReference clockReference,
         fmi3Float64 activationTime)
-DECLINE(EnterContinuousTimeMode, fmi3Instance instance)
-DECLINE(CompletedIntegratorStep, fmi3Instance instance, fmi3Boolean noSetFMUStatePriorToCurrentPoint,
-        fmi3Boolean *enterEventMode, fmi3Boolean *terminateSimulation)
-DECLINE(SetTime, fmi3Instance instance, fmi3Float64 time)
-DECLINE(SetContinuousStates, fmi3Instance instance, const fmi3Float64 continuousStates[],
-        size_t nContinuousStates)
-DECLINE(GetContinuousStateDerivatives, fmi3Instance instance, fmi3Float64 derivatives[],
-        size_t nContinuousStates)
-DECLINE(GetEventIndicators, fmi3Instance instance, fmi3Float64 eventIndicators[], size_t nEventIndicators)
-DECLINE(GetContinuousStates, fmi3Instance instance, fmi3Float64 continuousStates[], size_t nContinuousStates)
-DECLINE(GetNominalsOfContinuousStates, fmi3Instance instance, fmi3Float64 nominals[],
-        size_t nContinuousStates)
-DECLINE(GetNumberOfEventIndicators, fmi3Instance instance, size_t *nEventIndicators)
-DECLINE(GetNumberOfContinuousStates, fmi3Instance instance, size_t *nContinuousStates)
 DECLINE(GetOutputDerivatives, fmi3Instance instance, const fmi3ValueReference valueReferences[],
         size_t nValueReferences, const fmi3Int32 orders[], fmi3Float64 values[], size_t nValues)

@@ -63,29 +63,31 @@ fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference valueRef
     return (fmi3Status)set_values(m, CALL_fmi3SetClock, valueReferences, nValueReferences, &CLOCK, values);
 }
 
-/* Which inputs act on an output at the same time point, as bits; BAD if it is no output. */
-static int dependencies(Instance *m, fmi3ValueReference reference, uint32_t *bits) {
-    const Variable *v = find(m, reference);
+/* Which inputs and states act on an output, derivative or event indicator at the same time point:
+   how many, *found: the variable; BAD if it is none of these. */
+static int dependencies(Instance *m, fmi3ValueReference reference, const Variable **found, size_t *n) {
+    const Variable *v = *found = find(m, reference);
     if (!v) return BAD;
-    if (v->cause != CAUSE_OUTPUT) return fail(m, "%s is no output: it depends on nothing", v->name);
-    *bits = v->depends;
+    if (v->cause != CAUSE_OUTPUT && v->store != STORE_DER && v->store != STORE_SIGN)
+        return fail(m, "%s is no output: it depends on nothing", v->name);
+    *n = 0;
+    for (uint32_t bits = v->depends; bits; bits >>= 1) *n += bits & 1u;
+    for (uint32_t bits = v->states; bits; bits >>= 1) *n += bits & 1u;
     return GOOD;
 }
 
-static size_t count(uint32_t bits) {
-    size_t n = 0;
-    for (; bits; bits >>= 1) n += bits & 1u;
-    return n;
+static int acts_on(const Variable *v, const Variable *known) {
+    const int state = state_of(known);
+    if (known->cause == CAUSE_INPUT) return v->depends >> known->slot & 1u;
+    return state >= 0 && v->states >> state & 1u;
 }
 
 fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance instance, fmi3ValueReference valueReference,
                                                size_t *nDependencies) {
-    uint32_t bits = 0;
+    const Variable *v = NULL;
     ENTER(fmi3GetNumberOfVariableDependencies);
     NEED(fmi3GetNumberOfVariableDependencies, nDependencies, 1);
-    if (dependencies(m, valueReference, &bits)) return fmi3Error;
-    *nDependencies = count(bits);
-    return fmi3OK;
+    return (fmi3Status)dependencies(m, valueReference, &v, nDependencies);
 }
 
 /* Elements of scalars are number 1; inputs follow each other in the list of variables. */
@@ -93,21 +95,21 @@ fmi3Status fmi3GetVariableDependencies(fmi3Instance instance, fmi3ValueReference
                                        size_t elementIndicesOfDependent[], fmi3ValueReference independents[],
                                        size_t elementIndicesOfIndependents[],
                                        fmi3DependencyKind dependencyKinds[], size_t nDependencies) {
-    uint32_t bits = 0;
+    const Variable *v = NULL;
     size_t n = 0;
     ENTER(fmi3GetVariableDependencies);
-    if (dependencies(m, dependent, &bits)) return fmi3Error;
-    if (nDependencies != count(bits)) {
-        return (fmi3Status)fail(m, "%s has %lu dependencies, asked for: %lu", VARIABLES[dependent].name,
-                                (unsigned long)count(bits), (unsigned long)nDependencies);
+    if (dependencies(m, dependent, &v, &n)) return fmi3Error;
+    if (nDependencies != n) {
+        return (fmi3Status)fail(m, "%s has %lu dependencies, asked for: %lu", v->name, (unsigned long)n,
+                                (unsigned long)nDependencies);
     }
+    n = 0;
     NEED(fmi3GetVariableDependencies, elementIndicesOfDependent, nDependencies);
     NEED(fmi3GetVariableDependencies, independents, nDependencies);
     NEED(fmi3GetVariableDependencies, elementIndicesOfIndependents, nDependencies);
     NEED(fmi3GetVariableDependencies, dependencyKinds, nDependencies);
     for (uint32_t i = 0; i < N_VARIABLES; i++) {
-        const Variable *v = &VARIABLES[i];
-        if (v->cause != CAUSE_INPUT || !(bits >> v->slot & 1u)) continue;
+        if (!acts_on(v, &VARIABLES[i])) continue;
         elementIndicesOfDependent[n] = elementIndicesOfIndependents[n] = 1;
         independents[n] = i;
         dependencyKinds[n++] = fmi3Dependent;

@@ -15,5 +15,15 @@ int tw_step(double *par, double *inp, double *state, double *work, double *out, 
             double dt);
 /* `seed`: changes of the inputs, and behind them, if NSEED > NINP, of the tunable parameters. */
 int tw_sens(double *par, double *inp, double *state, double *work, double *seed, double *dout);
+/* Of model exchange, for an instance in tw_memory: states and what is discrete at the start; outputs,
+   derivatives and event indicators; what is discrete anew; changes of outputs and derivatives along
+   `along`, changes of inputs and states. */
+int tw_start(double *par, double *own, double *inp, double *cont, double *discrete, double *work, double t);
+int tw_rates(double *par, double *own, double *inp, double *cont, double *discrete, double *work, double *out,
+             double *der, double *sign);
+int tw_update(double *par, double *own, double *inp, double *cont, double *discrete, double *work,
+              double *out, int32_t *iout, double t);
+int tw_slopes(double *par, double *own, double *inp, double *cont, double *discrete, double *work,
+              double *along, double *found);
 
 #endif

@@ -5,7 +5,9 @@
 #include "shell.h"
 
 int reset(Instance *m) {
+    const uint8_t exchange = m->now.exchange;
     memset(&m->now, 0, sizeof m->now);
+    m->now.exchange = exchange;
     m->now.mode = INSTANTIATED;
     m->now.dirty = 1;
     memset(m->beyond, 0, sizeof m->beyond);
@@ -21,6 +23,7 @@ int reset(Instance *m) {
         const Variable *v = &VARIABLES[i];
         if (v->store == STORE_PAR) m->now.par[v->slot] = m->part.starts[i];
         if (v->store == STORE_INP) m->now.inp[v->slot] = m->part.starts[i];
+        if (v->store == STORE_OWN) m->now.own[v->slot] = m->part.starts[i];
     }
     return GOOD;
 }
@@ -60,8 +63,10 @@ void free_instance(void *instance) { tw_free(instance); }
 
 /* The way out of a mode towards the modes a function is allowed in: onward, else a new start. */
 static const char *way(uint32_t mode, uint32_t allowed) {
-    if (mode == STEPPING && allowed == EVENTS) return "EnterEventMode";
+    if (mode == STEPPING && allowed & EVENTS) return "EnterEventMode";
     if (mode == EVENTS && allowed & STEPPING) return "EnterStepMode";
+    if (mode == CONTINUOUS && allowed & EXCHANGE_EVENTS) return "EnterEventMode";
+    if (mode == EXCHANGE_EVENTS && allowed & CONTINUOUS) return "EnterContinuousTimeMode";
     for (int i = 0; i < N_MODES; i++) {
         if (MODES[i].mode == mode && allowed > mode) return MODES[i].leave;
     }
@@ -75,6 +80,13 @@ static const char *mode_name(uint32_t mode) {
     return "unknown";
 }
 
+/* Whether a function is one of the instance's kind of interface: by the modes it is allowed in. */
+static int is_for(const Instance *m, uint32_t modes) {
+    const int steps = (modes & (STEPPING | EVENTS)) != 0,
+              exchanges = (modes & (CONTINUOUS | EXCHANGE_EVENTS)) != 0;
+    return steps == exchanges || (m->now.exchange ? exchanges : steps);
+}
+
 Instance *enter(void *instance, int call) {
     Instance *m = instance;
     const Call *c = &CALLS[call];
@@ -85,6 +97,12 @@ Instance *enter(void *instance, int call) {
     }
     if (m->now.mode & (UPDATING | UPDATED) && !(c->modes & m->now.mode)) {
         fail(m, "%s is not allowed within intermediateUpdate; return from it first", c->name);
+        return NULL;
+    }
+    if (!is_for(m, c->modes)) {
+        fail(m, "%s is not offered: the instance was made for %s", c->name,
+             m->now.exchange ? "model exchange, not for co-simulation"
+                             : "co-simulation, not for model exchange");
         return NULL;
     }
     if (!(c->modes & m->now.mode)) {
@@ -138,8 +156,9 @@ static int is_complete(Instance *m, const char *what, double t, uint32_t causes)
 /* After a failure the mode stays, so that the host may mend a value and try again. */
 int leave_initialization(Instance *m) {
     if (!is_complete(m, "no start", m->now.time, CAUSE_BIT(CAUSE_PARAMETER))) return BAD;
+    if (m->now.exchange) m->now.dirty = 1; /* states start from the present values */
     if (prepare(m) || refresh(m)) return BAD;
-    m->now.mode = STEPPING;
+    m->now.mode = m->now.exchange ? EXCHANGE_EVENTS : STEPPING;
     note_switches(m); /* how a run starts is no event */
     tell_advice(m);
     return GOOD;

@@ -126,7 +126,9 @@ void tell_refusal(Instance *m, const Variable *v, double value) {
     Text text = {0};
     if (v->cause != CAUSE_INPUT && v->cause != CAUSE_PARAMETER) {
         add(&text, "%s is an %s variable; it cannot be set", v->name,
-            v->cause == CAUSE_OUTPUT ? "output" : "independent");
+            v->cause == CAUSE_OUTPUT  ? "output"
+            : v->cause == CAUSE_LOCAL ? "internal"
+                                      : "independent");
     } else if (!may_set(m, v)) {
         add(&text, "%s is a fixed parameter%s; it can be set before the initialization ends", v->name,
             v->tunable ? " with fidelity 'map', made for one value" : "");

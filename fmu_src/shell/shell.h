@@ -15,7 +15,7 @@
 #define WORD_LENGTH 64
 
 /* What functions return: the numbers are those of fmi2Status and fmi3Status. */
-enum { GOOD = 0, WARNING = 1, BAD = 3 };
+enum { GOOD = 0, WARNING = 1, DISCARD = 2, BAD = 3 };
 
 /* What a step changes. */
 typedef struct {
@@ -36,6 +36,9 @@ typedef struct {
     double row_end;               /* ... this time [s] */
     int32_t seen[N_SWITCHES + 1]; /* Boolean outputs at the last communication point */
     uint8_t refused[N_VARIABLES]; /* ... 1: by the refusal kept as a text, 2: by an earlier one */
+    uint8_t exchange;             /* made for model exchange: then these count in place of `state` */
+    double own[AT_LEAST_ONE(NOWN)], cont[AT_LEAST_ONE(NCONT)], der[AT_LEAST_ONE(NCONT)];
+    double discrete[AT_LEAST_ONE(NMODE)], sign[AT_LEAST_ONE(NSIGN)]; /* [0]: the next time event [s] */
 } Snap;
 
 /* Where messages go. */
@@ -88,6 +91,7 @@ typedef struct {
     int32_t table_ready;        /* the table in `work` is that of the present parameters, or not wanted */
     char resources[PATH_LENGTH + WORD_LENGTH]; /* the folder, in UTF-8; room for a file's name */
     char refusal[TEXT_LENGTH];
+    double along[AT_LEAST_ONE(NINP + NCONT)], found[AT_LEAST_ONE(NOUT + NCONT)]; /* of a derivative */
     double work[AT_LEAST_ONE(NWORK)]; /* carries nothing between calls, the table aside */
 } Instance;
 
@@ -110,6 +114,22 @@ int begin(Instance *m, double start_time);
 int leave_initialization(Instance *m);
 int reset(Instance *m);
 int advance(Instance *m, double t, double h);
+
+/* exchange_solution.c */
+int solve_exchange(Instance *m);
+int update_exchange(Instance *m);
+
+/* exchange.c: model exchange, whose states are the host's */
+/* NULL, and said so, also where this model is for co-simulation only. */
+Instance *instantiate_exchange(const Log *log, const char *guid, const char *resources);
+int set_time(Instance *m, double t);
+int set_continuous(Instance *m, int call, const double *states, size_t n);
+int get_exchanged(Instance *m, int call, const double *from, size_t there, double *to, size_t n);
+int get_nominals(Instance *m, int call, double *nominals, size_t n);
+int enter_event_mode(Instance *m);
+/* Update what is discrete; *next: the next time event [s], past all times if there is none. */
+int update_discrete(Instance *m, double *next);
+int complete_step(Instance *m);
 
 /* events.c */
 int has_changed(const Instance *m); /* a Boolean output, since the last communication point */
@@ -153,6 +173,10 @@ static inline double value_of(const Instance *m, const Variable *v) {
     case STORE_OUT: return s->solution.out[v->slot];
     case STORE_INP: return s->inp[v->slot];
     case STORE_PAR: return s->par[v->slot];
+    case STORE_OWN: return s->own[v->slot];
+    case STORE_CONT: return s->cont[v->slot];
+    case STORE_DER: return s->der[v->slot];
+    case STORE_SIGN: return s->sign[v->slot];
     case STORE_IOUT: return s->latch && v->slot == IO_STATUS ? s->latch : s->solution.iout[v->slot];
     default: return s->time;
     }
@@ -168,9 +192,18 @@ static inline int has_table_for(const Instance *m, const Variable *v) {
 #endif
 }
 
+/* The continuous state that a variable is, or -1. */
+static inline int state_of(const Variable *v) {
+    if (v->store == STORE_CONT) return v->slot;
+    for (int i = 0; v->store == STORE_OUT && i < NCONT; i++) {
+        if (CONTINUOUS_STATES[i].out == v->slot) return i;
+    }
+    return -1;
+}
+
 static inline int may_set(const Instance *m, const Variable *v) {
     return (ACCESS[v->cause].set & m->now.mode)
-           || (v->tunable && m->now.mode & (STEPPING | EVENTS) && !has_table_for(m, v));
+           || (v->tunable && m->now.mode & (STEPPING | EVENTS | EXCHANGE_EVENTS) && !has_table_for(m, v));
 }
 
 /* A finite value outside a range by a rounding error is the end of the range: some units in the last
@@ -205,6 +238,9 @@ typedef struct {
 } Direction;
 int directional(Instance *m, const Direction *d, double *sensitivity);
 int adjoint(Instance *m, const Direction *d, double *sensitivity);
+/* exchange_derivative.c: knowns are inputs and continuous states, unknowns outputs and derivatives */
+int exchange_directional(Instance *m, const Direction *d, double *sensitivity);
+int exchange_adjoint(Instance *m, const Direction *d, double *sensitivity);
 
 /* text.c: sentences that grow piece by piece, and are cut between letters where the memory ends */
 typedef struct {

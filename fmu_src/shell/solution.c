@@ -64,6 +64,7 @@ int solve(Instance *m, double t, double h) {
 /* Bring the outputs up to date, at most once per change. */
 int refresh(Instance *m) {
     if (!m->now.dirty) return GOOD;
+    if (m->now.exchange) return prepare(m) ? BAD : solve_exchange(m);
     if (!m->unsolved) { /* else the same values would fail again */
         if (prepare(m)) return BAD;
         m->unsolved = solve(m, m->now.time, 0.0);

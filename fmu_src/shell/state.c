@@ -8,13 +8,13 @@
 
 #include "shell.h"
 
-#define FORMAT 1u /* of the bytes; another one is refused */
+#define FORMAT 2u /* of the bytes; another one is refused */
 #define ORDER 0x01020304u
 
 /* Written in front of the numbers; every field is compared before anything is taken over. */
 typedef struct {
     char magic[8], guid[WORD_LENGTH];
-    uint32_t order, format, check, sizes[9];
+    uint32_t order, format, check, sizes[13];
 } Head;
 
 struct State {
@@ -62,15 +62,19 @@ static int is_living(const void *state) {
 }
 
 static void write_head(Head *head, const Instance *m) {
-    const uint32_t sizes[9] = {NPAR,
-                               NINP,
-                               NSTATE,
-                               NOUT,
-                               NIOUT,
-                               N_VARIABLES,
-                               N_SWITCHES,
-                               (uint32_t)sizeof(Snap),
-                               (uint32_t)sizeof(State)};
+    const uint32_t sizes[13] = {NPAR,
+                                NINP,
+                                NSTATE,
+                                NOUT,
+                                NIOUT,
+                                N_VARIABLES,
+                                N_SWITCHES,
+                                NOWN,
+                                NCONT,
+                                NMODE,
+                                NSIGN,
+                                (uint32_t)sizeof(Snap),
+                                (uint32_t)sizeof(State)};
     memset(head, 0, sizeof *head);
     memcpy(head->magic, "thrustw3", sizeof head->magic);
     memcpy(head->guid, m->part.guid, sizeof head->guid);
@@ -110,6 +114,9 @@ static State *known(Instance *m, void *state) {
     } else if (strcmp(s->head.guid, m->part.guid) != 0) {
         fail(m, "FMU state of another model or version (%.64s), allowed: %s %s", s->head.guid, m->part.name,
              m->part.guid);
+    } else if (s->snap.exchange != m->now.exchange) {
+        fail(m, "FMU state of an instance for %s, allowed: of one of this instance's kind",
+             s->snap.exchange ? "model exchange" : "co-simulation");
     } else {
         return s;
     }
@@ -192,7 +199,8 @@ int write_state(Instance *m, void *state, unsigned char *bytes, size_t size) {
 static int is_sound(const Snap *s) {
     int refused = 0, good = is_finite(s->time);
     good &= s->mode == INSTANTIATED || s->mode == INITIALIZING || s->mode == STEPPING || s->mode == TERMINATED
-            || s->mode == EVENTS;
+            || s->mode == EVENTS || s->mode == CONTINUOUS || s->mode == EXCHANGE_EVENTS;
+    good &= s->exchange <= HAS_EXCHANGE && (s->exchange || s->mode < CONTINUOUS);
     good &= (s->dirty == 0 || s->dirty == 1) && (s->prepared == 0 || s->prepared == 1);
     good &= s->n_early >= 0 && is_finite(s->row_end);
     good &= s->latch >= 0 && s->latch <= STATUS_NOT_IN_MAP;
@@ -202,9 +210,13 @@ static int is_sound(const Snap *s) {
         good &= s->refused[i] <= 2;
         if (v->store == STORE_PAR) good &= is_inside(v, s->par[v->slot]);
         if (v->store == STORE_INP) good &= is_inside(v, s->inp[v->slot]);
+        if (v->store == STORE_OWN) good &= is_inside(v, s->own[v->slot]);
     }
     for (int i = 0; i < NOUT; i++) good &= is_finite(s->solution.out[i]);
     for (int i = 0; i < NINP; i++) good &= is_finite(s->inp[NINP + i]);
+    for (int i = 0; i < NCONT; i++) good &= is_finite(s->cont[i]) && is_finite(s->der[i]);
+    for (int i = 0; i < NMODE; i++) good &= is_finite(s->discrete[i]);
+    for (int i = 0; i < NSIGN; i++) good &= is_finite(s->sign[i]);
     return good && refused == s->n_refused;
 }
 

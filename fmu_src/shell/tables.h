@@ -12,26 +12,39 @@ enum {
     TERMINATED = 8,
     EVENTS = 16,
     UPDATING = 32,
-    UPDATED = 64 /* within intermediateUpdate: before a step, after it */
+    UPDATED = 64, /* within intermediateUpdate: before a step, after it */
+    CONTINUOUS = 128,
+    EXCHANGE_EVENTS = 256 /* of model exchange: continuous-time mode, event mode */
 };
 
 enum { TYPE_REAL, TYPE_INTEGER, TYPE_BOOLEAN, TYPE_ENUMERATION };
-enum { CAUSE_INDEPENDENT, CAUSE_INPUT, CAUSE_PARAMETER, CAUSE_OUTPUT, N_CAUSES };
+enum { CAUSE_INDEPENDENT, CAUSE_INPUT, CAUSE_PARAMETER, CAUSE_OUTPUT, CAUSE_LOCAL, N_CAUSES };
 #define TYPE_BIT(type) (1u << (type))
 #define CAUSE_BIT(cause) (16u << (cause))
-enum { STORE_TIME, STORE_PAR, STORE_INP, STORE_OUT, STORE_IOUT };
+enum {
+    STORE_TIME,
+    STORE_PAR,
+    STORE_INP,
+    STORE_OUT,
+    STORE_IOUT,
+    STORE_OWN, /* of model exchange: parameters, states, derivatives, event indicators */
+    STORE_CONT,
+    STORE_DER,
+    STORE_SIGN
+};
 
 /* A variable; its value reference is its place in VARIABLES. */
 typedef struct {
     const char *name, *unit; /* unit "1": a pure number */
     double low, high;        /* the allowed range, both ends belong to it */
     uint32_t depends;        /* outputs: bit i set: input i acts at once, at the same time point */
+    uint32_t states;         /* likewise continuous state i */
     int16_t slot;            /* place in its store */
     int16_t enumeration;     /* place in ENUMERATIONS, or -1 */
     uint8_t type, cause, store;
     uint8_t relative; /* a temperature difference, no temperature */
     uint8_t tunable;  /* a parameter that may be set between steps too */
-    uint8_t bits;     /* TYPE_BIT of the type and CAUSE_BIT of the causality */
+    uint16_t bits;    /* TYPE_BIT of the type and CAUSE_BIT of the causality */
 } Variable;
 
 typedef struct {
@@ -43,6 +56,20 @@ typedef struct {
     int32_t n;
     const Item *items;
 } Enumeration;
+
+/* A continuous state of model exchange: a size that is usual for it, its place in `out`, or -1. */
+typedef struct {
+    const char *name;
+    double nominal;
+    int32_t out;
+} ContinuousState;
+
+/* The value a parameter has to have in model exchange. */
+typedef struct {
+    int32_t slot;
+    double value;
+    const char *name;
+} Requirement;
 
 /* What lets a parameter be used, values of others: all that are required, and one of the rest. */
 typedef struct {

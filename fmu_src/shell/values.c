@@ -76,7 +76,9 @@ static void refuse(Instance *m, const uint32_t *references, size_t n) {
 static void take_over(Instance *m, uint32_t reference, double value) {
     Snap *s = &m->now;
     const Variable *v = &VARIABLES[reference];
-    double *place = v->store == STORE_PAR ? &s->par[v->slot] : &s->inp[v->slot];
+    double *place = v->store == STORE_PAR   ? &s->par[v->slot]
+                    : v->store == STORE_OWN ? &s->own[v->slot]
+                                            : &s->inp[v->slot];
     if (*place != value) {
         *place = value;
         s->dirty = 1;
@@ -166,7 +168,7 @@ static int are_status(const uint32_t *references, size_t n) {
 static int are_solved(Instance *m, const uint32_t *references, size_t n) {
     if (!(ACCESS[CAUSE_OUTPUT].get & m->now.mode)) {
         size_t i = 0;
-        while (VARIABLES[references[i]].cause != CAUSE_OUTPUT) i++;
+        while (VARIABLES[references[i]].cause < CAUSE_OUTPUT) i++;
         fail(m, "%s has no value in state %s; call fmi%d%s first", VARIABLES[references[i]].name,
              MODES[0].name, (int)m->log.fmi, MODES[0].leave);
         return 0;
@@ -178,7 +180,8 @@ static int are_solved(Instance *m, const uint32_t *references, size_t n) {
 int get_values(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind, void *values) {
     uint32_t found = 0;
     if (!all_fit(m, call, references, n, kind, values, &found)) return BAD;
-    if (found & CAUSE_BIT(CAUSE_OUTPUT) && !are_solved(m, references, n)) return BAD;
+    if (found & (CAUSE_BIT(CAUSE_OUTPUT) | CAUSE_BIT(CAUSE_LOCAL)) && !are_solved(m, references, n))
+        return m->now.mode == CONTINUOUS ? DISCARD : BAD;
     if (found == (TYPE_BIT(TYPE_REAL) | CAUSE_BIT(CAUSE_OUTPUT))) { /* the usual call */
         const double *out = m->now.solution.out;
         double *place = values;

@@ -2,6 +2,7 @@
 
 ================  =========================================================================
 ``parameters``    parameters; with ``interface.toml`` the one list all interfaces come from
+``exchange``      what it shows for model exchange
 ``model``         its record: command, levels, sweeps
 ``solve``         boundary friction, and a pack that slips at a constant speed
 ``engagement``    load and slip are given over time, torque and heat follow

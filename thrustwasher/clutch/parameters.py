@@ -13,6 +13,7 @@ from ..model.part_file import preset_params
 from ..model.spec import Rule
 from ..model.toml_tables import spec_beside
 from ..tribology.holding.parameters import coupling_age, coupling_inertia, holding_choice
+from .exchange import EXCHANGE
 from .kernels.layout import N_POINTS, N_TABLE, NO_POINT, START_FRICTION, START_SPEED
 
 FRICTION_LAWS = {
@@ -478,5 +479,5 @@ class ClutchParams:
         return cls(friction_law="table", **table, **others)
 
 
-SPEC = spec_beside(__file__, ClutchParams, RULES)
+SPEC = spec_beside(__file__, ClutchParams, RULES, exchange=EXCHANGE)
 LOAD, SPEED, OIL, DRUM = SPEC.inputs

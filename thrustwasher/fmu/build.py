@@ -245,6 +245,7 @@ def contents(shown: Interface, folder: Path, order: Order, *, reference: bool) -
         moving=native,
         compiled=compiled(in_c),
         plain=order.plain,
+        exchange=native,
     )
     try:
         results = reference_files(spec) if reference else {}

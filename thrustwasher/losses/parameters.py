@@ -4,8 +4,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..model.parameters import check_ranges, check_rules, choice, count, extended, quantity
-from ..model.spec import Rule
+from ..model.spec import Exchange, Rule, output
 from ..model.toml_tables import spec_beside
+from ..tribology.holding.parameters import BRISTLE, bend_state
 from .kernels.skf_series import RADIAL
 
 # Shaft -> bearings, their mean diameter [m] and load [N] each, gear's diameter and width [m], depth
@@ -133,6 +134,39 @@ def _of_shaft(name: str) -> dict[str, Any]:
     return {f"{name}_{key}": field for key, field in fields.items()}
 
 
+_ACTS = {
+    "input": ("input_speed", "oil_temperature"),
+    "output": ("output_speed", "oil_temperature"),
+    "drum": ("drum_speed", "oil_temperature"),
+    "planet": ("planet_speed", "tooth_force", "oil_temperature"),
+}
+_OF_SHAFTS = ("input_bend", "output_bend", "drum_bend")
+_ALL = ("input_speed", "output_speed", "drum_speed", "planet_speed", "tooth_force")
+_BENDS = (*_OF_SHAFTS, "planet_bend")
+EXCHANGE = Exchange(
+    kernel="thrustwasher.losses.kernels.exchange",
+    states=(
+        *(bend_state(f"{name}_bend", f"of the bristle of the speed {name}") for name in _ACTS),
+        output("oil_energy", "J", 1e3, "heat that has gone into the oil since the start"),
+    ),
+    needs={
+        **{f"{name}_torque": (f"{name}_bend",) for name in _ACTS},
+        "bearing_power": _BENDS,
+        "churning_power": _OF_SHAFTS,
+        "pump_power": ("input_bend",),
+        "seal_power": _OF_SHAFTS,
+        "oil_heat": _BENDS,
+        "oil_energy": ("oil_energy",),
+        **{f"der({name}_bend)": (*acts, f"{name}_bend") for name, acts in _ACTS.items()},
+        **{f"start({name}_bend)": acts for name, acts in _ACTS.items()},
+        "der(oil_energy)": (*_ALL, "oil_temperature", *_BENDS),
+    },
+    indicators=(
+        *(f"a change of the churning regime of the {name} gear" for name in SHAFTS),
+        "the temperatures between which the laws are meant",
+    ),
+    parameters=BRISTLE,
+)
 _MORE = {
     "starvation_constant": quantity(
         3e-8,
@@ -183,4 +217,4 @@ LossesParams = extended(
     "LossesParams",
     {k: v for name in SHAFTS for k, v in _of_shaft(name).items()} | _MORE,
 )
-SPEC = spec_beside(__file__, LossesParams, RULES)
+SPEC = spec_beside(__file__, LossesParams, RULES, exchange=EXCHANGE)

@@ -130,3 +130,8 @@ def ladder_of(name: str) -> Ladder:
 def kernel_of(spec: ModelSpec) -> Any:
     """Return the module with a model's compiled step."""
     return import_module(spec.kernel)
+
+
+def exchange_kernel_of(spec: ModelSpec) -> Any:
+    """Return the module with a model's functions for model exchange, None if it has none."""
+    return import_module(spec.exchange.kernel) if spec.exchange else None

@@ -120,6 +120,27 @@ class Terminal:
     members: tuple[tuple[str, str, str], ...]
 
 
+@dataclass(frozen=True, kw_only=True)
+class Exchange:
+    """What a model has for model exchange, where a host's solver owns the continuous states.
+
+    ``states`` are in the order of the kernels' array; one of the name of an output is that output.
+    ``needs``: output or derivative, ``der(x)``, to the states and inputs that act on it;
+    ``start(x)`` to the inputs that a state starts from. ``indicators``: what is so where each
+    passes zero. ``parameters`` are those that only model exchange reads. ``steps``: the kernels
+    have to hear of every step that the solver has completed. ``requires``: the value that a
+    parameter has to have, where another one is for co-simulation only.
+    """
+
+    kernel: str  # dotted name of the module with start(), rates(), update() and slopes()
+    states: tuple[Signal, ...]
+    needs: Mapping[str, tuple[str, ...]]
+    requires: Mapping[str, bool] = field(default_factory=dict)
+    indicators: tuple[str, ...] = ("no event: it stays at 1, so that hosts follow the inputs",)
+    parameters: tuple[Signal, ...] = ()
+    steps: bool = False
+
+
 class Tables(NamedTuple):
     """Files of solutions made beforehand, in which one of a model's levels looks its answers up.
 
@@ -171,6 +192,8 @@ class ModelSpec:
     notes: str = ""
     # Of a model that only looks up: the parameters that its table was made for.
     table_of: Any = None
+    # What it shows for model exchange; None: it is for co-simulation only.
+    exchange: Exchange | None = None
     # Fidelities that are gone -> the next better one, which the kernel runs under their number.
     successors: Mapping[str, str] = field(default_factory=dict)
 

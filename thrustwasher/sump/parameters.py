@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..model.parameters import check_ranges, extended, quantity
-from ..model.spec import ModelSpec, Signal, Terminal, output
+from ..model.spec import Exchange, ModelSpec, Signal, Terminal, output
 
 PORTS = range(1, 8)
 
@@ -56,7 +56,8 @@ def _energy(i: int) -> Signal:
     return Signal(
         name=f"energy_{i}",
         unit="J",
-        help=f"heat since the start from one part of kind {i}, in place of heat_{i}",
+        help=f"heat since the start from one part of kind {i}, in place of heat_{i}; model "
+        "exchange takes heat alone",
         low=-1e15,
         high=1e15,
         nominal=1e4,
@@ -71,6 +72,29 @@ def _temperature(name: str, start: float, text: str) -> Signal:
     )
 
 
+_HEATS = ("received_heat", "ambient_heat", "cooler_heat")
+EXCHANGE = Exchange(
+    kernel="thrustwasher.sump.kernels.exchange",
+    states=(
+        output("temperature", "K", 300.0, "temperature of the oil"),
+        *(output(name, "J", 1e4, "heat since the start") for name in _HEATS),
+    ),
+    needs={
+        "temperature": ("temperature",),
+        "stored_heat": ("temperature",),
+        **{name: (name,) for name in _HEATS},
+        "der(temperature)": (
+            *(f"heat_{i}" for i in PORTS),
+            "ambient_temperature",
+            "cooler_flow",
+            "cooler_temperature",
+            "temperature",
+        ),
+        "der(received_heat)": tuple(f"heat_{i}" for i in PORTS),
+        "der(ambient_heat)": ("ambient_temperature", "temperature"),
+        "der(cooler_heat)": ("cooler_flow", "cooler_temperature", "temperature"),
+    },
+)
 SPEC = ModelSpec(
     key="sump",
     name="OilSump",
@@ -108,6 +132,7 @@ SPEC = ModelSpec(
         ),
     ),
     kernel="thrustwasher.sump.kernels.step",
+    exchange=EXCHANGE,
     terminals=(
         *(
             Terminal(

@@ -2,6 +2,7 @@
 
 ========================  ========================================================================
 ``asperities``            elasto-plastic asperities: the force of one, the pressure of many
+``bristle``               friction at rest and in sliding by one state, for model exchange
 ``contact_table``         knots of Greenwood & Tripp's F_5/2, kept in a file
 ``flow_factors``          rough surfaces: mean gap, flow, shear flow factor, squeezing
 ``greenwood_tripp``       contact of a rough lining: Greenwood & Tripp's integrals

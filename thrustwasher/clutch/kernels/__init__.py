@@ -10,6 +10,7 @@
 ``advance``                 a pack's memory and its way along an interval of time
 ``pack_outputs``            the outputs at a point in time, with slopes
 ``coupling``                a pack in a driveline that it does not know: its torque, its heat
+``exchange``                a pack for model exchange: rates of film, heat and a bristle
 ``steady``                  a pack that slips for ever: the temperature where cooling wins
 ``directional_derivative``  how the outputs change with the inputs: exact, film and heat held
 ``step``                    one co-simulation step
@@ -24,6 +25,7 @@ CALLED = {
         "thrustwasher.clutch.kernels.pack_friction: friction ploughing coefficient_slopes",
         "thrustwasher.clutch.kernels.pack_friction: contact_share load_share settled_slope",
         "thrustwasher.clutch.kernels.pack_friction: shear_slopes temperature_factor viscous_slopes",
+        "thrustwasher.clutch.kernels.exchange: start rates update slopes",
         "thrustwasher.clutch.kernels.constants: broken_rule derive derive_rings",
         "thrustwasher.clutch.kernels.directional_derivative: directional_derivative",
         "thrustwasher.clutch.kernels.pack_outputs: fill_outputs mean_surface ring_outputs",

@@ -25,6 +25,7 @@ LOG_CATEGORIES = {  # in the order of the enum in the shell's tables.h
 MOST_STEPS = 1000  # of the default experiment; beyond it FMPy silently enlarges the step
 EVENT_OUTPUTS = ("film_ratio", "engine_speed", "temperature")  # next to the inputs in messages
 ADVISED = "advised_step"  # the output that a host's step is compared with
+LATER = {"K": "K/s", "J": "W", "rad": "rad/s", "1": "1/s"}  # unit of a state -> of its derivative
 LARGEST = sys.float_info.max  # bound of a variable without bounds: NaN and infinity still fail
 
 
@@ -42,7 +43,10 @@ class Variable:
     """One variable of an FMU.
 
     ``store`` and ``slot`` say where the number lives: "time", or element ``slot`` of the kernel
-    arrays "par", "inp", "out", "iout". ``depends`` names the inputs that act on an output at once.
+    arrays "par", "inp", "out", "iout"; for model exchange also of "own" (its parameters), "cont"
+    (states), "der" (derivatives), "sign" (event indicators). ``depends`` names the inputs that act
+    on an output at once, in model exchange with those in ``exchange_depends``, ``states`` the
+    continuous states that do; of a derivative likewise.
     """
 
     name: str
@@ -62,6 +66,9 @@ class Variable:
     start: float | None = None
     depends: tuple[str, ...] = ()
     relative: bool = False
+    states: tuple[str, ...] = ()
+    exchange_depends: tuple[str, ...] = ()
+    derivative_of: str | None = None
 
     @property
     def bounds(self) -> tuple[float, float]:
@@ -75,6 +82,8 @@ class Interface:
     """All that an FMU shows of a model; ``interface`` makes it, whatever writes or runs takes it.
 
     ``variables`` are in the order of their value references, ``enumerations`` by type name.
+    ``exchanged`` are those that model exchange adds behind them: states that are no outputs,
+    derivatives, parameters, event indicators.
     """
 
     spec: ModelSpec
@@ -83,6 +92,24 @@ class Interface:
     parameters: tuple[Variable, ...]
     outputs: tuple[Variable, ...]
     enumerations: dict[str, tuple[Item, ...]]
+    exchanged: tuple[Variable, ...] = ()
+
+    @cached_property
+    def everything(self) -> tuple[Variable, ...]:
+        """All variables, those of model exchange too."""
+        return (*self.variables, *self.exchanged)
+
+    @cached_property
+    def continuous(self) -> tuple[Variable, ...]:
+        """The continuous states, in their order."""
+        own = self.spec.exchange.states if self.spec.exchange else ()
+        known = {v.name: v for v in self.everything}
+        return tuple(known[s.name] for s in own)
+
+    @cached_property
+    def derivatives(self) -> tuple[Variable, ...]:
+        """Derivatives of the continuous states, in their order."""
+        return tuple(v for v in self.exchanged if v.store == "der")
 
     @cached_property
     def status_slot(self) -> int | None:
@@ -164,8 +191,43 @@ def interface(spec: ModelSpec) -> Interface:
             tuple(v for v in made if v.causality == kind)
             for kind in ("input", "parameter", "output")
         )
-        _made[id(spec)] = Interface(spec, tuple(made), inputs, parameters, outputs, items)
+        more = tuple(_exchanged(spec, len(made)))
+        _made[id(spec)] = Interface(spec, tuple(made), inputs, parameters, outputs, items, more)
     return _made[id(spec)]
+
+
+def _exchanged(spec: ModelSpec, first: int) -> Iterator[Variable]:
+    """Give the variables that model exchange adds; their value references begin with ``first``."""
+    own, slots = spec.exchange, Counter[str]()
+    if own is None:
+        return
+    entries: list[tuple[str, Signal, str | None]] = [
+        ("cont", s, None) for s in own.states if s.name not in spec.real_outputs
+    ]
+    entries += [("der", s, s.name) for s in own.states]
+    entries += [("own", s, None) for s in own.parameters]
+    entries += [
+        ("sign", Signal(name=f"event_indicator_{k}", unit="1", help=f"passes zero at {text}"), None)
+        for k, text in enumerate(own.indicators, 1)
+    ]
+    names = {s.name: k for k, s in enumerate(own.states)}
+    for place, (store, signal, base) in enumerate(entries):
+        entry = _signal(signal, causality="local", initial="calculated")
+        if store == "own":
+            fixed = {"causality": "parameter", "initial": "exact", "variability": "fixed"}
+            entry |= fixed | {"start": signal.start}
+        if base is not None:
+            needs = own.needs[f"der({base})"]
+            words = f"rate of change of {base}; 0 in co-simulation"
+            entry |= {"name": f"der({base})", "unit": LATER[signal.unit], "help": words}
+            entry |= {"low": None, "high": None, "relative": False, "derivative_of": base}
+            entry |= {"states": tuple(n for n in needs if n in names)}
+            entry |= {"depends": tuple(n for n in needs if n not in names)}
+        if store == "sign":
+            entry |= {"states": tuple(names), "depends": tuple(s.name for s in spec.inputs)}
+        slot = names[signal.name] if store == "cont" else slots[store]
+        slots[store] += 1
+        yield Variable(reference=first + place, store=store, slot=slot, **entry)
 
 
 def _entries(spec: ModelSpec) -> Iterator[tuple[str, dict[str, Any]]]:
@@ -184,6 +246,10 @@ def _entries(spec: ModelSpec) -> Iterator[tuple[str, dict[str, Any]]]:
     for signal in spec.outputs:
         store = "out" if signal.kind == "real" else "iout"
         own = {"causality": "output", "initial": "calculated", "depends": signal.depends}
+        needs = spec.exchange.needs.get(signal.name, ()) if spec.exchange else ()
+        states = {s.name for s in spec.exchange.states} if spec.exchange else set()
+        own["states"] = tuple(n for n in needs if n in states)
+        own["exchange_depends"] = tuple(n for n in needs if n not in states)
         yield store, _signal(signal, **own)
     for signal in spec.inputs:
         if signal.late:

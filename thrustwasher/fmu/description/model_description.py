@@ -51,14 +51,19 @@ def description(
     moving: bool = False,
     compiled: Sequence[str] = (),
     plain: bool = False,
+    exchange: bool = False,
 ) -> bytes:
     """Return the model description.
 
     ``derivatives``: the binary has directional ones; ``moving``: it lets inputs move within a step;
     ``compiled``: files in the folder sources that are compiled, which FMI 2 lists here;
-    ``plain``: outputs are real numbers, the others local; parameters are real or whole numbers.
+    ``plain``: outputs are real numbers, the others local; parameters are real or whole numbers;
+    ``exchange``: the binary is for model exchange too, if the model is.
     """
+    own = shown.spec.exchange if exchange else None
     found, names = shown.variables, [v.name for v in shown.parameters]
+    if own:  # the indicators, which are no variables in FMI 2, come last
+        found += tuple(v for v in shown.exchanged if fmi == 3 or v.store != "sign")
     hidden = {v.name for v in shown.outputs if plain and v.type != "Real"}
     if plain:
         found = tuple(_plain(shown, v, fmi) for v in found)
@@ -79,7 +84,8 @@ def description(
         units=units(found),
         types=types(found),
         kinds=TYPES,
-        structure=structure(shown, hidden),
+        exchange=own,
+        structure=structure(shown, hidden, fmi if own else 0),
         enumerations={} if plain else shown.listed,
         groups=groups(shown.spec, names),
         second_names=grouped_names(shown.spec, names),
@@ -87,7 +93,7 @@ def description(
             (
                 v,
                 head_attributes(v, v.name in hidden) | between(v),
-                value_attributes(v) | _span(shown, v),
+                value_attributes(v) | _span(shown, v) | _base(shown, v, fmi),
             )
             for v in found
         ],
@@ -237,21 +243,64 @@ def _plain(shown: Interface, v: Variable, fmi: int) -> Variable:
     return replace(v, type="Integer", type_name=None, low=low, high=high, help=help)
 
 
-def structure(shown: Interface, hidden: Collection[str] = ()) -> list[tuple[str, str, list[Any]]]:
+def _base(shown: Interface, v: Variable, fmi: int) -> Attributes:
+    """Return which variable a derivative is of: its place from 1 in FMI 2, its reference in 3."""
+    if v.derivative_of is None:
+        return {}
+    state = next(k for k in shown.continuous if k.name == v.derivative_of)
+    return {"derivative": state.reference + (1 if fmi == 2 else 0)}
+
+
+def structure(
+    shown: Interface, hidden: Collection[str] = (), exchange: int = 0
+) -> list[tuple[str, str, list[Any]]]:
     """Return name of the list in FMI 2, of an element in FMI 3, and pairs: output, what it needs.
 
-    Hidden outputs are left out.
+    Hidden outputs are left out. ``exchange``: the version of FMI whose model exchange is written
+    too, else 0.
 
     While running an output depends on the inputs that act at once, when it is initialized also on
     every parameter. Without a list the standard reads "depends on everything".
     """
-    parameters = {v.name for v in shown.parameters}
-
-    def needs(more: set[str]) -> list[Any]:
-        known = [(v, more.union(v.depends)) for v in shown.outputs if v.name not in hidden]
-        return [(v, [k for k in shown.variables if k.name in names]) for v, names in known]
-
+    outputs = [v for v in shown.outputs if v.name not in hidden]
+    if not exchange:
+        return [
+            ("Outputs", "Output", _needs(shown, outputs, states=False)),
+            ("InitialUnknowns", "InitialUnknown", _first_needs(shown, outputs, shown.variables)),
+        ]
+    everything, own = shown.everything, [*outputs, *shown.derivatives]
+    own += [v for v in shown.continuous if v not in outputs]
+    own.sort(key=lambda v: v.reference)
+    signs = [v for v in everything if v.store == "sign"]
     return [
-        ("Outputs", "Output", needs(set())),
-        ("InitialUnknowns", "InitialUnknown", needs(parameters)),
+        ("Outputs", "Output", _needs(shown, outputs)),
+        ("Derivatives", "ContinuousStateDerivative", _needs(shown, shown.derivatives)),
+        ("InitialUnknowns", "InitialUnknown", _first_needs(shown, own, everything)),
+        *([("", "EventIndicator", _needs(shown, signs))] if exchange == 3 else []),
     ]
+
+
+def _needs(shown: Interface, found: Sequence[Variable], *, states: bool = True) -> list[Any]:
+    """Return pairs: variable, the inputs and, if wanted, the states that act on it at once."""
+    known = [
+        (v, {*v.depends, *((*v.states, *v.exchange_depends) if states else ())}) for v in found
+    ]
+    return [(v, [k for k in shown.everything if k.name in names]) for v, names in known]
+
+
+def _first_needs(
+    shown: Interface, found: Sequence[Variable], known: Sequence[Variable]
+) -> list[Any]:
+    """Return pairs: variable, the inputs and parameters that act on it at the start.
+
+    Where a state starts from inputs, what depends on the state does so too.
+    """
+    parameters = {v.name for v in known if v.causality == "parameter"}
+    exchange = shown.spec.exchange if known is not shown.variables else None
+    starts = exchange.needs if exchange else {}
+
+    def names(v: Variable) -> set[str]:
+        of = {v.name, *v.states}
+        return parameters.union(v.depends, *(starts.get(f"start({n})", ()) for n in of))
+
+    return [(v, [k for k in known if k.name in names(v)]) for v in found]

@@ -68,7 +68,7 @@ def identifier(
     """
     spec = shown.spec
     own = spec.name, spec.help, spec.box, spec.notes, spec.profile, spec.stop_time, spec.step_size
-    content = shown.variables, shown.enumerations, spec.terminals, own
+    content = shown.everything, shown.enumerations, spec.terminals, own
     hashed = hashlib.sha256(repr(content).encode())
     hashed.update(f"{content_digest(spec)} {package_version()} {tools}".encode())
     options = f"{' C' if order.c_sources else ''}{' plain' if order.plain else ''}"

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...errors import FIGURES, FIRST_FAILURE, Status
 from ...model.levels import gone_level
-from ...model.registry import kernel_of
+from ...model.registry import exchange_kernel_of, kernel_of
 from ...model.unread import RELATIONS, all_conditions
 from ...native.digest import digest
 from ...tribology.holding.memory import N_FIGURES, T_ENGAGEMENT
@@ -24,12 +24,15 @@ from ..model_kernels import has_derivatives, seed_length
 from . import call_table
 
 SIZES = ("NPAR", "NINP", "NSTATE", "NWORK", "NOUT", "NIOUT")
+EXCHANGE_SIZES = ("NOWN", "NCONT", "NMODE", "NSIGN")
 MOST_INPUTS = 32  # dependencies are bits of one word
 # The C files of a native FMU next to the generated ones and the dispatch to the kernels.
 SHELL_FILES = tuple(
     """
     lifecycle.c events.c solution.c resource.c library_file.c values.c text.c messages.c state.c
-    derivative.c fmi2.c fmi2_values.c fmi3.c fmi3_values.c fmi3_state.c fmi3_declined.c
+    derivative.c exchange.c exchange_solution.c exchange_derivative.c
+    fmi2.c fmi2_values.c fmi2_exchange.c
+    fmi3.c fmi3_values.c fmi3_state.c fmi3_exchange.c fmi3_declined.c
     """.split()
 )
 VERSIONS = (2, 3)  # of FMI, both in one library
@@ -71,7 +74,7 @@ def part_file(shown: Interface, guid: str) -> bytes:
 
 def _of_part(shown: Interface) -> tuple[list[float], tuple[list[tuple[float, float]], ...], float]:
     """Return start values of all variables, both ranges of each input, and the step [s]."""
-    starts = [v.start or 0.0 for v in shown.variables]
+    starts = [v.start or 0.0 for v in shown.everything]
     return starts, shown.ranges(max(kernel_of(shown.spec).NINP, 1)), shown.experiment[1]
 
 
@@ -128,15 +131,17 @@ def _lists(shown: Interface) -> dict[str, tuple[str, list[str]]]:
     Categories, types and causalities are in the order of the enums in tables.h.
     """
     calls, names = call_table.CALLS, list(shown.enumerations)
-    inputs = [v.name for v in shown.inputs]
-    assert len(inputs) <= MOST_INPUTS, "dependencies are bits of one word"
+    inputs, states = ([v.name for v in found] for found in (shown.inputs, shown.continuous))
+    assert max(len(inputs), len(states)) <= MOST_INPUTS, "dependencies are bits of one word"
     levels = enumerate(shown.spec.fidelities, 1)
     tables: dict[str, tuple[str, Iterable[Iterable[Any]]]] = {
-        "VARIABLES": ("Variable", [_variable(v, inputs, names) for v in shown.variables]),
+        "VARIABLES": ("Variable", [_variable(v, inputs, states, names) for v in shown.everything]),
         "ENUMERATIONS": (
             "Enumeration",
             [(n, len(items), _Code(f"ITEMS_{n}")) for n, items in shown.enumerations.items()],
         ),
+        "CONTINUOUS_STATES": ("ContinuousState", [_state(v) for v in shown.continuous]),
+        "REQUIREMENTS": ("Requirement", _requirements(shown)),
         "CONDITIONS": ("Condition", _conditions(shown)),
         "STATUSES": ("StatusText", [(int(s), s.name, s.advice) for s in sorted(Status)]),
         "SWITCHES": ("Switch", [_switch(shown, slot, events) for slot, events in shown.switches]),
@@ -168,15 +173,27 @@ def _lists(shown: Interface) -> dict[str, tuple[str, list[str]]]:
     return {name: (kind, [_row(row) for row in rows]) for name, (kind, rows) in tables.items()}
 
 
-def _variable(v: Variable, inputs: Sequence[str], names: Sequence[str]) -> list[Any]:
+def _requirements(shown: Interface) -> list[list[Any]]:
+    needed = shown.spec.exchange.requires if shown.spec.exchange else {}
+    return [[v.slot, float(needed[v.name]), v.name] for v in shown.parameters if v.name in needed]
+
+
+def _state(v: Variable) -> list[Any]:
+    return [v.name, _Code(float(v.nominal or 1.0).hex()), v.slot if v.store == "out" else -1]
+
+
+def _variable(
+    v: Variable, inputs: Sequence[str], states: Sequence[str], names: Sequence[str]
+) -> list[Any]:
     kind, cause = f"TYPE_{v.type.upper()}", f"CAUSE_{v.causality.upper()}"
-    depends = sum(1 << inputs.index(name) for name in v.depends)
+    depends = sum(1 << inputs.index(name) for name in {*v.depends, *v.exchange_depends})
     codes = (kind, cause, f"STORE_{v.store.upper()}")
     return [
         v.name,
         v.unit,
         *(_Code(float(x).hex()) for x in v.bounds),
         _Code(f"0x{depends:x}u"),
+        _Code(f"0x{sum(1 << states.index(name) for name in v.states):x}u"),
         v.slot,
         names.index(v.type_name) if v.type_name else -1,
         *map(_Code, codes),
@@ -212,10 +229,14 @@ def _switch(shown: Interface, slot: int, events: tuple[str, str]) -> list[Any]:
 def _header(shown: Interface, lists: dict[str, tuple[str, list[str]]]) -> str:
     kernel = kernel_of(shown.spec)
     status = -1 if shown.status_slot is None else shown.status_slot
+    exchange = exchange_kernel_of(shown.spec)
     numbers = {
         **{name: getattr(kernel, name) for name in SIZES},
         "NRATES": getattr(kernel, "NRATES", 0),
         "NSEED": seed_length(kernel),
+        **{name: getattr(exchange, name, 0) for name in EXCHANGE_SIZES},
+        "HAS_EXCHANGE": int(exchange is not None),
+        "NEEDS_STEPS": int(bool(shown.spec.exchange and shown.spec.exchange.steps)),
         "IO_STATUS": status,
         "W_TOLD": getattr(kernel, "W_TOLD", 0),
         "N_TOLD": N_FIGURES,

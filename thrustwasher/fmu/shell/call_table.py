@@ -8,10 +8,12 @@ from ...model.toml_tables import table_beside
 
 INSTANTIATED, INITIALIZING, STEPPING, TERMINATED, EVENTS = 1, 2, 4, 8, 16
 UPDATING, UPDATED = 32, 64  # within the host's intermediateUpdate before and after a step, FMI 3
+CONTINUOUS, EXCHANGE_EVENTS = 128, 256  # of model exchange
 NEVER = 0
-ALWAYS = INSTANTIATED | INITIALIZING | STEPPING | TERMINATED | EVENTS
+EXCHANGING = CONTINUOUS | EXCHANGE_EVENTS
+ALWAYS = INSTANTIATED | INITIALIZING | STEPPING | TERMINATED | EVENTS | EXCHANGING
 READABLE = ALWAYS | UPDATED
-SOLVABLE = INITIALIZING | STEPPING | EVENTS  # events: FMI 3 only
+SOLVABLE = INITIALIZING | STEPPING | EVENTS | EXCHANGING  # events: FMI 3 only
 
 # What a mode is called in messages, and the function (without "fmi2", "fmi3") that leads out of it.
 MODES = {
@@ -19,6 +21,8 @@ MODES = {
     INITIALIZING: ("initialization mode", "ExitInitializationMode"),
     STEPPING: ("step mode", "Terminate"),
     EVENTS: ("event mode", "EnterStepMode"),
+    CONTINUOUS: ("continuous-time mode", "EnterEventMode"),
+    EXCHANGE_EVENTS: ("event mode", "EnterContinuousTimeMode"),
     TERMINATED: ("terminated", "Reset"),
 }
 
@@ -28,6 +32,7 @@ ACCESS = {
     "input": (INSTANTIATED | SOLVABLE | UPDATING, READABLE),
     "parameter": (INSTANTIATED | INITIALIZING, READABLE),
     "output": (NEVER, SOLVABLE | TERMINATED | UPDATED),
+    "local": (NEVER, SOLVABLE | TERMINATED | UPDATED),
 }
 
 _TABLE = table_beside(__file__, "calls.toml")

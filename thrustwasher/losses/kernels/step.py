@@ -148,17 +148,24 @@ def put(work: Array, at: int, sign: float, drag: tuple[float, float, float], ste
 
 
 @kernel
-def resist(par: Array, inp: Array, work: Array) -> None:
-    """Fill ``work`` with the torques at these inputs and their slopes; the widths are in it."""
+def resist(par: Array, inp: Array, work: Array, sizes: bool) -> None:
+    """Fill ``work`` with the torques at these inputs and their slopes; ``sizes``: with their sizes.
+
+    A size does not pass through zero with the speed; else the widths in which a torque does so are
+    in ``work``.
+    """
     clear(work[:W_WIDTH])
     oil, force, smooth = inp[I_OIL], inp[I_FORCE], par[P_SPEED_SMOOTHING]
     nu, nu_slope = oil_viscosity(par, oil)
     for i in range(SPEEDS):
         speed, at = inp[np.uintp(i)], i * SOURCES
         turning = math.sqrt(speed * speed + smooth * smooth)
-        width = work[np.uintp(W_WIDTH + i)]
-        more, sign = speed / turning, math.tanh(speed / width)
-        steep, starving = (1.0 - sign) * (1.0 + sign) / width, par[np.uintp(D_STARVING + i)]
+        more, sign, steep = speed / turning, 1.0, 0.0
+        starving = par[np.uintp(D_STARVING + i)]
+        if not sizes:
+            width = work[np.uintp(W_WIDTH + i)]
+            sign = math.tanh(speed / width)
+            steep = (1.0 - sign) * (1.0 + sign) / width
         if i == PLANET:
             load = 2.0 * soft_size(force, LIGHT)
             n, diameter = par[P_PLANET_BEARING_COUNT], par[P_PLANET_BEARING_DIAMETER]
@@ -247,7 +254,7 @@ def step(
     for i in range(SPEEDS):
         speed = inp[np.uintp(i)]
         work[np.uintp(W_WIDTH + i)] = width_at(way, memory_of(work, i), speed, dt)
-    resist(par, inp, work)
+    resist(par, inp, work, False)
     clear(out)
     for i in range(SPEEDS):
         speed = inp[np.uintp(i)]

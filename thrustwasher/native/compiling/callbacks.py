@@ -4,6 +4,7 @@ numba makes of each entry a C callback around a compiled function. The callback 
 Python (lock, exceptions) and falls away; the function inside takes numbers and needs libm at most.
 """
 
+import importlib
 import itertools
 import re
 from dataclasses import dataclass
@@ -12,6 +13,7 @@ from types import ModuleType
 from typing import Any
 
 from ...errors import EnvironmentProblem
+from ..entries import called_modules
 from ..signatures import ITEMS, Entry, Kind, entries
 
 # Entries of the step ABI: name in the kernel module -> name in the FMU's shell, lengths of the
@@ -23,6 +25,14 @@ ABI: dict[str, tuple[str, tuple[str, ...]]] = {
     "broken_rule": ("tw_rule", ("NPAR",)),
     "step": ("tw_step", (*_ARRAYS, "NOUT", "NIOUT", "", "")),
     "sens": ("tw_sens", (*_ARRAYS, "NSEED", "NOUT")),
+}
+# Entries for model exchange, of the module ``exchange`` beside that of the step.
+_EXCHANGED = ("NPAR", "NOWN", "NINP", "NCONT", "NMODE", "NWORK")
+EXCHANGE_ABI: dict[str, tuple[str, tuple[str, ...]]] = {
+    "start": ("tw_start", (*_EXCHANGED, "")),
+    "rates": ("tw_rates", (*_EXCHANGED, "NOUT", "NCONT", "NSIGN")),
+    "update": ("tw_update", (*_EXCHANGED, "NOUT", "NIOUT", "")),
+    "slopes": ("tw_slopes", (*_EXCHANGED, "NALONG", "NFOUND")),
 }
 
 
@@ -41,10 +51,18 @@ class Callback:
 
 def callbacks(kernel: ModuleType) -> list[Callback]:
     """Return all entries of a kernel module: for an FMU's shell, then for Python."""
-    shell = [
-        abi_callback(kernel, name, *about) for name, about in ABI.items() if hasattr(kernel, name)
-    ]
+    shell = [abi_callback(*entry) for entry in abi(kernel)]
     return shell + [python_callback(entry) for entry in entries(kernel.__name__)]
+
+
+def abi(kernel: ModuleType) -> list[tuple[ModuleType, str, str, tuple[str, ...]]]:
+    """Return the entries for an FMU's shell: module, name, name in the shell, lengths of arrays."""
+    found = [(kernel, name, *about) for name, about in ABI.items() if hasattr(kernel, name)]
+    exchange = f"{kernel.__name__.rpartition('.')[0]}.exchange"
+    if exchange in called_modules(kernel.__name__):
+        module = importlib.import_module(exchange)
+        found += [(module, name, *about) for name, about in EXCHANGE_ABI.items()]
+    return found
 
 
 def abi_callback(kernel: ModuleType, name: str, symbol: str, sizes: tuple[str, ...]) -> Callback:
@@ -60,6 +78,8 @@ def abi_callback(kernel: ModuleType, name: str, symbol: str, sizes: tuple[str, .
 
 def _length(kernel: ModuleType, name: str) -> int:
     """Return a length of a kernel module's arrays by its name."""
+    if name in ("NALONG", "NFOUND"):
+        return sum(getattr(kernel, n) for n in ("NINP" if name == "NALONG" else "NOUT", "NCONT"))
     plain = name == "NGIVEN" or (name == "NSEED" and not hasattr(kernel, name))
     length: int = getattr(kernel, "NINP" if plain else name)
     return length + getattr(kernel, "NRATES", 0) if name == "NGIVEN" else length

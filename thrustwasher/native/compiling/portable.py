@@ -20,7 +20,7 @@ from ..digest import digest, read
 from ..files import Note, to_stderr
 from ..shipped import short
 from ..targets import WEB
-from .callbacks import ABI
+from .callbacks import abi
 from .objects import objects
 
 MODULE, SIZES = "module.c", "module.h"
@@ -62,7 +62,7 @@ def portable(kernel: str, header: str, note: Note = to_stderr) -> dict[str, byte
     EnvironmentProblem: wasm2c or zig is missing, or the module holds what the header does not.
     """
     found = importlib.import_module(kernel)
-    names = [symbol for name, (symbol, _) in ABI.items() if hasattr(found, name)]
+    names = [symbol for _, _, symbol, _ in abi(found)]
     text = _by_wasm2c(_linked(kernel, names, STACK, note), short(kernel))
     needed = stack_of(text, names)
     if needed > STACK:
@@ -121,7 +121,7 @@ def translated(text: str, names: list[str], header: str) -> dict[str, bytes]:
         "",
         f"#define MODULE_SIZE {size}u /* bytes of memory */",
         "",
-        "void module_start(uint8_t *m);",
+        "void module_open(uint8_t *m);",
         *(re.sub(r"\bu(8|32|64)\b", r"uint\1_t", head).replace("f64", "double") for head in shown),
         "",
         "#endif",
@@ -129,7 +129,7 @@ def translated(text: str, names: list[str], header: str) -> dict[str, bytes]:
     ]
     start = [
         "/* Before anything else, in memory that is all 0. */",
-        "void module_start(u8 *m) {",
+        "void module_open(u8 *m) {",
         *copies,
         f"  STACK = {_number(text, r'instance->w2c_g0 = ([0-9]+)u;')}u;",
         "}",

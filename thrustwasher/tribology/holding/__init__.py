@@ -7,8 +7,8 @@
 ``reversals``   reversals of the slip, and which of them are chatter
 ``torque``      the torque that ends the slip with the step
 ``work``        the heat: the work that the shafts do to the unit
-``drag``        friction that asks nothing and holds nothing, but comes to rest without chatter
+``drag``        friction that asks and holds nothing, but comes to rest without chatter
 ``figures``     the numbers in what a unit says when it cannot hold
-``parameters``  the parameters that say how a unit holds
+``parameters``  the parameters that say how a unit holds; those of a bristle
 ==============  ================================================================================
 """

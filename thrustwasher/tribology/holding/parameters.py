@@ -3,6 +3,7 @@
 from typing import Any
 
 from ...model.parameters import choice, count, quantity
+from ...model.spec import Signal
 
 HOLDING = {
     "identified": "a pack asks for inertia and delay of the driveline, then holds; others come to "
@@ -33,3 +34,29 @@ def coupling_age() -> Any:
     """Return the field of the delay of the torque, in steps of the host."""
     text = "steps after which the torque acts: 0 at once, 1 where values are a step old"
     return count(0, 0, 2, text, read_by=OF_GIVEN, of_a_run=True)
+
+
+ANGLE = 3.490658503988659e-4  # rad, 0.02 degree
+
+
+def _quantity(name: str, unit: str, start: float, ends: tuple[float, float], text: str) -> Signal:
+    return Signal(
+        name=name, unit=unit, help=text, start=start, nominal=start, low=ends[0], high=ends[1]
+    )
+
+
+# In the order of the kernels' places.
+BRISTLE = (
+    _quantity("rest_angle", "rad", ANGLE, (1e-6, 0.1), "bristle bends so far under its capacity"),
+    _quantity(
+        "rest_damping_time", "s", 2e-3, (0.0, 1.0), "damping of a bristle at rest over stiffness"
+    ),
+    _quantity("rest_speed", "rad/s", 5.0, (1e-3, 1e3), "bristle settles in sliding over this slip"),
+)
+
+
+def bend_state(name: str, of: str) -> Signal:
+    """Return the bending of a bristle, a tenth of whose largest bending is usual."""
+    return Signal(
+        name=name, unit="rad", help=f"bending {of}; 0 in co-simulation", nominal=0.1 * ANGLE
+    )

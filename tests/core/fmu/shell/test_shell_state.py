@@ -14,7 +14,7 @@ pytestmark = needs_gcc
 both = pytest.mark.parametrize("fmi", [2, 3])
 ALL = taking([s.name for s in (*TOY.inputs, *TOY.outputs)])
 CHECK = 80  # place of the checksum
-HEAD = CHECK + 4 + 9 * 4
+HEAD = CHECK + 4 + 13 * 4
 
 
 def steps(first, n):

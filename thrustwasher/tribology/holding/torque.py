@@ -41,7 +41,7 @@ from .asking import (
     share_asked,
 )
 from .memory import Coupling
-from .plant import SEEN, evidence, excludes, forget, largest_answer, learn
+from .plant import SEEN, evidence, excludes, forget, largest_answer, learn, was_rougher
 from .reversals import calm, chatters, count_repeats, watch
 from .work import book
 
@@ -69,6 +69,7 @@ ANSWERS, SAID = 4.0, 34.0  # steps after the last question: an answer may come, 
 ANSWERED = 2.0  # what was given is refuted by an answer: the driveline is another one
 OFTEN = 5.0  # times that the slip came to the bit again, over the same number of steps: it is held
 DROWNED = 0.3  # of the slip that capacity makes in a step: noise in which nothing is held
+SETTLED = 6.0  # steps after which a pack that holds lets the slip go on in part
 SURELY = 7.0  # ln of the likelihood, 1000: with it an answer confirms or refutes
 ESCAPED = 3.0  # doubts: a slip that is held and leaves its reach
 MANY = 3.5  # reversals of late
@@ -208,12 +209,16 @@ def refuse(coupling: Coupling, mem: Array) -> None:
 
 
 @kernel
-def gain_of(coupling: Coupling, mem: Array, made: float) -> float:
+def gain_of(coupling: Coupling, mem: Array, slip: float, made: float) -> float:
     """Return the share of the slip that is ended in a step.
 
-    ``made``: slip that the capacity makes in a step [rad/s].
+    ``made``: slip that the capacity makes in a step [rad/s]. Late torques of packs in parallel
+    swing against each other where it is large: once the slip is small it is the smallest.
     """
-    gain = STEADY
+    gain, late = STEADY, age_of(coupling, mem)
+    small = abs(slip) <= STRANGE * made
+    if late > 0 and small and min(mem[M.HELD], mem[M.QUIET]) > SETTLED + late:
+        return SLOWEST
     if not is_given(coupling, mem) and mem[M.ERROR] > VAGUE:
         gain = CAREFUL if mem[M.ERROR] <= BADLY else SLOWEST
     loud = 2.3 * mem[M.NOISE] / max(made, 1e-300)
@@ -265,7 +270,7 @@ def expected(coupling: Coupling, mem: Array, slip: float, h: float) -> float:
     made = capacity * h / inertia_of(coupling, mem)
     if abs(slip) > _reach(coupling, mem, slip, made):
         return sign_of(slip) * capacity
-    wanted, _, _ = _wanted(coupling, mem, slip, h, gain_of(coupling, mem, made))
+    wanted, _, _ = _wanted(coupling, mem, slip, h, gain_of(coupling, mem, slip, made))
     return min(capacity, max(-capacity, wanted))
 
 
@@ -352,10 +357,10 @@ def decide(
     if is_given(coupling, mem) and coupling[4] and h > 0.0 and capacity > 0.0:
         if mem[M.NOISE] * coupling[1] > DROWNED * capacity * h:
             mem[M.LOST] = 1.0
-    slides, number, slope, coded, made = True, 0.0, 0.0, 0.0, 0.0
+    slides, number, slope, coded, made, eases = True, 0.0, 0.0, 0.0, 0.0, False
     if knows(coupling, mem) and h > 0.0:
         made = capacity * h / inertia_of(coupling, mem)
-        gain = gain_of(coupling, mem, made)
+        gain = gain_of(coupling, mem, slip, made)
         number, slope, mem[M.OUTSIDE] = _wanted(coupling, mem, slip, h, gain)
         slides = abs(slip) > _reach(coupling, mem, slip, made)
         drives = not slides and number * slip < 0.0 and abs(number) > capacity
@@ -367,10 +372,10 @@ def decide(
         if mem[M.STUCK] > 0.0 and not slides and coupling[0] == M.IDENTIFIED:
             most = EASILY * abs(inertia_of(coupling, mem) * mem[M.OUTSIDE])
             if abs(number) > most:
-                number, slope = math.copysign(most, number), 0.0
+                number, slope, eases = math.copysign(most, number), 0.0, True
             elif mem[M.HELD] > 3.0 + age_of(coupling, mem):
                 mem[M.STUCK] = 0.0
-        if not slides and abs(number) < capacity:
+        if not slides and not eases and abs(number) < capacity:
             _verify(coupling, mem, slip, made)
         _count_reversals(coupling, mem)
         slides = slides or not knows(coupling, mem)
@@ -398,8 +403,9 @@ def _slide(
     given = is_given(coupling, mem)
     near = is_near(mem, slip, NEAR_GIVEN if given and is_clean(mem, slip) else NEAR)
     unclear = mem[M.ASKED] == 0.0 and is_clean(mem, slip)  # what was asked from afar
-    from_afar = mem[M.AWAY] > FIRST_STEPS and (mem[M.KNOWN] > 0.0 or unclear)
-    if near and from_afar and not given:
+    of_others = mem[M.ASKED] < FREE and was_rougher(mem)
+    known_of = mem[M.KNOWN] > 0.0 or unclear or of_others
+    if near and mem[M.AWAY] > FIRST_STEPS and known_of and not given:
         forget(mem)  # it may be another plant by now
     mem[M.AWAY] = 0.0 if near else mem[M.AWAY] + 1.0
     if not probing or mem[M.REFUSED] > 0.0 or (given and not near):

@@ -69,7 +69,8 @@ ANSWERS, SAID = 4.0, 34.0  # steps after the last question: an answer may come, 
 ANSWERED = 2.0  # what was given is refuted by an answer: the driveline is another one
 OFTEN = 5.0  # times that the slip came to the bit again, over the same number of steps: it is held
 DROWNED = 0.3  # of the slip that capacity makes in a step: noise in which nothing is held
-SETTLED = 6.0  # steps after which a pack that holds lets the slip go on in part
+UNSEEN = 1.5  # times the slip: a larger change by outside torques is none of the slip's
+TINY = 1e-6  # of the largest slip: no slip that matters
 SURELY = 7.0  # ln of the likelihood, 1000: with it an answer confirms or refutes
 ESCAPED = 3.0  # doubts: a slip that is held and leaves its reach
 MANY = 3.5  # reversals of late
@@ -209,16 +210,12 @@ def refuse(coupling: Coupling, mem: Array) -> None:
 
 
 @kernel
-def gain_of(coupling: Coupling, mem: Array, slip: float, made: float) -> float:
+def gain_of(coupling: Coupling, mem: Array, made: float) -> float:
     """Return the share of the slip that is ended in a step.
 
-    ``made``: slip that the capacity makes in a step [rad/s]. Late torques of packs in parallel
-    swing against each other where it is large: once the slip is small it is the smallest.
+    ``made``: slip that the capacity makes in a step [rad/s].
     """
-    gain, late = STEADY, age_of(coupling, mem)
-    small = abs(slip) <= STRANGE * made
-    if late > 0 and small and min(mem[M.HELD], mem[M.QUIET]) > SETTLED + late:
-        return SLOWEST
+    gain = STEADY
     if not is_given(coupling, mem) and mem[M.ERROR] > VAGUE:
         gain = CAREFUL if mem[M.ERROR] <= BADLY else SLOWEST
     loud = 2.3 * mem[M.NOISE] / max(made, 1e-300)
@@ -231,11 +228,20 @@ def gain_of(coupling: Coupling, mem: Array, slip: float, made: float) -> float:
 def _wanted(
     coupling: Coupling, mem: Array, slip: float, h: float, gain: float
 ) -> tuple[float, float, float]:
-    """Return the torque that ends the slip, its slope over the slip, the outside acceleration."""
+    """Return the torque that ends the slip, its slope over the slip, the outside acceleration.
+
+    Late torques of two packs in parallel swing against each other where the gain is large, and the
+    slip does not show it: then the gain is the smallest, at which they calm down.
+    """
     age, inertia, outside, by_rate = age_of(coupling, mem), inertia_of(coupling, mem), 0.0, 0.0
     if mem[M.COUNT] > 0.0:
         acting = mem[np.uintp(M.TORQUE + age)]
         outside, by_rate = (slip - mem[M.SLIP]) / mem[M.STEP] + acting / inertia, 1.0
+        turn = abs(outside - mem[M.OUTSIDE]) * mem[M.STEP]
+        seen = max(abs(slip), abs(mem[M.SLIP]))
+        tiny = turn > UNSEEN * seen or seen < TINY * mem[M.MOST_SLIP]
+        if tiny and age > 0 and mem[M.HELD] > 0.0:
+            gain = min(gain, SLOWEST)
         if gain < STEADY and mem[M.HELD] > 0.0:
             outside, by_rate = mem[M.OUTSIDE] + gain * (outside - mem[M.OUTSIDE]), gain
         by_rate /= mem[M.STEP]
@@ -270,7 +276,7 @@ def expected(coupling: Coupling, mem: Array, slip: float, h: float) -> float:
     made = capacity * h / inertia_of(coupling, mem)
     if abs(slip) > _reach(coupling, mem, slip, made):
         return sign_of(slip) * capacity
-    wanted, _, _ = _wanted(coupling, mem, slip, h, gain_of(coupling, mem, slip, made))
+    wanted, _, _ = _wanted(coupling, mem, slip, h, gain_of(coupling, mem, made))
     return min(capacity, max(-capacity, wanted))
 
 
@@ -360,7 +366,7 @@ def decide(
     slides, number, slope, coded, made, eases = True, 0.0, 0.0, 0.0, 0.0, False
     if knows(coupling, mem) and h > 0.0:
         made = capacity * h / inertia_of(coupling, mem)
-        gain = gain_of(coupling, mem, slip, made)
+        gain = gain_of(coupling, mem, made)
         number, slope, mem[M.OUTSIDE] = _wanted(coupling, mem, slip, h, gain)
         slides = abs(slip) > _reach(coupling, mem, slip, made)
         drives = not slides and number * slip < 0.0 and abs(number) > capacity

@@ -46,37 +46,36 @@ def test_at_the_smallest_gain_the_torques_of_two_packs_do_not_swing_against_each
 
 @pytest.mark.parametrize("age", [0, 1, 2])
 @pytest.mark.parametrize("known", [False, True], ids=["identified", "given"])
-@pytest.mark.parametrize("ripple", [0.0, 5.0], ids=["steady", "ripple"])
-def test_two_packs_in_parallel_share_what_is_to_be_held(age, known, ripple):
+@pytest.mark.parametrize("capacities", [(115.0, 65.0), (97.0, 83.0)], ids=str)
+def test_two_packs_in_parallel_share_what_is_to_be_held(capacities, known, age):
     """Their sum is that of one pack, neither torque swings, and no status is told."""
-    capacities = (120.0, 60.0)
-    units = [Unit(Case(c), (WHOLE * c / 180.0, age) if known else None) for c in capacities]
+    shares = [c / sum(capacities) for c in capacities]
+    units = [
+        Unit(Case(c), (WHOLE * share, age) if known else None)
+        for c, share in zip(capacities, shares, strict=True)
+    ]
     slip, waiting, rows = 200.0, [[0.0, 0.0]] * age, []
-    drive = (100.0 / INERTIA[0] + 20.0 / INERTIA[1]) * WHOLE
+    outside = (100.0 / INERTIA[0] + 20.0 / INERTIA[1]) * WHOLE
     for n in range(1500):
         load = min(1.0, n * H / 0.1)
         torques = [unit.step(slip, H, load) for unit in units]
         waiting.append(torques)
-        outside = drive + ripple * np.sin(2.0 * np.pi * n / 100.0)
         slip += H * (outside - sum(waiting.pop(0))) / WHOLE
-        rows.append((slip, outside, *torques))
+        rows.append(torques)
     late = np.array(rows[-300:])
-    error = np.abs(late[:, 2:].sum(axis=1) - late[:, 1])
-    step = ripple * 2.0 * np.pi / 100.0  # change of the outside torque in one
-    assert error.max() < 1e-6 * drive + 4.0 * (1 + age) * step
-    assert np.abs(np.diff(late[:, 2:], axis=0)).max() < 1e-6 * drive + 4.0 * (1 + age) * step
-    assert all(unit.locked for unit in units) or ripple
+    assert np.abs(late.sum(axis=1) - outside).max() < 1e-6 * outside
+    assert np.abs(np.diff(late, axis=0)).max() < 1e-6 * outside
+    assert all(unit.locked for unit in units)
     assert not any(unit.told & {Status.CHATTER, Status.REFUTED} for unit in units)
 
 
 @pytest.mark.parametrize("age", [0, 1, 2])
-@pytest.mark.parametrize("ramp", [30, 60, 120])
+@pytest.mark.parametrize("ramp", [20, 40, 90])
 def test_a_pack_that_takes_over_from_another_one_that_asked_locks(age, ramp):
     """Gear 2.8 hands over to 1.2; the first pack holds from the start, both ask."""
     engine, vehicle, low, high, torque = 0.1, 2.0, 2.8, 1.2, 90.0
-    strong = torque * 1.6
-    packs = Unit(Case(3.0 * torque)), Unit(Case(strong))
-    w1, w2, waiting, slips = low * 40.0, 40.0, [(0.0, 0.0)] * age, []
+    packs = Unit(Case(3.0 * torque)), Unit(Case(1.3 * torque))
+    w1, w2, waiting, slips = low * 10.0, 10.0, [(0.0, 0.0)] * age, []
     for n in range(900):
         loads = max(0.0, 1.0 - max(0, n - 10) / ramp), min(1.0, max(0, n - 10) / ramp)
         seen = w1 - low * w2, w1 - high * w2

@@ -30,6 +30,7 @@ SWUNG = 0.1  # of the capacity: a torque that differs less from its mean has not
 FOLLOWS = 0.05  # of the mean, in a step
 WIDER, NARROWER = 2.0, 0.9
 AGAIN = 20.0  # steps within which a reversal follows another one
+AT_ONCE = 4.0  # the same, of a shaft that is to be at rest
 LEAST_SHARE = 1e-100
 LEFT = 3.0  # times w: a shaft that is faster for so long has left rest
 
@@ -47,6 +48,8 @@ def _notice(mem: Array, speed: float, h: float, own: float) -> None:
         turned = swing * mem[M.LEANS] < 0.0
         mem[M.LEANS] = sign_of(swing)
     if turned:
+        if mem[M.CALM] <= AT_ONCE and mem[M.COUNT] > mem[M.CALM] + 1.0:
+            mem[M.WIDTH] = max(mem[M.WIDTH], abs(speed - mem[M.SLIP]))
         if mem[M.CALM] <= AGAIN and mem[M.COUNT] > AGAIN:
             mem[M.WIDTH] *= WIDER
         mem[M.CALM] = 0.0

@@ -35,6 +35,7 @@ CERTAIN = 4.0  # standard deviations, neighbouring samples going together
 WEAK = 0.25  # times that answer: less is none
 LESS, MORE = 0.4, 1.4  # times the answer that was given: it is refuted
 ENOUGH = 8.0  # weight of samples from which on they bound the answer
+ROUGHER = 64.0  # times the mean square of that difference: more is none of the speed's own
 FADED = 0.9  # of the mean square of the slip's third difference, at each new one
 
 
@@ -50,6 +51,13 @@ def forget(mem: Array) -> None:
     for i in range(M.ZZ, M.WEIGHT + 1):
         mem[np.uintp(i)] = 0.0
     mem[M.KNOWN] = mem[M.DOUBT] = mem[M.HELD] = 0.0
+
+
+@kernel
+def was_rougher(mem: Array) -> bool:
+    """Tell if the slip was rougher in the samples than it is without a code: others moved it."""
+    mean = mem[M.YY] * mem[M.STEP] * mem[M.STEP]
+    return mean > ROUGHER * mem[M.ROUGH] * mem[M.WEIGHT]
 
 
 @kernel

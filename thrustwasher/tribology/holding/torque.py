@@ -41,7 +41,7 @@ from .asking import (
     share_asked,
 )
 from .memory import Coupling
-from .plant import SEEN, evidence, excludes, forget, largest_answer, learn
+from .plant import SEEN, evidence, excludes, forget, largest_answer, learn, was_rougher
 from .reversals import calm, chatters, count_repeats, watch
 from .work import book
 
@@ -69,6 +69,8 @@ ANSWERS, SAID = 4.0, 34.0  # steps after the last question: an answer may come, 
 ANSWERED = 2.0  # what was given is refuted by an answer: the driveline is another one
 OFTEN = 5.0  # times that the slip came to the bit again, over the same number of steps: it is held
 DROWNED = 0.3  # of the slip that capacity makes in a step: noise in which nothing is held
+UNSEEN = 1.5  # times the slip: a larger change by outside torques is none of the slip's
+TINY = 1e-6  # of the largest slip: no slip that matters
 SURELY = 7.0  # ln of the likelihood, 1000: with it an answer confirms or refutes
 ESCAPED = 3.0  # doubts: a slip that is held and leaves its reach
 MANY = 3.5  # reversals of late
@@ -226,11 +228,20 @@ def gain_of(coupling: Coupling, mem: Array, made: float) -> float:
 def _wanted(
     coupling: Coupling, mem: Array, slip: float, h: float, gain: float
 ) -> tuple[float, float, float]:
-    """Return the torque that ends the slip, its slope over the slip, the outside acceleration."""
+    """Return the torque that ends the slip, its slope over the slip, the outside acceleration.
+
+    Late torques of two packs in parallel swing against each other where the gain is large, and the
+    slip does not show it: then the gain is the smallest, at which they calm down.
+    """
     age, inertia, outside, by_rate = age_of(coupling, mem), inertia_of(coupling, mem), 0.0, 0.0
     if mem[M.COUNT] > 0.0:
         acting = mem[np.uintp(M.TORQUE + age)]
         outside, by_rate = (slip - mem[M.SLIP]) / mem[M.STEP] + acting / inertia, 1.0
+        turn = abs(outside - mem[M.OUTSIDE]) * mem[M.STEP]
+        seen = max(abs(slip), abs(mem[M.SLIP]))
+        tiny = turn > UNSEEN * seen or seen < TINY * mem[M.MOST_SLIP]
+        if tiny and age > 0 and mem[M.HELD] > 0.0:
+            gain = min(gain, SLOWEST)
         if gain < STEADY and mem[M.HELD] > 0.0:
             outside, by_rate = mem[M.OUTSIDE] + gain * (outside - mem[M.OUTSIDE]), gain
         by_rate /= mem[M.STEP]
@@ -352,7 +363,7 @@ def decide(
     if is_given(coupling, mem) and coupling[4] and h > 0.0 and capacity > 0.0:
         if mem[M.NOISE] * coupling[1] > DROWNED * capacity * h:
             mem[M.LOST] = 1.0
-    slides, number, slope, coded, made = True, 0.0, 0.0, 0.0, 0.0
+    slides, number, slope, coded, made, eases = True, 0.0, 0.0, 0.0, 0.0, False
     if knows(coupling, mem) and h > 0.0:
         made = capacity * h / inertia_of(coupling, mem)
         gain = gain_of(coupling, mem, made)
@@ -367,10 +378,10 @@ def decide(
         if mem[M.STUCK] > 0.0 and not slides and coupling[0] == M.IDENTIFIED:
             most = EASILY * abs(inertia_of(coupling, mem) * mem[M.OUTSIDE])
             if abs(number) > most:
-                number, slope = math.copysign(most, number), 0.0
+                number, slope, eases = math.copysign(most, number), 0.0, True
             elif mem[M.HELD] > 3.0 + age_of(coupling, mem):
                 mem[M.STUCK] = 0.0
-        if not slides and abs(number) < capacity:
+        if not slides and not eases and abs(number) < capacity:
             _verify(coupling, mem, slip, made)
         _count_reversals(coupling, mem)
         slides = slides or not knows(coupling, mem)
@@ -398,8 +409,9 @@ def _slide(
     given = is_given(coupling, mem)
     near = is_near(mem, slip, NEAR_GIVEN if given and is_clean(mem, slip) else NEAR)
     unclear = mem[M.ASKED] == 0.0 and is_clean(mem, slip)  # what was asked from afar
-    from_afar = mem[M.AWAY] > FIRST_STEPS and (mem[M.KNOWN] > 0.0 or unclear)
-    if near and from_afar and not given:
+    of_others = mem[M.ASKED] < FREE and was_rougher(mem)
+    known_of = mem[M.KNOWN] > 0.0 or unclear or of_others
+    if near and mem[M.AWAY] > FIRST_STEPS and known_of and not given:
         forget(mem)  # it may be another plant by now
     mem[M.AWAY] = 0.0 if near else mem[M.AWAY] + 1.0
     if not probing or mem[M.REFUSED] > 0.0 or (given and not near):

@@ -66,6 +66,9 @@ STRANGE = 0.05  # of the slip that capacity makes in a step: what outside torque
 LARGE = 0.05  # of the largest slip: more is not held
 SMALL = 1e-3  # of the largest slip: a pack that slips by less is locked
 ANSWERS, SAID = 4.0, 34.0  # steps after the last question: an answer may come, it is told
+EXACT = 1e-6  # third difference of the slip over its change in a step: speeds are exact
+ENDLESS = 200.0  # steps of an engagement in which no driveline was found: none is waited for
+TOLD_BY = 20.0  # steps far from zero after which exact speeds have told a driveline
 ANSWERED = 2.0  # what was given is refuted by an answer: the driveline is another one
 OFTEN = 5.0  # times that the slip came to the bit again, over the same number of steps: it is held
 DROWNED = 0.3  # of the slip that capacity makes in a step: noise in which nothing is held
@@ -187,6 +190,12 @@ def book_heat(coupling: Coupling, mem: Array, slip: float) -> None:
     kept = coupling[0] == M.IDENTIFIED or mem[M.CONFIRMED] > 0.0
     if age < 0 and kept and mem[M.REFUSED] == 0.0:  # that which was known last
         age, inertia = int(mem[M.HEAT_AGE]) - 1, mem[M.HEAT_INERTIA]
+    if mem[M.CLOSED] <= SEEN:
+        mem[M.ALONE] = 0.0
+    deaf = is_deaf(coupling, mem) and mem[M.COUNT] - mem[M.TOLD] > SAID
+    exact = math.sqrt(mem[M.ROUGH]) < EXACT * largest_move(mem, slip) and mem[M.AWAY] > TOLD_BY
+    if deaf or exact or mem[M.REFUSED] > 0.0 or mem[M.CLOSED] > ENDLESS:
+        mem[M.ALONE] = 1.0
     book(mem, slip, age, inertia)
 
 
@@ -205,6 +214,8 @@ def refuse(coupling: Coupling, mem: Array) -> None:
     mem[M.HEAT_AGE] = 0.0
     for k in range(N_AGES + 2):
         mem[np.uintp(M.WORK + k)] = 0.0
+    for k in range(N_AGES):
+        mem[np.uintp(M.LATE + k)] = 0.0
 
 
 @kernel
@@ -433,6 +444,8 @@ def note(
         mem[np.uintp(M.SLIP + k)] = mem[np.uintp(M.SLIP + k - 1)]
         mem[np.uintp(M.STEP + k)] = mem[np.uintp(M.STEP + k - 1)]
     mem[M.TORQUE], mem[M.CODED], mem[M.SLIP], mem[M.STEP] = torque, coded, slip, h
+    if mem[M.COUNT] > 0.0:
+        mem[M.BEFORE + 1], mem[M.BEFORE] = mem[M.BEFORE], mem[M.CAPACITY]
     mem[M.COUNT] += 1.0
     mem[M.CLOSED] += 1.0
     mem[M.CLOCK] += h

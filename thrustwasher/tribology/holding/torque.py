@@ -52,12 +52,12 @@ LASTS = 0.995  # of the longest step, at each step
 SMOOTH = 1e-3  # of the largest slip: over which the torque of an unknown plant rises, at least
 FEW, ALL = 0.03, 1.0  # of the last swings: at most; where the plant is nearly proved
 NEARLY = 7.0  # standard deviations of an answer
-START = 0.01  # of the capacity: what a pack that is stuck at the start gives more in each step
+START = 0.002  # of the capacity: what a pack that is stuck at the start gives more in each step
+GROWS, STOPS, NOTHING = 2.0, 1.2, 0.02  # its torque over the last, over the held one; of its motion
 EARLY = 5.0  # steps of slip in which the pack's own torque hardly changes it
 FEELS = 12.0  # steps of slip after which it is stuck no more
 TURNS = 1.2  # times the mean change of the slip: by more a shaft that was at rest changes none
 EASILY = 1.9  # times the torque that is to be held: with that a pack that was stuck ends its slip
-FULL = 0.5  # of the capacity: one that gives it is stuck no more
 VAGUE, BADLY = 0.03, 0.15  # relative error of the inertia: above it the slip is ended in part
 STEADY, CAREFUL, SLOWEST = 1.0, 0.5, 0.3  # share of the slip that is ended in a step
 LOUD, LOUDER = 0.03, 0.1  # torque by noise over capacity: above it the same
@@ -311,6 +311,22 @@ def _count_reversals(coupling: Coupling, mem: Array) -> None:
 
 
 @kernel
+def _most_of_stuck(mem: Array, slip: float) -> float:
+    """Return the torque up to which a pack that was stuck at the start feels its way [N m].
+
+    A held torque L sets the slip in motion with L/J; under a torque T it is (L - T)/J: the share
+    that is left tells T/L. The torque of three steps ago has acted for certain.
+    """
+    if mem[M.FELT] <= 1.0:
+        mem[M.PUSHED] = (slip - mem[M.SLIP]) / mem[M.STEP]
+    left = (slip - mem[M.SLIP]) / mem[M.STEP] / (mem[M.PUSHED] if mem[M.PUSHED] != 0.0 else 1e300)
+    last = max(abs(mem[M.TORQUE]), abs(mem[M.TORQUE + 1]))  # one may have been lowered to ask
+    sure = abs(mem[M.TORQUE + 2])
+    more = min(GROWS * last, STOPS * sure / max(1.0 - left, NOTHING)) if left > 0.0 else last
+    return max(more, last) + START * mem[M.MOST_CAPACITY] * min(1.0, max(0.0, left))
+
+
+@kernel
 def _of_unknown(
     coupling: Coupling, mem: Array, slip: float, h: float, capacity: float
 ) -> tuple[float, float]:
@@ -331,13 +347,9 @@ def _of_unknown(
         odd = mem[M.FELT] <= EARLY and mem[M.FELT] * turns > TURNS * mem[M.MOST_SLIP]
         if mem[M.FELT] > FEELS or odd:
             mem[M.STUCK] = 0.0  # no shaft that a steady torque sets in motion
-        last = abs(mem[M.TORQUE]) / capacity
-        grows = mem[M.FELT] * (abs(slip) - abs(mem[M.SLIP])) / max(mem[M.MOST_SLIP], 1e-300)
-        most = last + START * min(1.0, max(0.0, grows))
+        most = _most_of_stuck(mem, slip) / capacity
         if abs(share) > most:
             return math.copysign(most, share), 0.0
-        if abs(share) > FULL:
-            mem[M.STUCK] = 0.0
     return share, (1.0 - share) * (1.0 + share) / width
 
 
@@ -375,13 +387,15 @@ def decide(
             number = 0.0 if drives else number
             if mem[M.DOUBT] > 6.0 + 2.0 * age_of(coupling, mem):
                 refuse(coupling, mem)
-        if mem[M.STUCK] > 0.0 and not slides and coupling[0] == M.IDENTIFIED:
+        if mem[M.STUCK] > 0.0 and coupling[0] == M.IDENTIFIED:
             most = EASILY * abs(inertia_of(coupling, mem) * mem[M.OUTSIDE])
-            if abs(number) > most:
-                number, slope = math.copysign(most, number), 0.0
+            if slides or abs(number) > most:
+                slides = most >= capacity
+                number, slope = math.copysign(most, slip if slides else number), 0.0
             elif mem[M.HELD] > 3.0 + age_of(coupling, mem):
                 mem[M.STUCK] = 0.0
-        if not slides and abs(number) < capacity:
+        ends = mem[M.STUCK] > 0.0 and abs(slip) <= abs(mem[M.SLIP])
+        if not slides and abs(number) < capacity and not ends:
             _verify(coupling, mem, slip, made)
         _count_reversals(coupling, mem)
         slides = slides or not knows(coupling, mem)

@@ -41,7 +41,7 @@ from .asking import (
     share_asked,
 )
 from .memory import Coupling
-from .plant import SEEN, evidence, excludes, forget, largest_answer, learn
+from .plant import LESS, MORE, SEEN, evidence, excludes, forget, largest_answer, learn
 from .reversals import calm, chatters, count_repeats, watch
 from .work import book
 
@@ -206,7 +206,9 @@ def refuse(coupling: Coupling, mem: Array) -> None:
         late = mem[M.WORK + N_AGES] - mem[M.WORK + N_AGES + 1]
         mem[M.OWED] -= max(0.0, late)
     if coupling[0] == M.GIVEN:
-        mem[M.REFUSED], mem[M.CAREFUL] = 1.0, ANSWERED if mem[M.KNOWN] > 0.0 else 0.0
+        ratio = mem[M.INERTIA] / coupling[1]  # of the answer that was found beside
+        another = mem[M.KNOWN] > 0.0 and not 1.0 / MORE < ratio < 1.0 / LESS
+        mem[M.REFUSED], mem[M.CAREFUL] = 1.0, ANSWERED if another else 0.0
         mem[M.KNOWN] = mem[M.DOUBT] = mem[M.HELD] = 0.0
     else:
         forget(mem)

@@ -32,10 +32,12 @@ LEVER = 0.1  # of the coded part's squares: from there on the other part is judg
 ALIKE_LEAST, ALIKE_MOST = 0.5, 2.0  # its slope over that of the coded part
 SEEN = 4.0  # steps that a sample is made of
 CERTAIN = 4.0  # standard deviations, neighbouring samples going together
-WEAK = 0.25  # times that answer: less is none
-LESS, MORE = 0.4, 1.4  # times the answer that was given: it is refuted
+WEAK = 0.1  # times that answer: less is none
+LESS, MORE = 0.5, 1.4  # times the answer that was given: it is refuted
 ENOUGH = 8.0  # weight of samples from which on they bound the answer
 ROUGHER = 64.0  # times the mean square of that difference: more is none of the speed's own
+RISES = 100.0  # times that mean square: a larger one counts as so much
+FINE = 0.02  # of the slip that capacity makes in a step: below it the noise is of no account
 FADED = 0.9  # of the mean square of the slip's third difference, at each new one
 
 
@@ -93,7 +95,11 @@ def learn(mem: Array, slip: float, answer: float, age: int) -> None:
     asked = most > EXCITED * mem[M.MOST_CAPACITY]
     if answer > 0.0 or not asked:
         third = (y + answer * _second_difference(mem, M.TORQUE + age)) * mem[M.STEP]
-        mem[M.ROUGH] = FADED * mem[M.ROUGH] + (1.0 - FADED) * third * third
+        square = third * third
+        if answer > 0.0:  # a jump of outside torque is no noise
+            made = FINE * answer * mem[M.CAPACITY] * mem[M.STEP]
+            square = min(square, RISES * mem[M.ROUGH] + made * made)
+        mem[M.ROUGH] = FADED * mem[M.ROUGH] + (1.0 - FADED) * square
     if not asked:
         return
     for d in range(N_AGES):

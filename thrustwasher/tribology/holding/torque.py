@@ -41,7 +41,17 @@ from .asking import (
     share_asked,
 )
 from .memory import Coupling
-from .plant import SEEN, evidence, excludes, forget, largest_answer, learn, was_rougher
+from .plant import (
+    LESS,
+    MORE,
+    SEEN,
+    evidence,
+    excludes,
+    forget,
+    largest_answer,
+    learn,
+    was_rougher,
+)
 from .reversals import calm, chatters, count_repeats, watch
 from .work import book
 
@@ -52,12 +62,12 @@ LASTS = 0.995  # of the longest step, at each step
 SMOOTH = 1e-3  # of the largest slip: over which the torque of an unknown plant rises, at least
 FEW, ALL = 0.03, 1.0  # of the last swings: at most; where the plant is nearly proved
 NEARLY = 7.0  # standard deviations of an answer
-START = 0.01  # of the capacity: what a pack that is stuck at the start gives more in each step
+START = 0.002  # of the capacity: what a pack that is stuck at the start gives more in each step
+GROWS, STOPS, NOTHING = 2.0, 1.2, 0.02  # its torque over the last, over the held one; of its motion
 EARLY = 5.0  # steps of slip in which the pack's own torque hardly changes it
 FEELS = 12.0  # steps of slip after which it is stuck no more
 TURNS = 1.2  # times the mean change of the slip: by more a shaft that was at rest changes none
 EASILY = 1.9  # times the torque that is to be held: with that a pack that was stuck ends its slip
-FULL = 0.5  # of the capacity: one that gives it is stuck no more
 VAGUE, BADLY = 0.03, 0.15  # relative error of the inertia: above it the slip is ended in part
 STEADY, CAREFUL, SLOWEST = 1.0, 0.5, 0.3  # share of the slip that is ended in a step
 LOUD, LOUDER = 0.03, 0.1  # torque by noise over capacity: above it the same
@@ -66,6 +76,9 @@ STRANGE = 0.05  # of the slip that capacity makes in a step: what outside torque
 LARGE = 0.05  # of the largest slip: more is not held
 SMALL = 1e-3  # of the largest slip: a pack that slips by less is locked
 ANSWERS, SAID = 4.0, 34.0  # steps after the last question: an answer may come, it is told
+EXACT = 1e-6  # third difference of the slip over its change in a step: speeds are exact
+ENDLESS = 200.0  # steps of an engagement in which no driveline was found: none is waited for
+TOLD_BY = 20.0  # steps far from zero after which exact speeds have told a driveline
 ANSWERED = 2.0  # what was given is refuted by an answer: the driveline is another one
 OFTEN = 5.0  # times that the slip came to the bit again, over the same number of steps: it is held
 DROWNED = 0.3  # of the slip that capacity makes in a step: noise in which nothing is held
@@ -189,6 +202,12 @@ def book_heat(coupling: Coupling, mem: Array, slip: float) -> None:
     kept = coupling[0] == M.IDENTIFIED or mem[M.CONFIRMED] > 0.0
     if age < 0 and kept and mem[M.REFUSED] == 0.0:  # that which was known last
         age, inertia = int(mem[M.HEAT_AGE]) - 1, mem[M.HEAT_INERTIA]
+    if mem[M.CLOSED] <= SEEN:
+        mem[M.ALONE] = 0.0
+    deaf = is_deaf(coupling, mem) and mem[M.COUNT] - mem[M.TOLD] > SAID
+    exact = math.sqrt(mem[M.ROUGH]) < EXACT * largest_move(mem, slip) and mem[M.AWAY] > TOLD_BY
+    if deaf or exact or mem[M.REFUSED] > 0.0 or mem[M.CLOSED] > ENDLESS:
+        mem[M.ALONE] = 1.0
     book(mem, slip, age, inertia)
 
 
@@ -199,7 +218,9 @@ def refuse(coupling: Coupling, mem: Array) -> None:
         late = mem[M.WORK + N_AGES] - mem[M.WORK + N_AGES + 1]
         mem[M.OWED] -= max(0.0, late)
     if coupling[0] == M.GIVEN:
-        mem[M.REFUSED], mem[M.CAREFUL] = 1.0, ANSWERED if mem[M.KNOWN] > 0.0 else 0.0
+        ratio = mem[M.INERTIA] / coupling[1]  # of the answer that was found beside
+        another = mem[M.KNOWN] > 0.0 and not 1.0 / MORE < ratio < 1.0 / LESS
+        mem[M.REFUSED], mem[M.CAREFUL] = 1.0, ANSWERED if another else 0.0
         mem[M.KNOWN] = mem[M.DOUBT] = mem[M.HELD] = 0.0
     else:
         forget(mem)
@@ -207,6 +228,8 @@ def refuse(coupling: Coupling, mem: Array) -> None:
     mem[M.HEAT_AGE] = 0.0
     for k in range(N_AGES + 2):
         mem[np.uintp(M.WORK + k)] = 0.0
+    for k in range(N_AGES):
+        mem[np.uintp(M.LATE + k)] = 0.0
 
 
 @kernel
@@ -311,6 +334,22 @@ def _count_reversals(coupling: Coupling, mem: Array) -> None:
 
 
 @kernel
+def _most_of_stuck(mem: Array, slip: float) -> float:
+    """Return the torque up to which a pack that was stuck at the start feels its way [N m].
+
+    A held torque L sets the slip in motion with L/J; under a torque T it is (L - T)/J: the share
+    that is left tells T/L. The torque of three steps ago has acted for certain.
+    """
+    if mem[M.FELT] <= 1.0:
+        mem[M.PUSHED] = (slip - mem[M.SLIP]) / mem[M.STEP]
+    left = (slip - mem[M.SLIP]) / mem[M.STEP] / (mem[M.PUSHED] if mem[M.PUSHED] != 0.0 else 1e300)
+    last = max(abs(mem[M.TORQUE]), abs(mem[M.TORQUE + 1]))  # one may have been lowered to ask
+    sure = abs(mem[M.TORQUE + 2])
+    more = min(GROWS * last, STOPS * sure / max(1.0 - left, NOTHING)) if left > 0.0 else last
+    return max(more, last) + START * mem[M.MOST_CAPACITY] * min(1.0, max(0.0, left))
+
+
+@kernel
 def _of_unknown(
     coupling: Coupling, mem: Array, slip: float, h: float, capacity: float
 ) -> tuple[float, float]:
@@ -331,13 +370,9 @@ def _of_unknown(
         odd = mem[M.FELT] <= EARLY and mem[M.FELT] * turns > TURNS * mem[M.MOST_SLIP]
         if mem[M.FELT] > FEELS or odd:
             mem[M.STUCK] = 0.0  # no shaft that a steady torque sets in motion
-        last = abs(mem[M.TORQUE]) / capacity
-        grows = mem[M.FELT] * (abs(slip) - abs(mem[M.SLIP])) / max(mem[M.MOST_SLIP], 1e-300)
-        most = last + START * min(1.0, max(0.0, grows))
+        most = _most_of_stuck(mem, slip) / capacity
         if abs(share) > most:
             return math.copysign(most, share), 0.0
-        if abs(share) > FULL:
-            mem[M.STUCK] = 0.0
     return share, (1.0 - share) * (1.0 + share) / width
 
 
@@ -363,7 +398,7 @@ def decide(
     if is_given(coupling, mem) and coupling[4] and h > 0.0 and capacity > 0.0:
         if mem[M.NOISE] * coupling[1] > DROWNED * capacity * h:
             mem[M.LOST] = 1.0
-    slides, number, slope, coded, made, eases = True, 0.0, 0.0, 0.0, 0.0, False
+    slides, number, slope, coded, made = True, 0.0, 0.0, 0.0, 0.0
     if knows(coupling, mem) and h > 0.0:
         made = capacity * h / inertia_of(coupling, mem)
         gain = gain_of(coupling, mem, made)
@@ -375,13 +410,15 @@ def decide(
             number = 0.0 if drives else number
             if mem[M.DOUBT] > 6.0 + 2.0 * age_of(coupling, mem):
                 refuse(coupling, mem)
-        if mem[M.STUCK] > 0.0 and not slides and coupling[0] == M.IDENTIFIED:
+        if mem[M.STUCK] > 0.0 and coupling[0] == M.IDENTIFIED:
             most = EASILY * abs(inertia_of(coupling, mem) * mem[M.OUTSIDE])
-            if abs(number) > most:
-                number, slope, eases = math.copysign(most, number), 0.0, True
+            if slides or abs(number) > most:
+                slides = most >= capacity
+                number, slope = math.copysign(most, slip if slides else number), 0.0
             elif mem[M.HELD] > 3.0 + age_of(coupling, mem):
                 mem[M.STUCK] = 0.0
-        if not slides and not eases and abs(number) < capacity:
+        ends = mem[M.STUCK] > 0.0 and abs(slip) <= abs(mem[M.SLIP])
+        if not slides and abs(number) < capacity and not ends:
             _verify(coupling, mem, slip, made)
         _count_reversals(coupling, mem)
         slides = slides or not knows(coupling, mem)
@@ -445,6 +482,8 @@ def note(
         mem[np.uintp(M.SLIP + k)] = mem[np.uintp(M.SLIP + k - 1)]
         mem[np.uintp(M.STEP + k)] = mem[np.uintp(M.STEP + k - 1)]
     mem[M.TORQUE], mem[M.CODED], mem[M.SLIP], mem[M.STEP] = torque, coded, slip, h
+    if mem[M.COUNT] > 0.0:
+        mem[M.BEFORE + 1], mem[M.BEFORE] = mem[M.BEFORE], mem[M.CAPACITY]
     mem[M.COUNT] += 1.0
     mem[M.CLOSED] += 1.0
     mem[M.CLOCK] += h

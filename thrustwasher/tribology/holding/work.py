@@ -2,9 +2,11 @@
 """The heat of a unit between two shafts: the work that they do to it.
 
 While nobody knows when a torque acts it is the power that the torque had where it was given
-(trapezoidal rule); in the first dozen steps, after which exact speeds have told the age, the least
-that any age would have made. Once the age is known a difference is owed, and paid by heat to come:
-heat never falls. Negative work is a debt that positive work pays first.
+(trapezoidal rule), less what a driveline makes of the delay: a torque that acts d steps late misses
+sum (C_k - C_(k-d)) |s_k| H. It is the capacity's, so the swings of a slip through zero lessen
+nothing, at most two steps of the largest capacity at the largest slip, and half of the heat. Where
+no driveline answers nothing is late. Once the age is known a difference is owed, and paid by heat
+to come: heat never falls. Negative work is a debt that positive work pays first.
 
 The torque of the initialization may have acted over the first steps, or not: their slip tells.
 """
@@ -16,13 +18,32 @@ from ...numerics.smoothing import sign_of
 from . import memory as M
 from .asking import N_AGES
 
-YOUNG = 12.0  # steps of an engagement in which the least counts
+MOST_LATE = 0.5  # of the heat: what a late torque has not made yet, at most
 
 
 @kernel
-def _is_young(mem: Array) -> bool:
-    """Tell if exact speeds may still tell the age."""
-    return mem[M.CLOSED] <= YOUNG
+def _due(mem: Array, given: float, missed: float) -> float:
+    """Return the heat that is due while the age is unknown [J].
+
+    ``given``: by the power where it was given; ``missed``: of it, if the torque acts late.
+    """
+    if mem[M.ALONE] > 0.0 or mem[M.COUNT] <= 1.0:
+        return given
+    most = (N_AGES - 1) * mem[M.LONGEST] * mem[M.MOST_CAPACITY] * mem[M.MOST_SLIP]
+    return given - max(0.0, min(missed, min(most, MOST_LATE * given)))
+
+
+@kernel
+def _count_late(mem: Array, slip: float) -> float:
+    """Count what a late torque missed in the step that ended; return the most of any age [J]."""
+    turned = 0.5 * (abs(mem[M.SLIP]) + abs(slip)) * mem[M.STEP]
+    span, acting, most = 0.5 * (mem[M.STEP] + mem[M.STEP + 1]), mem[M.CAPACITY], 0.0
+    for k in range(N_AGES):
+        late = mem[M.CAPACITY] * abs(mem[M.SLIP]) * span - acting * turned
+        mem[np.uintp(M.LATE + k)] = 0.0 if mem[M.ALONE] > 0.0 else mem[np.uintp(M.LATE + k)] + late
+        most = max(most, mem[np.uintp(M.LATE + k)])
+        acting = mem[np.uintp(M.BEFORE + min(k, N_AGES - 2))]
+    return most
 
 
 @kernel
@@ -75,13 +96,11 @@ def book(mem: Array, slip: float, age: int, inertia: float) -> None:
         _before_the_start(mem, age, inertia)
     power = mem[M.TORQUE] * mem[M.SLIP]
     mem[M.WORK + N_AGES] += 0.5 * (mem[M.STEP] + mem[M.STEP + 1]) * power
+    missed = _count_late(mem, slip)
     if age >= 0:
         made = mem[np.uintp(M.TORQUE + age)] * turned
     else:
-        due = mem[M.WORK + N_AGES]
-        if _is_young(mem):
-            for k in range(N_AGES):
-                due = min(due, mem[np.uintp(M.WORK + k)])
+        due = _due(mem, mem[M.WORK + N_AGES], missed)
         made = max(0.0, due - mem[M.WORK + N_AGES + 1])
     mem[M.WORK + N_AGES + 1] += made
     paid = min(max(made, 0.0), mem[M.DEBT])
@@ -105,8 +124,19 @@ def foreseen(mem: Array, slip: float, h: float, torque: float) -> float:
             change -= (acting - mem[np.uintp(M.TORQUE + age)]) / inertia * h
     change = min(abs(slip), max(-abs(slip), change))  # a short step says little of a long one
     made = max(acting * (slip + 0.5 * change) * h, 0.0)
-    if age < 0 and mem[M.COUNT] > 0.0 and _is_young(mem):
-        return 0.0
-    if age < 0:  # half of the last step is not booked yet
-        made += 0.5 * mem[M.STEP] * max(torque * slip, 0.0)
+    if age < 0 and mem[M.COUNT] > 0.0:
+        made = _foreseen_due(mem, slip, h, torque, made) - mem[M.WORK + N_AGES + 1]
     return max(made - mem[M.DEBT] - mem[M.OWED], 0.0)
+
+
+@kernel
+def _foreseen_due(mem: Array, slip: float, h: float, torque: float, made: float) -> float:
+    """Return what is due after that step while the age is unknown, ``made`` in it [J]."""
+    size, late, most = abs(slip), mem[M.STEP] * 0.5, 0.0  # half of the last step is not booked yet
+    acting = abs(torque)
+    for k in range(N_AGES):
+        missed = (late + h) * abs(torque) * size - acting * size * h
+        most = max(most, mem[np.uintp(M.LATE + k)] + missed)
+        acting = mem[M.CAPACITY] if k == 0 else mem[M.BEFORE]
+    given = mem[M.WORK + N_AGES] + late * max(torque * slip, 0.0) + made
+    return _due(mem, given, most)

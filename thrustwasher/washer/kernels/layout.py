@@ -9,7 +9,7 @@ its own.
 """
 
 from ...tribology.asperities import N_TABLE
-from ...tribology.holding.memory import N_MEMORY
+from ...tribology.holding.memory import N_FIGURES, N_MEMORY
 
 # Positions: heights [m] of washer and gear, tilts [rad] of the washer about x and y; and the forces
 # conjugate to them. Both orders are those of rows and columns of the 4 x 4 systems.
@@ -137,7 +137,9 @@ AT_ENTRY, ON_THE_WAY, AT_A_LOAD = 0.0, 1.0, 2.0
     FOLD_OUTPUTS,
 ) = range(11)
 N_WHOLE = FOLD_OUTPUTS + N_ALL
-AT_FOUND = N_INFO
+AT_MEMORY = N_INFO  # of the driveline, while a step is made
+AT_TOLD = AT_MEMORY + N_MEMORY  # numbers in what the washer says of its speed
+AT_FOUND = AT_TOLD + N_FIGURES
 AT_CURVE = AT_FOUND + N_FOUND
 AT_OUTPUTS = AT_CURVE + N_CURVE
 AT_POSITIONS = AT_OUTPUTS + N_ALL

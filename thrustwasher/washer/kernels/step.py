@@ -8,7 +8,7 @@ from ...numerics.jit import Array, Ints, inlined, kernel
 from ...numerics.status import BAD_INPUT, CHATTER, NO_BRANCH, NOT_FINITE, OK, SINGULAR
 from ...tribology.holding.drag import keep, risen, wants_capacity, width_at
 from ...tribology.holding.figures import fill_figures
-from ...tribology.holding.memory import CAPACITY, N_FIGURES, N_MEMORY, Coupling
+from ...tribology.holding.memory import CAPACITY, N_MEMORY, Coupling
 from ...tribology.holding.reversals import chatters
 from . import layout as L
 from .constants import derive_grid, size_of_par
@@ -47,9 +47,8 @@ NPAR = size_of_par(*FINE_GRID)
 NSTATE = size_of_state(*FINE_GRID)
 MAP_WORK = L.N_HEAD + size_of_work(*FINE_GRID)  # behind the fields: scratch of a look-up, then
 BY_MAP = MAP_WORK + N_MAP_WORK  # 1 if the last solution was looked up, then the map itself
-W_MEMORY = BY_MAP + 1  # of the driveline, while a step is made
-W_TOLD = W_MEMORY + N_MEMORY  # numbers in what the washer says of its speed
-TABLE_AT = W_TOLD + N_FIGURES
+W_TOLD = L.AT_TOLD
+TABLE_AT = BY_MAP + 1
 TABLE = {
     "AT": TABLE_AT,
     "ROOM": ROOM,
@@ -125,7 +124,7 @@ def step(
     par: Array, inp: Array, state: Array, work: Array, out: Array, iout: Ints, t: float, dt: float
 ) -> int:
     """Advance by ``dt``, write the outputs; near rest with a share of the torque of sliding."""
-    mem, way, speed = work[W_MEMORY:W_TOLD], coupling_of(par), inp[L.I_SPEED]
+    mem, way, speed = work[L.AT_MEMORY : L.AT_TOLD], coupling_of(par), inp[L.I_SPEED]
     if is_bad(inp):
         return slide(par, inp, state, work, out, iout, t, dt, 1.0, 0.0)
     copy(state[L.S_MEMORY : L.S_MEMORY + N_MEMORY], mem)
@@ -142,7 +141,7 @@ def step(
         torque = out[L.O_TORQUE]
         keep(way, mem, speed, dt, torque, abs(torque) / share)
         copy(mem, state[L.S_MEMORY : L.S_MEMORY + N_MEMORY])
-    fill_figures(way, mem, work[W_TOLD:TABLE_AT])
+    fill_figures(way, mem, work[L.AT_TOLD : L.AT_FOUND])
     if chatters(mem):
         iout[L.IO_STATUS] = CHATTER
         if par[L.P_THERMAL_MODE] == L.TRANSIENT and dt > 0.0:

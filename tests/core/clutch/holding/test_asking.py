@@ -96,13 +96,43 @@ def test_heat_is_booked_as_it_arises():
     assert unit.energy == pytest.approx(slid, rel=0.01)
 
 
-@pytest.mark.parametrize("share", [5.4 / 165.0, 0.1])
+class Constant:
+    gain, loads = 165.0, (1.0,)
+
+
+@pytest.mark.parametrize("age", [0, 1, 2])
+def test_heat_is_that_of_the_age_also_where_noise_hides_it_until_the_lock(age):
+    """Constant load from the first step, noise of 1e-5 of the first slip, 60 steps to the lock."""
+    unit, h, inertia, rng = Unit(Constant()), 1e-3, 0.13, np.random.default_rng(3)
+    slip, waiting, work, heats = 60.0 * 165.0 * h / inertia, [0.0] * age, 0.0, [0.0]
+    noise = 1e-5 * slip * rng.standard_normal(200)
+    for n in range(200):
+        waiting.append(unit.step(slip + noise[n], h, 1.0))
+        before, torque = slip, waiting.pop(0)
+        slip -= h * torque / inertia
+        work += 0.5 * torque * (before + slip) * h
+        heats.append(unit.energy)
+    assert unit.locked and unit.age == age
+    assert heats[-1] == pytest.approx(work, rel=2e-3)
+    assert all(b >= a for a, b in pairwise(heats))
+
+
+@pytest.mark.parametrize("age", [0, 1, 2])
+def test_a_jump_of_outside_torque_does_not_refute_what_was_given(age):
+    h, inertia, slip, waiting = 1e-3, 0.13, 50.0, [0.0] * age
+    unit = Unit(Constant(), (inertia, age))
+    for n in range(300):
+        outside = 165.0 * (0.1 if n < 150 else -0.66 if n < 220 else 0.33)
+        waiting.append(unit.step(slip, h, 1.0))
+        slip += h * (outside - waiting.pop(0)) / inertia
+        assert unit.status != Status.REFUTED
+    assert abs(slip) < 1e-6 and unit.locked
+
+
+@pytest.mark.parametrize("share", [0.005, 0.01, 5.4 / 165.0, 0.1, 0.3, 0.6])
 @pytest.mark.parametrize("age", [0, 1, 2])
 def test_a_pack_that_was_stuck_feels_its_way_to_twice_the_torque_it_holds(age, share):
-    class Case:
-        gain, loads = 165.0, (1.0,)
-
-    unit, slip, torques, h, inertia = Unit(Case(), starts_pressed=True), 0.0, [], 1e-3, 0.13
+    unit, slip, torques, h, inertia = Unit(Constant(), starts_pressed=True), 0.0, [], 1e-3, 0.13
     waiting, held = [0.0] * age, -share * 165.0
     for _ in range(200):
         torques.append(unit.step(slip, h, 1.0))

@@ -8,6 +8,7 @@ numba: a version whose parts are not as expected is refused.
 """
 
 import inspect
+from collections import Counter
 from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any
@@ -21,6 +22,8 @@ _EXPECTED = {
     ("JITCodeLibrary", "add_llvm_module"): ["self", "ll_module"],
     ("JITCodeLibrary", "get_pointer_to_function"): ["self", "name"],
     ("JITCPUCodegen", "set_env"): ["self", "env_name", "env"],
+    ("Lower", "delvar"): ["self", "name"],
+    ("Lower", "_find_singly_assigned_variable"): ["self"],
     ("BaseFunction", "get_call_type"): ["self", "context", "args", "kws"],
     ("NRTContext", "incref"): ["self", "builder", "typ", "value"],
     ("NRTContext", "decref"): ["self", "builder", "typ", "value"],
@@ -29,11 +32,11 @@ _EXPECTED = {
 
 def check_numba() -> None:
     """Stop if numba's code generator lacks the parts that are replaced here."""
-    from numba.core import codegen
+    from numba.core import codegen, lowering
     from numba.core.runtime import context
     from numba.core.types import functions
 
-    homes = {"NRTContext": context, "BaseFunction": functions}
+    homes = {"NRTContext": context, "BaseFunction": functions, "Lower": lowering}
     for (owner, name), arguments in _EXPECTED.items():
         method = getattr(getattr(homes.get(owner, codegen), owner, None), name, None)
         if method is None or list(inspect.signature(method).parameters) != arguments:
@@ -55,11 +58,12 @@ def module(callbacks: Sequence[Callback]) -> Any:
 @cache
 def _gathered() -> list[Any]:
     """Replace the parts; return the list that each finished library of functions is added to."""
-    from numba.core import codegen
+    from numba.core import codegen, lowering
     from numba.core.runtime import context
     from numba.core.types import functions
 
     parts: Any = codegen
+    lower: Any = lowering.Lower
     counting: Any = context
     typing: Any = functions.BaseFunction
     libraries: list[Any] = []
@@ -81,9 +85,35 @@ def _gathered() -> list[Any]:
     parts.JITCodeLibrary.add_llvm_module = add_llvm_module
     parts.JITCodeLibrary.get_pointer_to_function = get_pointer_to_function
     parts.JITCPUCodegen.set_env = lambda self, env_name, env: None
+    lower.delvar = lambda self, name: None  # nothing is counted, so nothing has to be let go
+    lower._find_singly_assigned_variable = _with_the_first_block(
+        lower._find_singly_assigned_variable
+    )
     typing.get_call_type = _remembered(typing.get_call_type)
     counting.NRTContext.incref = counting.NRTContext.decref = lambda self, builder, typ, value: None
     return libraries
+
+
+def _with_the_first_block(find: Callable[..., None]) -> Callable[..., None]:
+    """Return what finds the variables that need no place in memory, more of them than numba's own.
+
+    numba takes those that one block alone uses. One that is set once, in the first block, as an
+    argument, has its value ready in all others; a tuple of arrays in memory is read as a whole
+    wherever one of them is used.
+    """
+    from numba.core import ir
+
+    kind: Any = ir.Assign
+
+    def found(self: Any) -> None:
+        find(self)
+        blocks = self.blocks
+        names = [a.target.name for block in blocks.values() for a in block.find_insts(kind)]
+        first, times = blocks[min(blocks)], Counter(names)
+        once = {a.target.name for a in first.find_insts(kind) if times[a.target.name] == 1}
+        self._singly_assigned_vars |= once
+
+    return found
 
 
 def _remembered(get_call_type: Callable[..., Any]) -> Callable[..., Any]:

@@ -169,7 +169,8 @@ def step(
         advice = CHATTER
     if hottest > L.EXTRAPOLATED_LIMIT:
         advice = EXTRAPOLATED
-    fill_figures(coupling_of(par), work[L.W_MEMORY :], work[L.W_TOLD : L.W_TOLD + M.N_FIGURES])
+    if advice != OK:
+        fill_figures(coupling_of(par), work[L.W_MEMORY :], work[L.W_TOLD : L.W_TOLD + M.N_FIGURES])
     iout[L.IO_STATUS] = advice if status == OK else status
     return status
 

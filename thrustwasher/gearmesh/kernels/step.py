@@ -94,8 +94,8 @@ def step(
     if dt > 0.0:
         keep(way, mem, speed, dt, out[L.F_TORQUE], capacity_of(work))
         copy(mem, state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY])
-    fill_figures(way, mem, work[L.W_TOLD : L.W_TOLD + M.N_FIGURES])
     if chatters(mem):
+        fill_figures(way, mem, work[L.W_TOLD : L.W_TOLD + M.N_FIGURES])
         iout[L.IO_STATUS] = CHATTER
     return OK
 

@@ -217,7 +217,7 @@ def keep_torques(par: Array, inp: Array, work: Array, dt: float) -> bool:
         capacity = abs(torque) / risen if risen > 0.0 else 0.0
         if dt > 0.0:
             keep(way, mem, speed, dt, torque, capacity)
-        if i == 0 or (chatters(mem) and not told):
+        if chatters(mem) and not told:
             fill_figures(way, mem, work[W_TOLD : W_TOLD + M.N_FIGURES])
         told = told or chatters(mem)
     return told

@@ -287,8 +287,8 @@ def step(
         state[L.S_ENERGY] = out[L.O_ENERGY]
         keep(way, mem, inp[L.I_SPEED], dt, out[L.O_LOSS_TORQUE], capacity_of(par, work, width))
         copy(mem, state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY])
-    fill_figures(way, mem, work[L.W_TOLD : L.W_TOLD + M.N_FIGURES])
     if status < 10 and chatters(mem):
+        fill_figures(way, mem, work[L.W_TOLD : L.W_TOLD + M.N_FIGURES])
         status = CHATTER
     iout[L.IO_STATUS] = status
     return status if status >= 10 else 0

@@ -13,6 +13,7 @@ from .plant import largest_answer
 from .torque import ANSWERED, OFTEN, STRANGE, inertia_of, is_given
 
 DIGITS = 3
+LN_10 = 2.302585092994046
 OTHER = 0.2  # of what was given: one that answers and differs by less is the same
 
 
@@ -21,7 +22,7 @@ def rounded(x: float) -> float:
     """Return a number with as many digits as a sentence has."""
     if not 1e-100 < x < 1e100:
         return 0.0
-    unit = 10.0 ** (math.floor(math.log10(x)) - (DIGITS - 1.0))
+    unit = math.exp(LN_10 * (math.floor(math.log10(x)) - (DIGITS - 1.0)))
     return round(x / unit) * unit
 
 

@@ -141,8 +141,8 @@ def step(
         torque = out[L.O_TORQUE]
         keep(way, mem, speed, dt, torque, abs(torque) / share)
         copy(mem, state[L.S_MEMORY : L.S_MEMORY + N_MEMORY])
-    fill_figures(way, mem, work[L.AT_TOLD : L.AT_FOUND])
     if chatters(mem):
+        fill_figures(way, mem, work[L.AT_TOLD : L.AT_FOUND])
         iout[L.IO_STATUS] = CHATTER
         if par[L.P_THERMAL_MODE] == L.TRANSIENT and dt > 0.0:
             out[L.O_ADVISED] = min(out[L.O_ADVISED], LESS * dt)

@@ -99,8 +99,8 @@ def step(
         keep_book(out, state)
         keep(way, mem, speed, dt, out[L.O_TORQUE], abs(torque))
         copy(mem, state[L.S_MEMORY : L.S_MEMORY + N_MEMORY])
-    fill_figures(way, mem, work[W_TOLD:TABLE_AT])
     if chatters(mem):
+        fill_figures(way, mem, work[W_TOLD:TABLE_AT])
         iout[L.IO_STATUS] = CHATTER
     return OK
 

@@ -1,6 +1,6 @@
 """What a name and a text set of a model: an input or a parameter, as in ``roughness=4e-7``."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import fields
 
 from .errors import ParameterError, suggestion
@@ -28,7 +28,7 @@ def places(spec: ModelSpec) -> dict[str, Quantity]:
     return found | {f.name: of_field(f.name, f.default, f.metadata) for f in fields(spec.params)}
 
 
-def find_place(name: str, known: dict[str, Quantity], spec: ModelSpec) -> Quantity:
+def find_place(name: str, known: Mapping[str, Quantity], spec: ModelSpec) -> Quantity:
     """Return the place of that name, or raise ParameterError with the nearest names."""
     if name not in known:
         hint = suggestion(name, known, "did you mean {}? ")

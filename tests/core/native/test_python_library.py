@@ -16,7 +16,7 @@ from thrustwasher.native.targets import PLATFORMS, TARGETS
 
 KERNELS = [name for name in libraries() if name.startswith("thrustwasher.")]
 GEAR = "thrustwasher.gearmesh.kernels.step"
-LARGEST = 4_200_000  # bytes of compiled files in the repository
+LARGEST = 4_600_000  # bytes of compiled files in the repository
 
 linux = pytest.mark.skipif(
     link.local_machine() != ("Linux", "x86_64"), reason="the shipped library is for Linux on x86-64"
@@ -99,16 +99,20 @@ def test_a_damaged_list_is_as_if_nothing_was_shipped(spoiled, text):
 
 
 def test_an_edited_source_makes_the_shipped_code_stale(monkeypatch):
-    read_again()
-    true = shipped.read
+    once = (digest.digest, digest.sources, shipped.record)
+    once = [known for known in once if hasattr(known, "cache_clear")]
+    true, edited = digest.read, b"\nEDITED = 1\n"
+    for known in once:
+        known.cache_clear()
     monkeypatch.setattr(
-        shipped,
-        "read",
-        lambda p: true(p) + (b"# edited" if p.name == "flank_temperature.py" else b""),
+        digest, "read", lambda p: true(p) + edited * (p.name == "flank_temperature.py")
     )
     assert shipped.record(GEAR) is None
     assert shipped.record("thrustwasher.command.kernels.step") is not None
-    read_again()
+    monkeypatch.undo()
+    for known in once:
+        known.cache_clear()
+    assert shipped.record(GEAR) is not None
 
 
 SOLVED = """

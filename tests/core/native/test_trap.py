@@ -44,6 +44,7 @@ OTHERS = [pytest.param(i, WAYS[i], id=f"{i}-{'-'.join(WAYS[i])}") for i in WAYS]
 # All that the library may ask of the C library; what takes memory or a file does so before a step.
 LIBC = set("calloc free fopen fclose fread fgetc snprintf vsnprintf strtod atoi bcmp".split())
 LIBC |= set("memcpy memset memcmp memmove memchr strcmp strncmp strlen strchr strncpy".split())
+LIBC |= {"dladdr"}  # weak: where the library itself lies
 COMPILER = {"__stack_chk_fail", "__cxa_finalize", "__gmon_start__"}
 COMPILER |= {"_ITM_deregisterTMCloneTable", "_ITM_registerTMCloneTable"}
 HEADERS = Path(fmpy.__file__).parent / "c-code"
@@ -193,7 +194,7 @@ def test_the_command_knows_the_memory_of_an_instance(spec, tmp_path):
     with Host(built_fmu(spec.name, local=True), interface(spec), {}) as host:
         assert size <= host.memory() < size + (4096 if size > 65536 else 32)
     if spec.key != "washer":
-        assert size <= (80 if spec.key == "train" else 64) * 1024
+        assert size <= (84 if spec.key == "train" else 64) * 1024
 
 
 @needs_gcc

@@ -52,7 +52,7 @@ def read_axis(
 def find_quantity(name: str, known: Mapping[str, Quantity], spec: ModelSpec | None) -> Quantity:
     """Return the quantity of that name; ParameterError with the nearest names if there is none."""
     if spec is not None:
-        return find_place(name, dict(known), spec)
+        return find_place(name, known, spec)
     if name not in known:
         hint = suggestion(name, known, "; did you mean {}?")
         raise ParameterError(f"{name}: there is no such parameter, input or path{hint}")

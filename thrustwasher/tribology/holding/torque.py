@@ -205,7 +205,8 @@ def book_heat(coupling: Coupling, mem: Array, slip: float) -> None:
     if mem[M.CLOSED] <= SEEN:
         mem[M.ALONE] = 0.0
     deaf = is_deaf(coupling, mem) and mem[M.COUNT] - mem[M.TOLD] > SAID
-    exact = math.sqrt(mem[M.ROUGH]) < EXACT * largest_move(mem, slip) and mem[M.AWAY] > TOLD_BY
+    move = max(largest_move(mem, slip), TINY * mem[M.MOST_SLIP])  # a steady slip has its rounding
+    exact = math.sqrt(mem[M.ROUGH]) < EXACT * move and mem[M.AWAY] > TOLD_BY
     if deaf or exact or mem[M.REFUSED] > 0.0 or mem[M.CLOSED] > ENDLESS:
         mem[M.ALONE] = 1.0
     book(mem, slip, age, inertia)

@@ -47,6 +47,17 @@ def _count_late(mem: Array, slip: float) -> float:
 
 
 @kernel
+def _latest(mem: Array) -> float:
+    """Return the torque that acted in the step that ended if the age is the one that missed most."""
+    acting, found, most = mem[M.CAPACITY], 0.0, 0.0
+    for k in range(N_AGES):
+        if mem[np.uintp(M.LATE + k)] > most:
+            most, found = mem[np.uintp(M.LATE + k)], acting
+        acting = mem[np.uintp(M.BEFORE + min(k, N_AGES - 2))]
+    return found * sign_of(mem[M.SLIP])
+
+
+@kernel
 def _note_first(mem: Array, slip: float) -> None:
     """Note rates and turns of the first three steps; the torque that was given before them."""
     n = int(mem[M.COUNT])
@@ -102,13 +113,17 @@ def book(mem: Array, slip: float, age: int, inertia: float) -> None:
     else:
         due = _due(mem, mem[M.WORK + N_AGES], missed)
         made = max(0.0, due - mem[M.WORK + N_AGES + 1])
+        if abs(mem[M.WORK + N_AGES] - due - missed) <= 1e-9 * missed:
+            mem[M.RISES] = _latest(mem)
     mem[M.WORK + N_AGES + 1] += made
     paid = min(max(made, 0.0), mem[M.DEBT])
     mem[M.DEBT] += max(-made, 0.0) - paid
     rest = max(made, 0.0) - paid - mem[M.OWED]
     mem[M.HEAT] += max(rest, 0.0)
-    if age >= 0 and rest > 0.0:
+    if age >= 0:
         mem[M.RISES] = mem[np.uintp(M.TORQUE + age)]
+    if rest <= 0.0:
+        mem[M.RISES] = 0.0
     mem[M.OWED] = max(-rest, 0.0)
 
 

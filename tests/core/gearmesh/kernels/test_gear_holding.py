@@ -49,8 +49,8 @@ def test_the_slope_of_the_heat_is_that_of_the_output():
 
 
 def test_what_teeth_make_is_in_their_bodies_and_in_the_oil():
-    """At speeds that reverse again and again, where they give less than the torque of sliding."""
-    rng, mesh, made, less = np.random.default_rng(3), Part("gearmesh", "field"), 0.0, 0
+    """At speeds that reverse again and again, some of them next to nothing."""
+    rng, mesh, made = np.random.default_rng(3), Part("gearmesh", "field"), 0.0
     for _ in range(300):
         speed, h = (
             float(rng.choice((-80.0, -3.0, -0.2, 0.0, 0.2, 3.0, 80.0))),
@@ -60,8 +60,6 @@ def test_what_teeth_make_is_in_their_bodies_and_in_the_oil():
         assert mesh["friction_torque"] * speed >= 0.0
         assert mesh["friction_power"] == mesh["friction_torque"] * speed
         made += mesh["friction_power"] * h
-        less += mesh.work[L.W_WIDTH] > 2.0 * mesh.par[L.P_SPEED_SMOOTHING]
-    assert less > 20
     stored = mesh.state[L.S_STORED]
     assert mesh["oil_energy"] + stored == pytest.approx(made, rel=1e-9)
     assert stored > 0.01 * made

@@ -48,7 +48,7 @@ def _count_late(mem: Array, slip: float) -> float:
 
 @kernel
 def _latest(mem: Array) -> float:
-    """Return the torque that acted in the step that ended if the age is the one that missed most."""
+    """Return the torque that acted in the last step at the age that missed most [N m]."""
     acting, found, most = mem[M.CAPACITY], 0.0, 0.0
     for k in range(N_AGES):
         if mem[np.uintp(M.LATE + k)] > most:

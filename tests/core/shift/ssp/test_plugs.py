@@ -92,7 +92,9 @@ def test_packs_joined_by_their_plugs_make_the_shift_of_the_scene(fmi):
     system = plan(prepared(scene), start_values(prepared(scene), instances(scene)))
     root = description(packed(system))
     plugged = list(wires_by_plugs(system, fmi))
-    rest = [w for w in connections(root) if w[2] and w not in {wire[:4] for wire in plugged}]
+    rest = [
+        w for w in connections(root) if w[0] and w[2] and w not in {wire[:4] for wire in plugged}
+    ]
     assert {wire[3] for wire in rest} <= {"shift_command", "drum_speed"}
 
     def shift(wires):

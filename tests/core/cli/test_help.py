@@ -32,11 +32,11 @@ def parts(line):
     "command", [pytest.param(c, marks=[pytest.mark.slow] * (c in LONG)) for c in cli.COMMANDS]
 )
 @pytest.mark.slow
-def test_help_of_a_command_ends_with_two_examples_that_run(command, tmp_path, monkeypatch, capsys):
+def test_help_of_a_command_ends_with_examples_that_run(command, tmp_path, monkeypatch, capsys):
     assert main([command, "--help"]) == 0
     text = capsys.readouterr().out
     lines = [part.strip() for part in text.partition("examples:\n")[2].split("\n\n")[0].split("\n")]
-    assert len(lines) == 2
+    assert len(lines) >= 2
     shutil.copytree(EXAMPLES, tmp_path / "examples")
     monkeypatch.chdir(tmp_path)
     if command == "fidelity":  # what it measures is kept for the user

@@ -152,7 +152,8 @@ UNKNOWN, SINGLE, MULTIPLE = 0.0, 1.0, 2.0  # is the curve single-valued in load?
 # The rest of `work`, ``Fields``. Its tag says what the heat factor was made for: inputs, positions,
 # parameters with the grid, conductances outwards; then temperatures.
 TAG_VALID, TAG_SPEED, TAG_TILT, TAG_OIL, TAG_POSITIONS, TAG_PARAMETERS = 0, 1, 2, 3, 4, 8
-TAG_OUT, N_TAG = TAG_PARAMETERS + D_SIGMA1, TAG_PARAMETERS + D_SIGMA1 + 3
+TAG_OUT, TAG_GIVEN = TAG_PARAMETERS + D_SIGMA1, TAG_PARAMETERS + D_SIGMA1 + 3
+N_TAG = TAG_GIVEN + 1
 # ``Fields.small``, numbers (16: a matrix): contact forces and their slopes; contact force of film 1
 # [N] and its slopes; dry friction and its slope over that force [1/N], and the
 # coefficient of gap 2.
@@ -187,8 +188,9 @@ S_SCAN_SPEED, S_SCAN_TILT, S_SCAN_OIL, S_POSITIONS = range(7, 11)
 S_RATIO, S_FACTOR_VALID, S_FACTOR_SPEED, S_FACTOR_TILT, S_FACTOR_OIL = 14, 16, 17, 18, 19
 S_FACTOR_POSITIONS = 20
 S_MAP_BRANCH, S_MAP_RATIO = 24, 25  # of the last look-up, 0 if there is none
-S_FACTOR_OUT, S_SUBSTEP = 26, 29  # (3) as OUT_CARRIER; the next substep to try [s]
-S_TANGENT, S_LOAD_SLOPE = 30, 34  # dq/ds (4) and dload/ds [N/m] at the last solution, 0: unknown
+S_FACTOR_OUT, S_FACTOR_GIVEN = 26, 29  # (3) as OUT_CARRIER; share of the torque that was given
+S_SUBSTEP = 30  # the next to try [s]
+S_TANGENT, S_LOAD_SLOPE = 31, 35  # dq/ds (4) and dload/ds [N/m] at the last solution, 0: unknown
 S_ENERGY, S_STORED_HEAT = 36, 37  # made and stored since the start [J]
 S_FAR_FACE = 38  # [K] temperature at the gear's far face
 S_MEMORY = 39  # of the driveline the washer sits in

@@ -77,7 +77,7 @@ def make_factor(m: WasherModel, pt: Point, q: Array, temp: Array, f: Fields, rou
         refine_slopes(m, pt, q, f)
     f.tag[L.TAG_VALID] = 1.0
     f.tag[L.TAG_OUT], f.tag[L.TAG_OUT + 1] = f.small[L.OUT_CARRIER], f.small[L.OUT_WASHER]
-    f.tag[L.TAG_OUT + 2] = f.small[L.OUT_GEAR]
+    f.tag[L.TAG_OUT + 2], f.tag[L.TAG_GIVEN] = f.small[L.OUT_GEAR], f.small[L.GIVEN]
     f.tag[L.TAG_SPEED], f.tag[L.TAG_TILT] = pt.speed, pt.tilt
     f.tag[L.TAG_OIL] = pt.oil_temperature
     copy(q, vector(f.tag, L.TAG_POSITIONS))

@@ -75,13 +75,14 @@ def recall_state(w: Workspace, state: Array) -> None:
         oil = state[L.S_FACTOR_OIL]
         pt = Point(1.0, state[L.S_FACTOR_SPEED], state[L.S_FACTOR_TILT], oil, oil)
         out = f.small[L.OUT_CARRIER : L.OUT_SIZE]
-        now0, now1, now2 = out[0], out[1], out[2]
+        now0, now1, now2, given = out[0], out[1], out[2], f.small[L.GIVEN]
         copy(vector(state, L.S_FACTOR_POSITIONS), w.q)
         copy(of_factor, f.temp)
-        copy(state[L.S_FACTOR_OUT : L.S_SUBSTEP], out)
+        copy(state[L.S_FACTOR_OUT : L.S_FACTOR_GIVEN], out)
+        f.small[L.GIVEN] = state[L.S_FACTOR_GIVEN]
         evaluate(m, pt, w.q, f, False)
         make_factor(m, pt, w.q, f.temp, f, EXACT)
-        out[0], out[1], out[2] = now0, now1, now2
+        out[0], out[1], out[2], f.small[L.GIVEN] = now0, now1, now2, given
         copy(w.par[: L.D_SIGMA1], _owner(f.tag))
     copy(vector(state, L.S_POSITIONS), w.q)
     copy(temp, f.temp)

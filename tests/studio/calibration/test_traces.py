@@ -8,14 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from rigs import OIL, PACK, TRUTH, WORN, history, recorded
 from scipy.stats import binom
 
 from thrustwasher import (
     ClutchParams,
     ParameterError,
-    SolveError,
-    Status,
-    calibrate,
     calibrate_traces,
     engage_clutch,
 )
@@ -29,26 +27,6 @@ from thrustwasher.studio.calibration.traces.recording import Recording, pieces, 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 sys.path.insert(0, str(EXAMPLES))
 import ex17_engagement as rig  # noqa: E402
-
-OIL = 353.15  # K
-PACK = ClutchParams()
-TRUTH = {"friction_scale": 0.92, "permeability": 3e-13}
-WORN = ClutchParams(**TRUTH)
-
-
-def history(n=301, ends=0.6):
-    """Return a ramp of the load and a slip that runs out."""
-    time = np.linspace(0.0, ends, n)
-    load = 5000.0 * np.clip((time - 0.05) / 0.1, 0.0, 1.0)
-    return {"time": time, "load": load, "speed": 300.0 * (1.0 - time / ends)}
-
-
-def recorded(pack=WORN, noise=1.5, seed=1, way=None):
-    """Return a recording of a pack's torque, with noise [N m]."""
-    way = way or history()
-    made = engage_clutch(pack, **way, oil_temperature=OIL).friction_torque
-    scatter = noise * np.random.default_rng(seed).standard_normal(len(made))
-    return {**way, "oil_temperature": OIL, "friction_torque": made + scatter}
 
 
 def wheel(n=601, seed=1, **around):
@@ -434,84 +412,6 @@ def test_jumps_of_time_part_a_recording():
     assert [len(piece.time) for piece in pieces(whole, "load")] == [6, 5, 5]
 
 
-def wrong(**changes):
-    """Return a recording with columns changed, or left out where None."""
-    data = {**recorded(), **changes}
-    return {name: x for name, x in data.items() if x is not None}
-
-
-def holed(name):
-    column = np.array(recorded()[name])
-    column[7] = np.nan
-    return {name: column}
-
-
-def out_of_order():
-    time = history()["time"].copy()
-    time[[40, 41]] = time[[41, 40]]
-    return time
-
-
-@pytest.mark.parametrize(
-    ("data", "more", "words"),
-    [
-        (wrong(time=None), {}, "no column time"),
-        (wrong(time=np.zeros(301)), {}, "time does not rise"),
-        (wrong(time=out_of_order()), {}, "at row 42"),
-        (wrong(load=None), {}, "load [N] or pressure [Pa]"),
-        (wrong(pressure=1e5), {}, "load [N] or pressure [Pa]"),
-        (wrong(load=None, pressure=1e5), {}, "needs piston_area"),
-        (wrong(load=-recorded()["load"]), {}, "never above 0 N"),
-        (wrong(load=recorded()["load"] - 600.0), {}, "load of row 1 is"),
-        (wrong(speed=None), {}, "no column speed"),
-        (wrong(speed=1e9), {}, "speed of row 1"),
-        (wrong(friction_torque=None), {}, "nothing is measured"),
-        (wrong(torque=3.0), {}, "column torque is not known"),
-        (wrong(oil_temperature=80.0), {}, "oil_temperature of row 1 is 80 K"),
-        (wrong(**holed("load")), {}, "load of row 8 is missing"),
-        (wrong(**holed("speed")), {}, "speed of row 8 is missing"),
-        (wrong(speed=[1.0, 2.0]), {}, "shape"),
-        (wrong(speed="fast"), {}, "no number"),
-        (recorded(), {"fit": ["piston_area"]}, "friction_scale in its place"),
-        (recorded(), {"fit": ["kiss_pressure"]}, "allowed: with piston_area"),
-        (recorded(), {"fit": ["drag_torque"]}, "allowed: with inertia"),
-        (recorded(), {"fit": ["inertia"]}, "inertia"),
-        (recorded(), {"fit": ["faces"]}, "real parameters"),
-        (recorded(), {"fit": ["friktion_scale"]}, "did you mean friction_scale"),
-        (recorded(), {"torque_at": "hub"}, "inertia_between = 0"),
-        (recorded(), {"torque_at": "wheel"}, "pack or hub"),
-        (recorded(), {"inertia_between": 0.1}, "inertia_between = 0.1"),
-        (recorded(), {"inertia": -1.0}, "inertia = -1"),
-        (recorded(), {"inertia": "1 kg"}, "inertia"),
-        (recorded(), {"errors": {"temperature": 1.0}}, "allowed: of friction_torque"),
-        (recorded(), {"errors": {"friction_torque": 0.0}}, "above 0"),
-        (recorded(), {"errors": {"friction_torque": "2 K"}}, "error of friction_torque"),
-        (recorded(), {"bounds": {"roughness": (1e-6, 1e-5)}}, "bounds of roughness"),
-        (recorded(), {"at": {"load": 3.0}}, "as a column"),
-        (recorded(), {"at": {"speed": 3.0}}, "allowed: one of both"),
-        (recorded(), {"confidence": 1.0}, "confidence"),
-        ([], {}, "recordings: none"),
-        (3.0, {}, "recordings: float"),
-        ([3.0], {}, "columns by their names"),
-        ({n: x[:3] for n, x in history().items()}, {}, "3 rows"),
-    ],
-)
-def test_a_recording_that_cannot_be_used_is_refused_by_name(data, more, words):
-    with pytest.raises(ParameterError) as problem:
-        calibrate_traces(PACK, data, **{"fit": ["friction_scale"], **more})
-    assert words in str(problem.value)
-
-
-def test_parts_of_other_models_are_refused():
-    with pytest.raises(ParameterError, match="part: washer"):
-        calibrate_traces("washer", recorded())
-
-
-def test_settled_points_are_not_taken_for_a_recording():
-    with pytest.raises(ParameterError, match="calibrate_traces"):
-        calibrate(PACK, recorded(), fit=["friction_scale"])
-
-
 def test_the_result_is_plain_data_a_table_and_a_picture():
     found = calibrate_traces(PACK, recorded(), fit=tuple(TRUTH))
     record = json.loads(json.dumps(found.to_dict(), allow_nan=False))
@@ -520,13 +420,6 @@ def test_the_result_is_plain_data_a_table_and_a_picture():
     assert len(found.plot().axes) == 2
     assert {"time", "recording", "load", "measured"} <= {*found.to_pandas().columns}
     assert "permeability" in found._repr_html_()
-
-
-def test_a_recording_that_a_pack_cannot_be_stepped_along_is_named(monkeypatch):
-    data = {"rig 3.csv": recorded()}
-    monkeypatch.setattr(pack_history.clutch_advance, "advance", lambda *_: int(Status.NOT_FINITE))
-    with pytest.raises(SolveError, match=r"rig 3\.csv: the part cannot be stepped along it"):
-        calibrate_traces(PACK, data, fit=["friction_scale"])
 
 
 def offset(shift):

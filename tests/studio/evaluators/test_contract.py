@@ -167,3 +167,13 @@ def test_a_sweep_of_shifts_is_what_each_shift_gives():
     assert table["status"].tolist() == ["OK", "OK"] and table.units["slip_energy"] == "J"
     assert table["slip_energy"][1] == pytest.approx(run_shift(scene).figures["slip_energy"])
     assert not math.isclose(*table["lock_time"])
+
+
+def test_an_engagement_whose_slip_does_not_run_out_is_told():
+    """J omega^2/2 = 1.5 kJ; a tenth of the force is not enough in half a second."""
+    at = {"inertia": 0.3, "speed": 100.0}
+    table = run_sweep(engagements("clutch"), {"load": [300.0, 3000.0]}, at=at)
+    assert np.isnan(table["slip_time"]).tolist() == [True, False]
+    assert table["energy"][1] == pytest.approx(1500.0, rel=1e-4)
+    (told,) = table.warnings
+    assert told.startswith("1 of 2 points, at worst slip_left = ") and "longer duration" in told

@@ -30,8 +30,8 @@ MOST_POINTS = 200_000
 FIGURES = (
     Figure("energy", "J", "heat of the engagement"),
     Figure("peak_temperature", "K", "highest mean temperature of the interface", high=k.HOT_LIMIT),
-    Figure("slip_time", "s", "time until the slip has run out"),
-    Figure("slip_left", "rad/s", "slip at the end"),
+    Figure("slip_time", "s", "time until the slip has run out; none if it has not"),
+    Figure("slip_left", "rad/s", "slip at the end", high=0.0),
     Figure("peak_torque", "N.m", "largest friction torque"),
     Figure("minimum_film_ratio", "1", "smallest film ratio"),
 )
@@ -166,10 +166,9 @@ class EngagementEvaluator:
             drum_speed=at["drum_speed"],
         )
         columns = dict(zip(SPEC.real_outputs, got.rows.T, strict=False))
-        force = (
-            at["load"] * np.minimum(got.time / profile["ramp"], 1.0) if profile["ramp"] else None
-        )
-        load = np.full(len(got.time), at["load"]) if force is None else force
+        ramp = profile["ramp"]
+        rise = np.minimum(got.time / ramp, 1.0) if ramp > 0.0 else np.ones_like(got.time)
+        load = at["load"] * rise
         faces = face_loads(params.face, load, got.speed, columns["friction_power"])
         return _figures(params, got.time, got.speed, {**columns, **faces})
 

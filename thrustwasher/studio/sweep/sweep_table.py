@@ -24,7 +24,10 @@ from ..jobs.cluster import INSTALL
 from .run_plan import RunPlan
 from .sweep_plan import Plan
 
-ADVICE = {"peak_temperature": Status.HOT.advice}
+ADVICE = {
+    "peak_temperature": Status.HOT.advice,
+    "slip_left": "it has not run out, there is no slip_time: a longer duration, more load or faces",
+}
 SUFFIXES = (".csv", ".parquet")
 CHUNK = 50_000  # rows made into text, or a group of Parquet, at a time
 

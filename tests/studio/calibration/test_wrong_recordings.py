@@ -1,0 +1,93 @@
+"""Recordings that cannot be used: each is refused by name."""
+
+import numpy as np
+import pytest
+from rigs import PACK, history, recorded
+
+from thrustwasher import ParameterError, SolveError, Status, calibrate, calibrate_traces
+from thrustwasher.studio.calibration.engagement import pack_history
+
+
+def wrong(**changes):
+    """Return a recording with columns changed, or left out where None."""
+    data = {**recorded(), **changes}
+    return {name: x for name, x in data.items() if x is not None}
+
+
+def holed(name):
+    column = np.array(recorded()[name])
+    column[7] = np.nan
+    return {name: column}
+
+
+def out_of_order():
+    time = history()["time"].copy()
+    time[[40, 41]] = time[[41, 40]]
+    return time
+
+
+@pytest.mark.parametrize(
+    ("data", "more", "words"),
+    [
+        (wrong(time=None), {}, "no column time"),
+        (wrong(time=np.zeros(301)), {}, "time does not rise"),
+        (wrong(time=out_of_order()), {}, "at row 42"),
+        (wrong(load=None), {}, "load [N] or pressure [Pa]"),
+        (wrong(pressure=1e5), {}, "load [N] or pressure [Pa]"),
+        (wrong(load=None, pressure=1e5), {}, "needs piston_area"),
+        (wrong(load=-recorded()["load"]), {}, "never above 0 N"),
+        (wrong(load=recorded()["load"] - 600.0), {}, "load of row 1 is"),
+        (wrong(speed=None), {}, "no column speed"),
+        (wrong(speed=1e9), {}, "speed of row 1"),
+        (wrong(friction_torque=None), {}, "nothing is measured"),
+        (wrong(torque=3.0), {}, "column torque is not known"),
+        (wrong(oil_temperature=80.0), {}, "oil_temperature of row 1 is 80 K"),
+        (wrong(**holed("load")), {}, "load of row 8 is missing"),
+        (wrong(**holed("speed")), {}, "speed of row 8 is missing"),
+        (wrong(speed=[1.0, 2.0]), {}, "shape"),
+        (wrong(speed="fast"), {}, "no number"),
+        (recorded(), {"fit": ["piston_area"]}, "friction_scale in its place"),
+        (recorded(), {"fit": ["kiss_pressure"]}, "allowed: with piston_area"),
+        (recorded(), {"fit": ["drag_torque"]}, "allowed: with inertia"),
+        (recorded(), {"fit": ["inertia"]}, "inertia"),
+        (recorded(), {"fit": ["faces"]}, "real parameters"),
+        (recorded(), {"fit": ["friktion_scale"]}, "did you mean friction_scale"),
+        (recorded(), {"torque_at": "hub"}, "inertia_between = 0"),
+        (recorded(), {"torque_at": "wheel"}, "pack or hub"),
+        (recorded(), {"inertia_between": 0.1}, "inertia_between = 0.1"),
+        (recorded(), {"inertia": -1.0}, "inertia = -1"),
+        (recorded(), {"inertia": "1 kg"}, "inertia"),
+        (recorded(), {"errors": {"temperature": 1.0}}, "allowed: of friction_torque"),
+        (recorded(), {"errors": {"friction_torque": 0.0}}, "above 0"),
+        (recorded(), {"errors": {"friction_torque": "2 K"}}, "error of friction_torque"),
+        (recorded(), {"bounds": {"roughness": (1e-6, 1e-5)}}, "bounds of roughness"),
+        (recorded(), {"at": {"load": 3.0}}, "as a column"),
+        (recorded(), {"at": {"speed": 3.0}}, "allowed: one of both"),
+        (recorded(), {"confidence": 1.0}, "confidence"),
+        ([], {}, "recordings: none"),
+        (3.0, {}, "recordings: float"),
+        ([3.0], {}, "columns by their names"),
+        ({n: x[:3] for n, x in history().items()}, {}, "3 rows"),
+    ],
+)
+def test_a_recording_that_cannot_be_used_is_refused_by_name(data, more, words):
+    with pytest.raises(ParameterError) as problem:
+        calibrate_traces(PACK, data, **{"fit": ["friction_scale"], **more})
+    assert words in str(problem.value)
+
+
+def test_parts_of_other_models_are_refused():
+    with pytest.raises(ParameterError, match="part: washer"):
+        calibrate_traces("washer", recorded())
+
+
+def test_settled_points_are_not_taken_for_a_recording():
+    with pytest.raises(ParameterError, match="calibrate_traces"):
+        calibrate(PACK, recorded(), fit=["friction_scale"])
+
+
+def test_a_recording_that_a_pack_cannot_be_stepped_along_is_named(monkeypatch):
+    data = {"rig 3.csv": recorded()}
+    monkeypatch.setattr(pack_history.clutch_advance, "advance", lambda *_: int(Status.NOT_FINITE))
+    with pytest.raises(SolveError, match=r"rig 3\.csv: the part cannot be stepped along it"):
+        calibrate_traces(PACK, data, fit=["friction_scale"])

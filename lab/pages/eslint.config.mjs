@@ -16,7 +16,7 @@ const worker = { onmessage: "writable", ...readonly("performance MessageChannel 
 const node = readonly("process performance Buffer URL WebAssembly console");
 
 export default [
-  { ignores: ["**/vendor/**", "**/bundle/**"] },
+  { ignores: ["**/vendor/**", "**/bundle/**", "**/site/**"] },
   {
     files: ["**/*.{js,mjs}"],
     languageOptions: { sourceType: "module", globals: node },

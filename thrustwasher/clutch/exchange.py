@@ -1,7 +1,7 @@
 """What the wet clutch shows for model exchange."""
 
 from ..model.spec import Exchange, Signal, output
-from ..tribology.holding.parameters import BRISTLE, bend_state
+from ..tribology.holding.parameters import BRISTLE, bend_state, largest_capacity
 from .kernels.layout import N_RINGS
 
 _INPUTS = ("load", "speed", "oil_temperature", "drum_speed")
@@ -57,15 +57,7 @@ EXCHANGE = Exchange(
     ),
     parameters=(
         *BRISTLE,
-        Signal(
-            name="largest_capacity",
-            unit="N.m",
-            help="torque that bends the bristle by rest_angle (0: at 1 MPa and friction 0.12)",
-            low=0.0,
-            high=1e9,
-            nominal=300.0,
-            start=0.0,
-        ),
+        largest_capacity("at 1 MPa and friction 0.12", 300.0),
     ),
     requires={"contact_rise": False},
 )

@@ -6,6 +6,7 @@
 ``solve``            loss, heat, temperatures, contact, thermal stress, safety
 ``plausibility``     what to doubt: parameters that contradict each other, points below minimum
 values
+``exchange``         what it shows for model exchange
 ``kernels``          compiled code
 ``law_ranges``       the ranges of the mesh's empirical laws
 ``pair_rules``       rules between the parameters of a gear mesh, and how they say what to change

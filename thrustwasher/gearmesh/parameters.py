@@ -9,6 +9,7 @@ from ..model.parameters import check_ranges, check_rules, choice, count, flag, q
 from ..model.part_file import preset_params
 from ..model.toml_tables import spec_beside
 from ..tribology.holding.parameters import coupling_age, coupling_inertia, holding_choice
+from .exchange import EXCHANGE
 from .pair_rules import RULES
 from .parameter_array import as_array
 
@@ -568,16 +569,6 @@ def centre_distance(params: GearMeshParams) -> float:
     return float(section(as_array(params))[1])
 
 
-def limits_assumed(params: GearMeshParams) -> str:
-    """Return in words what the safeties rest on, and what of it nobody gave."""
-    from .kernels.constants import LIMITS
-
-    limit = params.contact_limit or LIMITS[list(STEELS).index(params.steel)]
-    pitting = "" if params.contact_limit else f" (assumed, {params.steel})"
-    scuffing = "" if params.fzg_stage != default_of("fzg_stage") else " (assumed)"
-    return f"contact limit {1e-6 * limit:g} MPa{pitting}, FZG stage {params.fzg_stage}{scuffing}"
-
-
 STEELS_OF_THE_PAPER = ("aisi1020", "aisi4340")
 ENDURANCE = ("modification_factor", "allowable_ratio")
 ENDURANCE_OF_BOTH = (*ENDURANCE, "stress_utilization")
@@ -605,5 +596,7 @@ def _counted() -> tuple[tuple[str, int], ...]:
     return (("viscosity iterations", F_ITERATIONS),)
 
 
-SPEC = spec_beside(__file__, GearMeshParams, RULES, counted=_counted, absent=absent_outputs)
+SPEC = spec_beside(
+    __file__, GearMeshParams, RULES, counted=_counted, absent=absent_outputs, exchange=EXCHANGE
+)
 LOAD, SPEED, OIL = SPEC.inputs

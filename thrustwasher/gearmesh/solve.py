@@ -17,12 +17,21 @@ from ..model.record import Sweep
 from ..model.sensitivity import Differentiable
 from ..model.solutions import Asked
 from .kernels import layout as k
-from .kernels.constants import derive
+from .kernels.constants import LIMITS, derive
 from .kernels.load_sharing import shared
 from .kernels.operating_point import solve_point
 from .kernels.working_pair import gear_shift, tips
 from .law_ranges import SHORT
-from .parameters import LOAD, OIL, SPEC, SPEED, GearMeshParams, absent_outputs, limits_assumed
+from .parameters import (
+    LOAD,
+    OIL,
+    SPEC,
+    SPEED,
+    STEELS,
+    GearMeshParams,
+    absent_outputs,
+    default_of,
+)
 from .plausibility import doubts_of_parameters, doubts_of_point
 
 SAFETIES = {
@@ -238,12 +247,20 @@ def solve_gearmesh(
     known = {
         "status": status,
         "fidelity": level_named(SPEC, fidelity),
-        "limits": limits_assumed(params),
+        "limits": _limits_assumed(params),
         "_request": Asked(SPEC.key, params, point),
         **_size(params, par),
     }
     result = _result(par, work.tolist(), torque, speed, absent | known)
     return replace(result, warnings=(*messages, *_failures(result), *doubts))
+
+
+def _limits_assumed(params: GearMeshParams) -> str:
+    """Return in words what the safeties rest on, and what of it nobody gave."""
+    limit = params.contact_limit or LIMITS[list(STEELS).index(params.steel)]
+    pitting = "" if params.contact_limit else f" (assumed, {params.steel})"
+    scuffing = "" if params.fzg_stage != default_of("fzg_stage") else " (assumed)"
+    return f"contact limit {1e-6 * limit:g} MPa{pitting}, FZG stage {params.fzg_stage}{scuffing}"
 
 
 def _size(p: GearMeshParams, par: Any) -> dict[str, float]:

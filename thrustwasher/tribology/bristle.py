@@ -144,6 +144,30 @@ def bristle_slopes(
 
 
 @kernel
+def bristle_changes(
+    b: Bristle,
+    capacity: float,
+    slip: float,
+    bend: float,
+    change: tuple[float, float, float],
+    beside: tuple[float, float],
+) -> tuple[float, float, float, float]:
+    """Return the heat [W], then the changes of torque, rate of the bending and heat.
+
+    ``change``: of capacity, slip, bend; ``beside``: a torque [N m] that acts beside the bristle's
+    and heats too, and its change.
+    """
+    grows, faster, bends = change
+    torque, rate = bristle(b, capacity, slip, bend)
+    by = bristle_slopes(b, capacity, slip, bend)
+    torques = by[0] * grows + by[1] * faster + by[2] * bends
+    turns = by[3] * grows + by[4] * faster + by[5] * bends
+    heat = bristle_heat(b, torque, slip, bend, rate) + beside[0] * slip
+    heats = torques * slip + torque * faster + beside[1] * slip + beside[0] * faster
+    return heat, torques, turns, heats - b.stiffness * (bends * rate + bend * turns)
+
+
+@kernel
 def margin(b: Bristle, capacity: float, bend: float, part: float) -> float:
     """Return how far the bristle is below ``part`` of the capacity, over the largest one.
 

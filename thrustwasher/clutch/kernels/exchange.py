@@ -19,9 +19,9 @@ from ...tribology.bristle import (
     HELD,
     Bristle,
     bristle,
+    bristle_changes,
     bristle_heat,
     bristle_of,
-    bristle_slopes,
     first_bend,
     margin,
 )
@@ -241,14 +241,8 @@ def slopes(
     point = (inp[L.I_LOAD], slip, work[np.uintp(L.W_NOW + L.Y_FILM)], inp[L.I_DRUM])
     ring_outputs(par, point, (more, faster, film, turns), work, out, found[:NOUT])
     grows = found[L.O_CAPACITY] - sign_of(slip) * found[L.O_VISCOUS_TORQUE]
-    torque, rate = bristle(b, dry, slip, bend)
-    by, bends = bristle_slopes(b, dry, slip, bend), along[NINP + X_BEND]
-    torques = by[0] * grows + by[1] * faster + by[2] * bends
-    bending = by[3] * grows + by[4] * faster + by[5] * bends
-    heat = bristle_heat(b, torque, slip, bend, rate) + wet * slip
-    wets = found[L.O_VISCOUS_TORQUE]
-    heats = torques * slip + torque * faster + wets * slip + wet * faster
-    heats -= b.stiffness * (bends * rate + bend * bending)
+    wets, change = found[L.O_VISCOUS_TORQUE], (grows, faster, along[NINP + X_BEND])
+    heat, torques, bending, heats = bristle_changes(b, dry, slip, bend, change, (wet, wets))
     found[NOUT + X_BEND], found[NOUT + X_ENERGY] = bending, heats
     base = L.W_NEIGHBOUR
     if moves_film(par):

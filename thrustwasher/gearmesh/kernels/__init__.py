@@ -17,6 +17,7 @@
 ``directional_derivative``  how the outputs change with the inputs: exact
 ``operating_point``         heat of the loss or of the paper; pitting, scuffing, micropitting
 ``step``                    one co-simulation step: it remembers the temperature of the bodies
+``exchange``                the same for model exchange: rates of the bodies' heat and a bristle
 ==========================  ========================================================================
 """
 
@@ -27,6 +28,7 @@ CALLED = {
         "thrustwasher.gearmesh.kernels.constants: broken_rule derive effective_roughness",
         "thrustwasher.gearmesh.kernels.constants: least_teeth path_lengths path_of",
         "thrustwasher.gearmesh.kernels.constants: slide_roll start_of_contact",
+        "thrustwasher.gearmesh.kernels.exchange: start rates update slopes",
         "thrustwasher.gearmesh.kernels.flank_temperature: heated_flank",
         "thrustwasher.gearmesh.kernels.line_of_action: place_mesh",
         "thrustwasher.gearmesh.kernels.load_sharing: pitch_of share_load single_stiffness",

@@ -183,7 +183,8 @@ W_CONTACT, W_PAR = W_FRICTION + N_PATH, W_FRICTION + 2 * N_PATH
 W_AGAIN = W_PAR + NPAR
 W_MEMORY = W_AGAIN + W_PAR + NSTATE  # of the driveline, while a step is made
 W_TOLD = W_MEMORY + N_MEMORY  # numbers in what the mesh says of its speed
-NWORK = W_TOLD + N_FIGURES
+W_STATE = W_TOLD + N_FIGURES  # scratch of model exchange: memory, inputs
+NWORK = W_STATE + NSTATE + NINP
 NOUT = 35
 IO_REGIME, IO_STATUS, NIOUT = range(3)
 

@@ -177,13 +177,15 @@ def loss_changes(
     rate: float,
     more: float,
     seed: Array,
+    warms: float,
     work: Array,
     dout: Array,
 ) -> None:
     """Fill the changes of ``heat_of_loss`` along ``seed``.
 
     ``rate`` [W] is the loss of a friction of 1, ``more`` its change. The temperature at which a
-    step began is held, but for the first one, which begins as its inputs say.
+    step began is held and changes by ``warms`` [K], but for the first one, which begins as its
+    inputs say.
     """
     turning = floored(speed, LEAST_SPEED)
     line = floored(torque * par[L.D_LINE], LEAST_LINE_LOAD)
@@ -203,7 +205,7 @@ def loss_changes(
     by_body, hot_by_body, scuffs_by_body = friction_changes(
         par, line, turning, 0.0, 0.0, 0.0, viscosity, steep, work
     )
-    dabove = -warmer if work[L.W_BEGAN] == L.HELD else 0.0
+    dabove = -warmer + warms if work[L.W_BEGAN] == L.HELD else 0.0
     if work[L.W_BEGAN] == L.STEADY:
         rise = more * mean + rate * (dmean + by_body * warmer) - rate * mean / cooling * cooler
         dabove = rise / (cooling - rate * by_body)

@@ -120,14 +120,16 @@ def point_changes(
     rate: float,
     more: float,
     seed: Array,
+    warms: float,
     dout: Array,
 ) -> None:
     """Fill the changes along ``seed`` of all outputs but loss torque and power.
 
-    ``rate`` [W]: loss of a friction of 1; ``more``: its change.
+    ``rate`` [W]: loss of a friction of 1; ``more``: its change; ``warms`` [K]: that of the bodies
+    where they are held.
     """
     if par[L.P_FILM_HEAT] == L.LOSS:
-        loss_changes(par, torque, speed, oil, rate, more, seed, work, dout)
+        loss_changes(par, torque, speed, oil, rate, more, seed, warms, work, dout)
     else:
         mesh_changes(par, work, torque, speed, oil, seed, dout)
         dout[L.F_MEAN_FRICTION], dout[L.F_FLASH_MAX] = dout[L.F_FRICTION], dout[L.F_FLASH]

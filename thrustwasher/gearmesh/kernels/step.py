@@ -36,16 +36,25 @@ def _solve(
     par: Array, load: float, speed: float, oil: float, width: float, state: Array, dt: float,
     work: Array,
 ) -> int:  # fmt: skip
+    """Fill as ``solve_risen``; friction rises from rest over the speed ``width`` [rad/s]."""
+    work[L.W_WIDTH] = width
+    return solve_risen(par, load, speed, oil, math.tanh(speed / width), state, dt, work)
+
+
+@kernel
+def solve_risen(
+    par: Array, load: float, speed: float, oil: float, risen: float, state: Array, dt: float,
+    work: Array,
+) -> int:  # fmt: skip
     """Fill the outputs but the oil's energy with these constants; return 0, an advice or a failure.
 
-    The loss grows from zero load with a continuous slope, over twice the least line load, and from
-    rest over the speed ``width`` [rad/s].
+    The loss grows from zero load with a continuous slope, over twice the least line load.
+    ``risen``: the part of the friction that acts, with its sign.
     """
     pressed = soft_size(load, 2.0 * LEAST_LINE_LOAD / par[L.D_LINE])
-    smooth_sign = math.tanh(speed / width)
-    status = solve_point(par, load, speed, oil, pressed * smooth_sign * speed, state, dt, work)
-    work[L.F_SMOOTH_SIGN], work[L.W_WIDTH] = smooth_sign, width
-    work[L.F_TORQUE] = work[L.F_MEAN_FRICTION] * par[L.D_LOSS] * pressed * smooth_sign
+    status = solve_point(par, load, speed, oil, pressed * risen * speed, state, dt, work)
+    work[L.F_SMOOTH_SIGN] = risen
+    work[L.F_TORQUE] = work[L.F_MEAN_FRICTION] * par[L.D_LOSS] * pressed * risen
     work[L.F_POWER] = work[L.F_TORQUE] * speed
     return status
 
@@ -130,19 +139,34 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
     rounded (the oil's lowest temperature, the sharp switch) count as on the side the point is on.
     Returns 0, or NOT_FINITE.
     """
-    torque, speed, oil = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL]
-    if par[L.P_LOAD_SHARING] == L.ELASTIC:
-        _changes(work[L.W_PAR : L.W_AGAIN], torque, speed, oil, work, seed, dout)
-        if seed[L.I_LOAD] != 0.0:
-            _add_sharing(par, torque, speed, oil, work, seed[L.I_LOAD], dout)
-    else:
-        _changes(par, torque, speed, oil, work, seed, dout)
+    changes_along(par, inp, work, seed, 0.0, dout)
     return OK if are_finite(dout) else NOT_FINITE
 
 
 @kernel
+def changes_along(
+    par: Array, inp: Array, work: Array, seed: Array, warms: float, dout: Array
+) -> None:
+    """Fill as ``sens``; ``warms`` [K]: how the bodies change where they are held."""
+    torque, speed, oil = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL]
+    if par[L.P_LOAD_SHARING] == L.ELASTIC:
+        _changes(work[L.W_PAR : L.W_AGAIN], torque, speed, oil, work, seed, warms, dout)
+        if seed[L.I_LOAD] != 0.0:
+            _add_sharing(par, torque, speed, oil, work, seed[L.I_LOAD], dout)
+    else:
+        _changes(par, torque, speed, oil, work, seed, warms, dout)
+
+
+@kernel
 def _changes(
-    par: Array, torque: float, speed: float, oil: float, work: Array, seed: Array, dout: Array
+    par: Array,
+    torque: float,
+    speed: float,
+    oil: float,
+    work: Array,
+    seed: Array,
+    warms: float,
+    dout: Array,
 ) -> None:
     """Fill the changes along ``seed`` with the shares of the load as they are."""
     width = 2.0 * LEAST_LINE_LOAD / par[L.D_LINE]
@@ -153,9 +177,8 @@ def _changes(
     drive = pressed * smooth * speed
     more = heavier * seed[L.I_LOAD] * smooth * speed
     more += pressed * (steep * speed + smooth) * seed[L.I_SPEED]
-    point_changes(
-        par, work, torque, speed, oil, par[L.D_LOSS] * drive, par[L.D_LOSS] * more, seed, dout
-    )
+    drive, more = par[L.D_LOSS] * drive, par[L.D_LOSS] * more
+    point_changes(par, work, torque, speed, oil, drive, more, seed, warms, dout)
     rising = dout[L.F_MEAN_FRICTION] * pressed
     rising += friction * heavier * seed[L.I_LOAD]
     dout[L.F_TORQUE] = par[L.D_LOSS] * (
@@ -185,8 +208,8 @@ def _add_sharing(
         clear(state)
         if work[L.W_BEGAN] == L.HELD:
             state[L.S_STARTED], state[L.S_BULK] = 1.0, oil + work[L.W_FROM]
-        width = work[L.W_WIDTH]
-        _solve(here, torque, speed, oil, width, state, work[L.W_DURATION], again)
+        risen = work[L.F_SMOOTH_SIGN]
+        solve_risen(here, torque, speed, oil, risen, state, work[L.W_DURATION], again)
         for k in range(L.NOUT):
             if k != L.F_STORED and k != L.F_OIL_ENERGY:
                 dout[k] += weight * again[k]

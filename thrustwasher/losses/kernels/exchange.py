@@ -14,9 +14,9 @@ from ...numerics.status import BAD_INPUT, NOT_FINITE, OK, OUTSIDE_VERIFIED
 from ...tribology.bristle import (
     Bristle,
     bristle,
+    bristle_changes,
     bristle_heat,
     bristle_of,
-    bristle_slopes,
     first_bend,
 )
 from .loss_laws import CRITICAL_RE, GAMMA, GAMMA_WIDTH
@@ -204,13 +204,9 @@ def slopes(
         capacity, grows = capacity_of(work, i), 0.0
         for k in range(SOURCES):
             grows += _grown(work, along, i, k)
-        torque, rate = bristle(b, capacity, slip, bend)
-        by = bristle_slopes(b, capacity, slip, bend)
-        torques = by[0] * grows + by[1] * faster + by[2] * bends
-        turns = by[3] * grows + by[4] * faster + by[5] * bends
-        heat = bristle_heat(b, torque, slip, bend, rate)
-        heats = torques * slip + torque * faster
-        heats -= b.stiffness * (bends * rate + bend * turns)
+        heat, torques, turns, heats = bristle_changes(
+            b, capacity, slip, bend, (grows, faster, bends), (0.0, 0.0)
+        )
         if i == PLANET:
             heat, heats = heat * par[P_PLANETS], heats * par[P_PLANETS]
         found[np.uintp(i)], found[np.uintp(NOUT + i)] = torques, turns

@@ -55,6 +55,13 @@ BRISTLE = (
 )
 
 
+def largest_capacity(usual: str, nominal: float) -> Signal:
+    """Return the torque [N m] that bends a bristle by its angle; ``usual``: what 0 stands for."""
+    text = f"torque that bends the bristle by rest_angle (0: {usual})"
+    more: dict[str, Any] = {"low": 0.0, "high": 1e9, "nominal": nominal, "start": 0.0}
+    return Signal(name="largest_capacity", unit="N.m", help=text, **more)
+
+
 def bend_state(name: str, of: str) -> Signal:
     """Return the bending of a bristle, a tenth of whose largest bending is usual."""
     return Signal(

@@ -1,0 +1,114 @@
+"""Units that brake one shaft: model exchange against co-simulation; rest; what a solver needs."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from built import built_fmu
+from exchanged import unit
+from fmpy import simulate_fmu
+from shafts import Shaft, exchanged, jump, stepped, stop_of
+
+HEATS = {"gearmesh": ("friction_torque", ("oil_energy", "stored_heat"))}
+
+
+def pressed(t):
+    """From exactly no load."""
+    return 400.0 * min(max((t - 0.1) / 0.3, 0.0), 1.0)
+
+
+WARM = {"oil_temperature": 330.0}
+SHAFTS = {
+    "coast": ("gearmesh", Shaft(0.002, 50.0, load=40.0, **WARM)),
+    "held": ("gearmesh", Shaft(0.002, 50.0, 0.05, load=40.0, **WARM)),
+    "jump": ("gearmesh", Shaft(0.02, 50.0, jumps=(0.3,), load=jump(40.0, 400.0, 0.3), **WARM)),
+    "from no load": ("gearmesh", Shaft(0.02, 50.0, jumps=(0.1, 0.4), load=pressed, **WARM)),
+    "fast and cold": ("gearmesh", Shaft(0.02, -500.0, load=2000.0, oil_temperature=280.0)),
+}
+each_shaft = pytest.mark.parametrize("name", SHAFTS)
+
+
+def run_of(name, tolerance=1e-6, method="Radau"):
+    key, shaft = SHAFTS[name]
+    with unit(key) as u:
+        return exchanged(u, shaft, 1.0, *HEATS[key], tolerance, method)
+
+
+@each_shaft
+def test_a_shaft_stops_as_in_co_simulation(name):
+    """At 0.1 ms: when it stands, the heat, within 0.2 %; then it is held."""
+    key, shaft = SHAFTS[name]
+    with unit(key, kind="CoSimulation") as c:
+        one, two = run_of(name), stepped(c, shaft, 1.0, *HEATS[key])
+    assert stop_of(one) == pytest.approx(stop_of(two), rel=2e-3)
+    assert one["heat"] == pytest.approx(two["heat"], rel=2e-3)
+    assert abs(one["speed"][-1]) < 1e-6
+    assert one["torque"][-1] == pytest.approx(shaft.driven(1.0), abs=1e-6)
+
+
+@each_shaft
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 1e-5])
+def test_every_tolerance_ends_alike(name, tolerance):
+    fine, run = run_of(name), run_of(name, tolerance)
+    part = 2e-3 if tolerance < 1e-3 else 1e-2
+    assert stop_of(run) == pytest.approx(stop_of(fine), rel=part)
+    assert run["heat"] == pytest.approx(fine["heat"], rel=part)
+    assert run["steps"] < 600 and run["events"] < 20
+
+
+@each_shaft
+def test_what_the_shaft_loses_is_heat(name):
+    run, shaft = run_of(name), SHAFTS[name][1]
+    energy = 0.5 * shaft.inertia * (shaft.speed**2 - run["speed"][-1] ** 2)
+    work = np.trapezoid(shaft.driven(0.0) * run["speed"], run["time"])
+    assert run["heat"] == pytest.approx(energy + work, rel=2e-3)
+
+
+def test_a_torque_above_the_friction_turns_it_back():
+    with unit("gearmesh") as u:
+        shaft = Shaft(0.002, 50.0, -1.0, load=40.0, **WARM)
+        run = exchanged(u, shaft, 0.5, *HEATS["gearmesh"])
+    assert run["speed"][-1] < -100.0 and run["torque"][-1] < 0.0
+
+
+# Time and inputs, which jump.
+PROFILES = {
+    "gearmesh": [
+        (0.0, 0.0, 0.0, 300.0),
+        (0.1, 40.0, 180.0, 300.0),
+        (0.4, 60.0, 120.0, 330.0),
+        (0.6, 20.0, 5.0, 330.0),
+        (0.7, 20.0, -30.0, 330.0),
+        (0.9, 0.0, 50.0, 330.0),
+        (0.95, 400.0, 50.0, 330.0),
+        (1.0, 400.0, 50.0, 330.0),
+    ]
+}
+
+
+@pytest.mark.parametrize("key", PROFILES)
+@pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6])
+def test_cvode_of_fmpy_follows_jumps(key, fmi, tolerance):
+    """Torque in the middle of the rows and heat within 0.2 % of co-simulation at 0.1 ms."""
+    brake, heat = HEATS[key]
+    path, rows = str(built_fmu(key, fmi=fmi, local=True)), PROFILES[key]
+    flat = [r for a, b in pairwise(rows) for r in (a, (b[0], *a[1:]))]
+    names = ["time", "load", "speed", "oil_temperature"]
+    given = np.array(flat, dtype=[(n, float) for n in names])
+    same = {"stop_time": 1.0, "input": given, "output": [brake, *heat]}
+    one = simulate_fmu(
+        path,
+        fmi_type="ModelExchange",
+        solver="CVode",
+        relative_tolerance=tolerance,
+        output_interval=0.01,
+        **same,
+    )
+    two = simulate_fmu(path, step_size=1e-4, output_interval=1e-4, **same)
+    total = [sum(float(r[n][-1]) for n in heat) for r in (one, two)]
+    assert total[0] == pytest.approx(total[1], rel=2e-3)
+    for a, b in pairwise(rows):
+        middle = 0.5 * (a[0] + b[0])
+        torques = [np.interp(middle, r["time"], r[brake]) for r in (one, two)]
+        assert torques[0] == pytest.approx(torques[1], rel=2e-3, abs=1e-6)

@@ -24,7 +24,7 @@ from ..model.parameters import (
 from ..model.spec import ModelSpec, Rule
 from ..model.unread import condition_words
 from .kernels import layout as L
-from .train_signals import INPUTS, OUTPUTS, TERMINALS, absent_outputs
+from .train_signals import EXCHANGE, INPUTS, OUTPUTS, TERMINALS, absent_outputs
 
 DRIVERS = {
     "pinion": "the pinion is on the shaft nearer to the input",
@@ -314,6 +314,7 @@ SPEC = ModelSpec(
     inputs=INPUTS,
     outputs=OUTPUTS,
     kernel="thrustwasher.train.kernels.step",
+    exchange=EXCHANGE,
     rules=RULES,
     terminals=TERMINALS,
     absent=absent_outputs,

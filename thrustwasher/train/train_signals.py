@@ -2,7 +2,8 @@
 
 from typing import Any
 
-from ..model.spec import Signal, Terminal, output
+from ..model.spec import Exchange, Signal, Terminal, output
+from ..tribology.holding.parameters import BRISTLE, bend_state, largest_capacity
 from .kernels import layout as L
 
 INPUTS = (
@@ -127,6 +128,54 @@ OUTPUTS = (
         type="SolverStatus",
         depends=ALL,
         help="how the last solution was obtained",
+    ),
+)
+
+
+_BODIES = tuple(f"mesh_{i}_body_temperature" for i in MESHES)
+_STATES = (*_BODIES, "bend")
+
+
+def _needs(s: Signal) -> tuple[str, ...]:
+    """Return what acts on an output in model exchange."""
+    if s.name in {"oil_energy", "output_speed"}:
+        return ("oil_energy",) if s.name == "oil_energy" else ("speed",)
+    return (*ALL, *_STATES)
+
+
+EXCHANGE = Exchange(
+    kernel="thrustwasher.train.kernels.exchange",
+    states=(
+        *(
+            output(
+                name,
+                "K",
+                300.0,
+                f"mesh {i}: temperature of the bodies as a state; 0 in co-simulation",
+            )
+            for i, name in zip(MESHES, _BODIES, strict=True)
+        ),
+        bend_state("bend", "of the bristle that holds the input shaft at rest"),
+        output("oil_energy", "J", 1e3, "heat that has gone into the oil since the start"),
+    ),
+    needs={
+        **{s.name: _needs(s) for s in OUTPUTS if s.kind == "real"},
+        **{f"der({name})": (*ALL, *_STATES) for name in (*_STATES, "oil_energy")},
+        **{f"start({name})": ALL for name in _STATES},
+    },
+    indicators=tuple(
+        f"mesh {i}: {text}"
+        for i in MESHES
+        for text in (
+            "film ratio 3, from film to mixed",
+            "film ratio 1, from mixed to boundary",
+            "the temperature from which the film is hot",
+            "the ends of the laws: of the oil's temperature, the asperities', their hardness",
+        )
+    ),
+    parameters=(
+        *BRISTLE,
+        largest_capacity("at rest, least pitting_safety 3", 10.0),
     ),
 )
 

@@ -115,11 +115,21 @@ def step_over(
     dt: float,
 ) -> int:  # fmt: skip
     """Step as ``step`` with a friction that rises over the speed ``width`` [rad/s]."""
+    work[L.W_WIDTH] = width
+    status = step_risen(par, inp, math.tanh(inp[L.I_SPEED] / width), state, work, out, dt)
+    iout[L.IO_REGIME], iout[L.IO_STATUS] = regime_of(work[L.F_RATIO]), status
+    return status if status >= 10 else OK
+
+
+@kernel
+def step_risen(
+    par: Array, inp: Array, risen: float, state: Array, work: Array, out: Array, dt: float
+) -> int:
+    """Step with the part ``risen`` of the friction, with its sign; return advice or failure."""
     load, speed, oil = inp[L.I_LOAD], inp[L.I_SPEED], inp[L.I_OIL]
     here = shared(par, load, work)
-    status = _solve(here, load, speed, oil, width, state, dt, work)
+    status = solve_risen(here, load, speed, oil, risen, state, dt, work)
     work[L.F_OIL_ENERGY] = state[L.S_OIL_ENERGY] + work[L.F_OIL_HEAT] * dt
-    iout[L.IO_REGIME] = regime_of(work[L.F_RATIO])
     copy(work, out)
     if not are_finite(out):
         status = NOT_FINITE
@@ -127,8 +137,7 @@ def step_over(
         state[L.S_STARTED] = 1.0
         state[L.S_BULK], state[L.S_STORED] = work[L.F_BULK], work[L.F_STORED]
         state[L.S_OIL_ENERGY] = out[L.F_OIL_ENERGY]
-    iout[L.IO_STATUS] = status
-    return status if status >= 10 else OK
+    return status
 
 
 @kernel

@@ -6,11 +6,12 @@ import math
 import numpy as np
 
 from ...gearmesh.kernels import layout as G
+from ...gearmesh.kernels.exchange import room_of
 from ...gearmesh.kernels.mesh_point import viscosity_at
-from ...gearmesh.kernels.step import step_over
+from ...gearmesh.kernels.step import step_risen
 from ...losses.kernels.loss_laws import bearing_drag, churning_drag, seal_drag
 from ...losses.kernels.skf_friction import SKF, skf_drag
-from ...numerics.jit import Array, Ints, kernel
+from ...numerics.jit import Array, kernel
 from ...numerics.status import MAX_ITERATIONS, OK
 from . import layout as L
 from .bearing_life import equivalent_load
@@ -29,15 +30,27 @@ def shaft_loss(work: Array, shaft: int) -> float:
 
 
 @kernel
-def march(
-    par: Array, inp: Array, width: float, state: Array, work: Array, iout: Ints, dt: float
-) -> int:
-    """Fill torques, speeds and the pairs' outputs from input to output; return the worst status.
+def risen_at(rise: tuple[float, float], speed: float, turn: float) -> float:
+    """Return the part of the friction that acts at a speed [rad/s], with its sign.
 
-    The losses of the shafts are as in ``work``; friction rises over the speed ``width`` [rad/s].
+    ``rise``: the speed [rad/s] over which it rises; 0: the part that acts, with the sign of the
+    input's, is the second number. ``turn``: a speed for one of the input.
     """
-    torque, speed, worst = inp[L.I_TORQUE], inp[L.I_SPEED], OK
-    meshes = int(par[L.P_MESHES])
+    if rise[0] > 0.0:
+        return math.tanh(speed / rise[0])
+    return rise[1] if turn > 0.0 else -rise[1]
+
+
+@kernel
+def march(
+    par: Array, inp: Array, rise: tuple[float, float], state: Array, work: Array, dt: float
+) -> int:
+    """Fill torques, speeds and the pairs' outputs from input to output; return OK or a failure.
+
+    The losses of the shafts are as in ``work``, friction as ``risen_at`` says.
+    """
+    torque, speed, worst, along = inp[L.I_TORQUE], inp[L.I_SPEED], OK, 1.0
+    meshes, own = int(par[L.P_MESHES]), work[L.W_PAIR : L.W_PAIR + G.NWORK]
     given = work[L.W_INP : L.W_INP + G.NINP]
     for i in range(meshes):
         work[np.uintp(L.W_SPEED + i)] = speed
@@ -50,20 +63,17 @@ def march(
         given[G.I_LOAD] = torque if driver == L.PINION else -torque * slower
         given[G.I_SPEED], given[G.I_OIL] = speed * turn, inp[L.I_OIL]
         out = work[L.W_OUT + i * G.NOUT : L.W_OUT + (i + 1) * G.NOUT]
-        status = step_over(
-            par[L.D_PAIR + i * G.NPAR : L.D_PAIR + (i + 1) * G.NPAR],
-            given,
-            width,
-            state[i * G.NSTATE : (i + 1) * G.NSTATE],
-            work[L.W_PAIR : L.W_PAIR + G.NWORK],
-            out,
-            iout[i * G.NIOUT : (i + 1) * G.NIOUT],
-            dt,
-        )
-        worst = max(worst, status)
+        pair = par[L.D_PAIR + i * G.NPAR : L.D_PAIR + (i + 1) * G.NPAR]
+        memory = state[i * G.NSTATE : (i + 1) * G.NSTATE]
+        risen = risen_at(rise, given[G.I_SPEED], along * turn)
+        status = step_risen(pair, given, risen, memory, own, out, dt)
+        work[np.uintp(L.W_ADVICE + i)] = float(status)
+        worst = max(worst, status if status >= 10 else OK)
+        if rise[0] == 0.0:
+            work[np.uintp(L.W_ROOM + i)] = room_of(pair, inp[L.I_OIL], own)
         rubbing = out[G.F_TORQUE] * turn
         work[np.uintp(L.W_FRICTION + i)] = rubbing
-        torque, speed = -(torque - rubbing) * ratio, -speed / ratio
+        torque, speed, along = -(torque - rubbing) * ratio, -speed / ratio, -along / ratio
     work[np.uintp(L.W_SPEED + meshes)] = speed
     work[L.W_END] = torque - shaft_loss(work, meshes)
     return worst
@@ -81,14 +91,18 @@ def fill_loads(par: Array, work: Array) -> None:
 
 
 @kernel
-def fill_losses(par: Array, oil: float, width: float, work: Array, share: float) -> float:
+def fill_losses(
+    par: Array, oil: float, rise: tuple[float, float], work: Array, share: float
+) -> float:
     """Move the loss torques by ``share`` towards those of the forces; return the largest move."""
-    meshes, moved = int(par[L.P_MESHES]), 0.0
+    meshes, moved, along = int(par[L.P_MESHES]), 0.0, 1.0
     pair = par[L.D_PAIR : L.D_PAIR + G.NPAR]
     nu, smooth = viscosity_at(pair, oil) / pair[G.P_OIL_DENSITY], pair[G.P_SPEED_SMOOTHING]
     for i in range(meshes + 1):
         speed, own = work[np.uintp(L.W_SPEED + i)], L.P_SHAFT + i * L.SHAFT_ROW
-        turning, sign = math.hypot(speed, smooth), math.tanh(speed / width)
+        turning, sign = math.hypot(speed, smooth), risen_at(rise, speed, along)
+        if i < meshes:
+            along = -along / par[np.uintp(L.D_MESH + i * L.E_ROW + L.E_RATIO)]
         at = L.W_LOSS + i * L.LOSSES
         for k in range(L.LOSSES):
             if k < L.ENDS:
@@ -165,25 +179,26 @@ def churning_torque(par: Array, meshes: int, shaft: int, turning: float, nu: flo
 
 @kernel
 def solve_chain(
-    par: Array, inp: Array, width: float, state: Array, work: Array, iout: Ints, dt: float
+    par: Array, inp: Array, rise: tuple[float, float], state: Array, work: Array, dt: float
 ) -> int:
     """Fill ``work`` with torques, forces and losses that agree; return 0 or a failure.
 
-    The state moves on by ``dt``; friction rises over the speed ``width`` [rad/s] of any shaft.
+    The state moves on by ``dt``; friction acts as ``risen_at`` says, over a speed of any shaft.
     Losses grow with a small share of the forces, so that a few sweeps settle them. Where the output
     drives and they grow faster than what it brings, the chain locks itself and nothing settles;
     where the input drives they settle anyway, eased.
     """
     for k in range(L.SHAFTS * L.LOSSES):
         work[np.uintp(L.W_LOSS + k)] = 0.0
-    settled, drives = False, inp[L.I_TORQUE] * inp[L.I_SPEED] > 0.0
+    way = inp[L.I_SPEED] if rise[0] > 0.0 else rise[1]
+    settled, drives = False, inp[L.I_TORQUE] * way > 0.0
     for n in range(SWEEPS):
-        status = march(par, inp, width, state, work, iout, 0.0)
+        status = march(par, inp, rise, state, work, 0.0)
         if status >= 10:
             return status
         fill_loads(par, work)
         share = EASED if n >= PLAIN and drives else 1.0
-        moved = fill_losses(par, inp[L.I_OIL], width, work, share)
+        moved = fill_losses(par, inp[L.I_OIL], rise, work, share)
         size = abs(inp[L.I_TORQUE])
         for i in range(int(par[L.P_MESHES])):
             size = max(size, abs(work[np.uintp(L.W_TORQUE + i)]))
@@ -192,6 +207,6 @@ def solve_chain(
             break
     if not settled:
         return MAX_ITERATIONS
-    status = march(par, inp, width, state, work, iout, dt)
+    status = march(par, inp, rise, state, work, dt)
     fill_loads(par, work)
     return status

@@ -143,7 +143,17 @@ W_OUT = W_INP + G.NINP
 W_PAIR = W_OUT + MESHES * G.NOUT
 W_MEMORY = W_PAIR + G.NWORK  # of the driveline, while a step is made
 W_TOLD = W_MEMORY + N_MEMORY  # numbers in what the train says of its speed
-NWORK = W_TOLD + N_FIGURES
+W_ADVICE = W_TOLD + N_FIGURES  # of each mesh: advice or failure
+# Of model exchange: of each mesh how far it is from where the laws are stretched; the pairs' own
+# memory; inputs and states at hand; what is told at them, what at others.
+W_ROOM = W_ADVICE + MESHES
+W_STATE = W_ROOM + MESHES
+W_POINT = W_STATE + MESHES * G.NSTATE
+N_TOLD = NOUT + 1 + MESHES
+W_HERE = W_POINT + NINP + MESHES
+W_THERE = W_HERE + N_TOLD
+W_TRIED = W_THERE + N_TOLD
+NWORK = W_TRIED + N_TOLD
 PINION, GEAR = 1, 2  # who drives
 RIGHT, LEFT = 1, 2  # hand
 FIRST, SECOND, PUSHED = 1, 2, 3  # which bearing takes the axial force

@@ -9,6 +9,7 @@ from ...gearmesh.kernels import layout as G
 from ...gearmesh.kernels.mesh_point import viscosity_at
 from ...gearmesh.kernels.step import broken_rule as broken_pair
 from ...gearmesh.kernels.step import derive as derive_pair
+from ...gearmesh.kernels.step import regime_of
 from ...gearmesh.kernels.working_pair import section
 from ...losses.kernels.loss_laws import churning_constants, starved
 from ...losses.kernels.skf_friction import SKF, fill_series
@@ -203,6 +204,41 @@ def fill_bearings(par: Array, work: Array, out: Array) -> None:
 
 
 @kernel
+def fill_told(par: Array, work: Array, out: Array) -> None:
+    """Fill what is told of meshes and bearings, losses, heat of the meshes."""
+    for k in range(L.NOUT):
+        out[np.uintp(k)] = 0.0
+    out[L.O_PITTING] = out[L.O_ROOT] = out[L.O_SCUFFING] = G.NO_LIMIT
+    out[L.O_LIFE] = 1e12
+    fill_meshes(par, work, out)
+    fill_bearings(par, work, out)
+
+
+@kernel
+def ratio_of(par: Array) -> float:
+    """Return the torque at the output over that at the input, without losses, with its sign."""
+    ratio = 1.0
+    for i in range(int(par[L.P_MESHES])):
+        ratio *= -par[np.uintp(L.D_MESH + i * L.E_ROW + L.E_RATIO)]
+    return ratio
+
+
+@kernel
+def fill_advice(par: Array, oil: float, work: Array, iout: Ints) -> int:
+    """Fill regime and advice of each mesh; return the worst advice."""
+    worst = OK if COLDEST <= oil <= HOTTEST else OUTSIDE_VERIFIED
+    for i in range(L.MESHES):
+        regime, advice = G.FILM, OK
+        if i < int(par[L.P_MESHES]):
+            regime = regime_of(work[np.uintp(L.W_OUT + i * G.NOUT + G.F_RATIO)])
+            advice = int(work[np.uintp(L.W_ADVICE + i)])
+        iout[np.uintp(i * G.NIOUT + G.IO_REGIME)] = regime
+        iout[np.uintp(i * G.NIOUT + G.IO_STATUS)] = advice
+        worst = max(worst, advice)
+    return worst
+
+
+@kernel
 def fastest_of(par: Array) -> float:
     """Return the speed of the fastest shaft over that of the input."""
     turn, most = 1.0, 1.0
@@ -258,16 +294,9 @@ def step(
     copy(state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY], mem)
     way = (M.IDENTIFIED, 0.0, 0, par[L.D_PAIR + G.P_SPEED_SMOOTHING] / fastest, False)
     width = fastest * width_at(way, mem, inp[L.I_SPEED], dt)
-    status = solve_chain(par, inp, width, state, work, iout, dt)
-    for k in range(L.NOUT):
-        out[np.uintp(k)] = 0.0
-    out[L.O_PITTING] = out[L.O_ROOT] = out[L.O_SCUFFING] = G.NO_LIMIT
-    out[L.O_LIFE] = 1e12
-    ratio = 1.0
-    for i in range(meshes):
-        ratio *= -par[np.uintp(L.D_MESH + i * L.E_ROW + L.E_RATIO)]
-    fill_meshes(par, work, out)
-    fill_bearings(par, work, out)
+    status = solve_chain(par, inp, (width, 0.0), state, work, dt)
+    fill_told(par, work, out)
+    ratio = ratio_of(par)
     left, speed = work[L.W_END], work[np.uintp(L.W_SPEED + meshes)]
     out[L.O_LOSS_TORQUE] = inp[L.I_TORQUE] - left / ratio
     out[L.O_OUTPUT_TORQUE], out[L.O_OUTPUT_SPEED] = left, speed
@@ -277,10 +306,7 @@ def step(
     out[L.O_HEAT] += rest
     out[L.O_ENERGY] = state[L.S_ENERGY] + out[L.O_HEAT] * dt
     if status == OK:
-        for i in range(meshes):
-            status = max(status, iout[np.uintp(i * G.NIOUT + G.IO_STATUS)])
-        if not COLDEST <= oil <= HOTTEST:
-            status = max(status, OUTSIDE_VERIFIED)
+        status = fill_advice(par, oil, work, iout)
     if not are_finite(out):
         status = NOT_FINITE
     elif dt > 0.0 and status < 10:

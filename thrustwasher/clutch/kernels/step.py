@@ -55,7 +55,7 @@ from .rates import given_power, n_unknowns, pack_rates, surfaces
 
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
 NOUT, NIOUT, sens = L.NOUT, L.NIOUT, directional_derivative
-NRATES, W_TOLD = NINP, L.W_TOLD
+NRATES, W_TOLD, W_STATES = NINP, L.W_TOLD, L.W_STATES
 # What a partner may be off by over a step: a share of the capacity, or of that of a pack pressed a
 # little [Pa] whose coefficient is low.
 ADVISED_SHARE, LEAST_PRESSURE, LEAST_COEFFICIENT = 0.01, 1e5, 0.1
@@ -157,6 +157,7 @@ def step(
         state[L.S_SHOWN_STORED] = out[L.O_STORED_HEAT]
         note_capacity(state, span if started else 0.0, out)
         copy(work[L.W_MEMORY :], state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY])
+    show_states(par, first, work, out)
     iout[L.IO_REGIME] = regime_of(par, out[L.O_RATIO], slip)
     advice = OK
     if out[L.O_RATIO] < L.LEAST_RATIO:
@@ -212,6 +213,21 @@ def point_at(inp: Array, s: float) -> tuple[float, float, float, float]:
         value_at(inp, L.NINP, L.I_OIL, s),
         value_at(inp, L.NINP, L.I_DRUM, s),
     )
+
+
+@kernel
+def show_states(par: Array, first: float, work: Array, out: Array) -> None:
+    """Leave what model exchange has as states at W_STATES: rings that are none are at ``first`` [K].
+
+    There is no bristle.
+    """
+    place, rings = L.W_NOW + L.Y_HEAT, int(par[L.D_RINGS])
+    work[L.W_STATES + L.X_FILM], work[L.W_STATES + L.X_BEND] = out[L.O_RATIO], 0.0
+    work[L.W_STATES + L.X_ENERGY] = out[L.O_ENERGY]
+    for k in range(L.N_RINGS):
+        of_ring = work[np.uintp(place)] if k < rings else first
+        work[np.uintp(L.W_STATES + L.X_HEAT + k)] = of_ring
+        place += 1 + int(par[L.D_MODES])
 
 
 @kernel

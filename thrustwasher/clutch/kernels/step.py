@@ -217,7 +217,7 @@ def point_at(inp: Array, s: float) -> tuple[float, float, float, float]:
 
 @kernel
 def show_states(par: Array, first: float, work: Array, out: Array) -> None:
-    """Leave what model exchange has as states at W_STATES: rings that are none are at ``first`` [K].
+    """Leave what model exchange has as states at W_STATES; a ring that is none at ``first`` [K].
 
     There is no bristle.
     """

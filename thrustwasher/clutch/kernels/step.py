@@ -34,7 +34,8 @@ from ...numerics.step_size import advised_step
 from ...tribology.holding import memory as M
 from ...tribology.holding.figures import fill_figures
 from ...tribology.holding.reversals import chatters
-from ...tribology.holding.torque import OFTEN, told_of
+from ...tribology.holding.sampling import held_over
+from ...tribology.holding.torque import told_of
 from . import layout as L
 from .advance import (
     advance,
@@ -138,8 +139,8 @@ def step(
     if dt > 0.0:
         span = state[L.S_DURATION] if linear and started else dt
         out[L.O_ADVISED] = advise(par, state, span, straight, out[L.O_CAPACITY])
-        if work[L.W_MEMORY + M.REPEATS] >= OFTEN:
-            out[L.O_ADVISED] = (work[L.W_MEMORY + M.REPEATED + 1] + 1.0) * dt
+        if held_over(work[L.W_MEMORY :]) > 0.0:
+            out[L.O_ADVISED] = held_over(work[L.W_MEMORY :]) * dt
         elif chatters(work[L.W_MEMORY :]):
             out[L.O_ADVISED] = min(out[L.O_ADVISED], LESS * dt)
         elif work[L.W_MEMORY + M.REVERSES] != 0.0 and state[L.S_ADVISED] > 0.0:

@@ -198,6 +198,7 @@ int advance(Instance *m, double t, double h) {
     }
     m->now.time = t + h;
     m->now.latch = m->unsolved = 0;
+    if (h > 0.0) note_states(m, h);
     tell_late_step(m, t, asked, expected);
     if (ADVISED >= 0) tell_long_step(m, h);
     m->happened = has_changed(m);

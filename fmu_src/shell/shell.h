@@ -151,6 +151,7 @@ int refresh(Instance *m);
 int solve(Instance *m, double t, double h); /* 0 or a failure, which changes nothing */
 /* Outputs, memory, inputs as before the last solve; memory that is large: if h was 0. */
 void put_back(Instance *m);
+void note_states(Instance *m, double h);     /* of model exchange, after a step of h; 0: at the start */
 int follow(Instance *m, double t, double h); /* as solve, h > 0, along the inputs' rates */
 
 /* resource.c */

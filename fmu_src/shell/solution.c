@@ -61,6 +61,19 @@ int solve(Instance *m, double t, double h) {
     return rc;
 }
 
+/* What the states of model exchange are in co-simulation: outputs, or what the kernels leave at W_STATES;
+   their rates are those over the step of `h` that has led here. */
+void note_states(Instance *m, double h) {
+    Snap *s = &m->now;
+    for (int i = 0; i < NCONT; i++) {
+        const int out = CONTINUOUS_STATES[i].out;
+        const double now = out >= 0 ? s->solution.out[out] : W_STATES > 0 ? m->work[W_STATES + i] : 0.0;
+        const double rate = h > 0.0 ? (now - s->cont[i]) / h : 0.0;
+        s->der[i] = is_finite(rate) ? rate : 0.0;
+        s->cont[i] = is_finite(now) ? now : 0.0;
+    }
+}
+
 /* Bring the outputs up to date, at most once per change. */
 int refresh(Instance *m) {
     if (!m->now.dirty) return GOOD;
@@ -69,6 +82,7 @@ int refresh(Instance *m) {
         if (prepare(m)) return BAD;
         m->unsolved = solve(m, m->now.time, 0.0);
         if (m->unsolved) m->now.latch = m->unsolved;
+        if (!m->unsolved && m->now.mode == INITIALIZING) note_states(m, 0.0);
     }
     m->now.dirty = m->unsolved != 0;
     if (m->unsolved) tell_failure(m, m->unsolved, m->now.time, 0.0);

@@ -17,13 +17,13 @@ def _plate(place: int, name: str) -> Signal:
     text = f"mean temperature of the steel at ring {place} of a face"
     if place > 1:
         text += " (fidelity fine)"
-    return output(name, "K", 300.0, f"{text}; 0 in co-simulation")
+    return output(name, "K", 300.0, text)
 
 
 EXCHANGE = Exchange(
     kernel="thrustwasher.clutch.kernels.exchange",
     states=(
-        output("film", "1", 1.0, "film ratio as a state, where it is one; 0 in co-simulation"),
+        output("film", "1", 1.0, "film ratio as a state, where it is one"),
         bend_state("bend", "of the bristle that holds the pack at rest"),
         output("energy", "J", 1e4, "heat made by friction since the start"),
         *(_plate(k, name) for k, name in enumerate(_PLATES, 1)),

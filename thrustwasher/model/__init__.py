@@ -35,6 +35,7 @@ Python FMU and the native FMU call the same code:
 ``step(...)``          ``step(par, inp, state, work, out, iout, t, dt)`` returns a status
 ``sens(...)``          ``sens(par, inp, state, work, seed, dout)`` returns a status; not all have it
 ``W_TOLD``             where in ``work`` the numbers of ``errors.FIGURES`` lie, if it has them
+``W_STATES``           where in ``work`` the states of model exchange lie, if not all are outputs
 ``TABLE``              where in ``work`` the table of a level lies, if one looks its answers up
 =====================  ============================================================================
 

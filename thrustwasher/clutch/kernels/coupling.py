@@ -13,6 +13,7 @@ from ...numerics.jit import Array, Ints, kernel
 from ...numerics.smoothing import sign_of
 from ...tribology.holding import memory as M
 from ...tribology.holding.memory import Coupling
+from ...tribology.holding.sampling import extend, is_again, repeats, span_of
 from ...tribology.holding.torque import (
     age_of,
     basis_of,
@@ -78,12 +79,15 @@ def remember(
         share_power(par, state[L.S_LOAD], state[L.S_SLIP], state[L.S_DRUM], film, work)
     else:
         share_power(par, point[0], slip, point[3], film, work)
+    if dt > 0.0 and not linear and repeats(way, mem, slip):
+        _give(par, mem, max(0.0, mem[M.TORQUE] * slip * dt), dt, 0.0, 0.0, work)
+        return work[L.W_GIVEN_POWER] * par[L.P_FACES] * dt
     if dt > 0.0:
         notice(way, mem, slip)
     book_heat(way, mem, slip)
     span = state[L.S_DURATION] if linear else dt
     if dt > 0.0:
-        ahead = foreseen(mem, slip, dt, expected(way, mem, slip, dt))
+        ahead = foreseen(mem, slip, dt, expected(way, mem, slip, span_of(mem, dt)))
     _book(par, mem, slip, span, linear, ahead, work)
     return ahead if linear else work[L.W_GIVEN_POWER] * par[L.P_FACES] * dt
 
@@ -100,9 +104,20 @@ def _book(
         return
     due = mem[M.HEAT] if linear else mem[M.HEAT] + ahead
     given, slope, mean = max(0.0, due - mem[M.BOOKED]), 0.0, 0.0
-    mem[M.BOOKED] += given
     if linear and given > 0.0:  # it changes with the slip at the interval's end
         slope, mean = mem[M.RISES], 0.5 * (mem[M.SLIP] + slip)
+    _give(par, mem, given, span, slope, mean, work)
+
+
+@kernel
+def _give(
+    par: Array, mem: Array, given: float, span: float, slope: float, mean: float, work: Array
+) -> None:
+    """Give a heat [J] to the next interval of ``span`` [s].
+
+    Its power changes with the slip by ``slope`` [N m], and is the mean one at ``mean`` [rad/s].
+    """
+    mem[M.BOOKED] += given
     power = (given / span - slope * mean) / par[L.P_FACES]
     work[L.W_GIVEN], work[L.W_GIVEN_POWER] = 1.0, power
     work[L.W_GIVEN_SLOPE] = slope / par[L.P_FACES]
@@ -128,9 +143,12 @@ def answer(
             note(way, mem, slip, dt, torque, 0.0, capacity, False)
         return
     last = state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY]
-    step, locked = dt if dt > 0.0 else mem[M.STEP], False
-    slides, number, slope, coded = decide(way, mem, slip, step, capacity)
-    if dt == 0.0 and mem[M.COUNT] > 0.0 and slip == last[M.SLIP]:
+    step, locked = span_of(mem, dt) if dt > 0.0 else mem[M.STEP], False
+    slides, number, slope, coded = True, 0.0, 0.0, 0.0
+    again = dt > 0.0 and is_again(mem)
+    if not again:
+        slides, number, slope, coded = decide(way, mem, slip, step, capacity)
+    if again or (dt == 0.0 and mem[M.COUNT] > 0.0 and slip == last[M.SLIP]):
         slides = last[M.HELD] == 0.0
         number = last[M.TORQUE]
         if slides:
@@ -154,7 +172,10 @@ def answer(
     bound = bound_of(way, mem, capacity, step)
     work[L.W_BOUND_SLOPE] = slope_of_bound(way, mem, capacity, step)
     if dt > 0.0:
-        note(way, mem, slip, dt, torque, coded, capacity, holds)
+        if again:
+            extend(mem, dt, torque, capacity)
+        else:
+            note(way, mem, slip, dt, torque, coded, capacity, holds)
         locked = is_locked(way, mem)
     else:
         locked = holds and abs(slip) <= bound and is_locked(way, last)

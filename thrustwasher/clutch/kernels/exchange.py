@@ -26,13 +26,13 @@ from ...tribology.bristle import (
     margin,
 )
 from . import layout as L
+from .layout import X_BEND, X_ENERGY, X_FILM, X_HEAT
 from .pack_friction import regime_of, settled_slope
 from .pack_outputs import fill_outputs, mean_surface, ring_outputs, stored_heat
 from .rates import kept_of, moves_film, pack_rates, ring_of, surfaces
 
 NPAR, NINP, NWORK, NOUT, NIOUT = L.NPAR, L.NINP, L.NWORK, L.NOUT, L.NIOUT
-X_FILM, X_BEND, X_ENERGY, X_HEAT = range(4)
-NCONT = X_HEAT + L.N_RINGS
+NCONT = L.N_STATES
 A_ANGLE, A_DAMPING, A_SPEED, A_LARGEST, NOWN = range(5)
 # What is discrete: time of the next event [s], largest capacity [N m], oil at the start [K], 1 if
 # the pack is locked, since when it might be [s].

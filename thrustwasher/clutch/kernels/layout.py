@@ -92,6 +92,10 @@ S_STARTED, S_FILM, S_ENERGY, S_HEAT = range(4)  # the last three: unknowns in th
 ) = range(S_HEAT + N_HEAT, S_HEAT + N_HEAT + 17)
 NSTATE = S_MEMORY + N_MEMORY
 
+# States of model exchange; a plate's temperature for each ring.
+X_FILM, X_BEND, X_ENERGY, X_HEAT = range(4)
+N_STATES = X_HEAT + N_RINGS
+
 N_STAGES = 6
 W_NOW, W_TRIAL, W_RATE, W_STAGES = 0, NY, 2 * NY, 3 * NY
 W_SUBSTEPS = W_STAGES + N_STAGES * NY  # counts: accepted and refused substeps
@@ -153,7 +157,8 @@ W_GIVEN_TORQUE, W_BY_SLIP, W_BY_CAPACITY, W_BOUND_SLOPE = (
     W_MEMORY + N_MEMORY + i for i in range(4)
 )
 W_TOLD = W_MEMORY + N_MEMORY + 4  # numbers in what a pack says when it cannot hold
-NWORK = W_TOLD + N_FIGURES
+W_STATES = W_TOLD + N_FIGURES  # the states of model exchange after a step
+NWORK = W_STATES + N_STATES
 
 (
     O_TORQUE,

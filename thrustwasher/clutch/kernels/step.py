@@ -34,7 +34,8 @@ from ...numerics.step_size import advised_step
 from ...tribology.holding import memory as M
 from ...tribology.holding.figures import fill_figures
 from ...tribology.holding.reversals import chatters
-from ...tribology.holding.torque import OFTEN, told_of
+from ...tribology.holding.sampling import held_over
+from ...tribology.holding.torque import told_of
 from . import layout as L
 from .advance import (
     advance,
@@ -55,7 +56,7 @@ from .rates import given_power, n_unknowns, pack_rates, surfaces
 
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
 NOUT, NIOUT, sens = L.NOUT, L.NIOUT, directional_derivative
-NRATES, W_TOLD = NINP, L.W_TOLD
+NRATES, W_TOLD, W_STATES = NINP, L.W_TOLD, L.W_STATES
 # What a partner may be off by over a step: a share of the capacity, or of that of a pack pressed a
 # little [Pa] whose coefficient is low.
 ADVISED_SHARE, LEAST_PRESSURE, LEAST_COEFFICIENT = 0.01, 1e5, 0.1
@@ -138,8 +139,8 @@ def step(
     if dt > 0.0:
         span = state[L.S_DURATION] if linear and started else dt
         out[L.O_ADVISED] = advise(par, state, span, straight, out[L.O_CAPACITY])
-        if work[L.W_MEMORY + M.REPEATS] >= OFTEN:
-            out[L.O_ADVISED] = (work[L.W_MEMORY + M.REPEATED + 1] + 1.0) * dt
+        if held_over(work[L.W_MEMORY :]) > 0.0:
+            out[L.O_ADVISED] = held_over(work[L.W_MEMORY :]) * dt
         elif chatters(work[L.W_MEMORY :]):
             out[L.O_ADVISED] = min(out[L.O_ADVISED], LESS * dt)
         elif work[L.W_MEMORY + M.REVERSES] != 0.0 and state[L.S_ADVISED] > 0.0:
@@ -157,6 +158,7 @@ def step(
         state[L.S_SHOWN_STORED] = out[L.O_STORED_HEAT]
         note_capacity(state, span if started else 0.0, out)
         copy(work[L.W_MEMORY :], state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY])
+    show_states(par, first, work, out)
     iout[L.IO_REGIME] = regime_of(par, out[L.O_RATIO], slip)
     advice = OK
     if out[L.O_RATIO] < L.LEAST_RATIO:
@@ -212,6 +214,21 @@ def point_at(inp: Array, s: float) -> tuple[float, float, float, float]:
         value_at(inp, L.NINP, L.I_OIL, s),
         value_at(inp, L.NINP, L.I_DRUM, s),
     )
+
+
+@kernel
+def show_states(par: Array, first: float, work: Array, out: Array) -> None:
+    """Leave what model exchange has as states at W_STATES; a ring that is none at ``first`` [K].
+
+    There is no bristle.
+    """
+    place, rings = L.W_NOW + L.Y_HEAT, int(par[L.D_RINGS])
+    work[L.W_STATES + L.X_FILM], work[L.W_STATES + L.X_BEND] = out[L.O_RATIO], 0.0
+    work[L.W_STATES + L.X_ENERGY] = out[L.O_ENERGY]
+    for k in range(L.N_RINGS):
+        of_ring = work[np.uintp(place)] if k < rings else first
+        work[np.uintp(L.W_STATES + L.X_HEAT + k)] = of_ring
+        place += 1 + int(par[L.D_MODES])
 
 
 @kernel

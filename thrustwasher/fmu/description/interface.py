@@ -218,7 +218,7 @@ def _exchanged(spec: ModelSpec, first: int) -> Iterator[Variable]:
             entry |= fixed | {"start": signal.start}
         if base is not None:
             needs = own.needs[f"der({base})"]
-            words = f"rate of change of {base}; 0 in co-simulation"
+            words = f"rate of change of {base}; in co-simulation over the last step"
             entry |= {"name": f"der({base})", "unit": LATER[signal.unit], "help": words}
             entry |= {"low": None, "high": None, "relative": False, "derivative_of": base}
             entry |= {"states": tuple(n for n in needs if n in names)}

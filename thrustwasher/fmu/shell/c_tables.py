@@ -239,6 +239,7 @@ def _header(shown: Interface, lists: dict[str, tuple[str, list[str]]]) -> str:
         "NEEDS_STEPS": int(bool(shown.spec.exchange and shown.spec.exchange.steps)),
         "IO_STATUS": status,
         "W_TOLD": getattr(kernel, "W_TOLD", 0),
+        "W_STATES": getattr(kernel, "W_STATES", 0),
         "N_TOLD": N_FIGURES,
         "TOLD_ENGAGEMENT": T_ENGAGEMENT,
         "ADVISED": next((v.slot for v in shown.outputs if v.name == ADVISED), -1),

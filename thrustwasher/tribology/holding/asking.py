@@ -43,7 +43,7 @@ def next_bit(mem: Array) -> float:
 @kernel
 def rate_of(mem: Array, slip: float) -> float:
     """Return the mean change of the slip a step over the last four [rad/s]."""
-    if mem[M.COUNT] >= 4.0:
+    if mem[M.COUNT] - mem[M.SINCE] >= 4.0:
         return 0.25 * abs(slip - mem[M.SLIP + 3])
     return largest_move(mem, slip)
 
@@ -51,7 +51,7 @@ def rate_of(mem: Array, slip: float) -> float:
 @kernel
 def largest_move(mem: Array, slip: float) -> float:
     """Return the largest change of the slip over one of the last three steps [rad/s]."""
-    n, most = mem[M.COUNT], 0.0
+    n, most = mem[M.COUNT] - mem[M.SINCE], 0.0
     if n >= 1.0:
         most = abs(slip - mem[M.SLIP])
     for k in range(2):

@@ -3,14 +3,13 @@
 
 import math
 
-import numpy as np
-
 from ...numerics.arrays import clear
 from ...numerics.jit import Array, kernel
 from . import memory as M
 from .memory import Coupling
 from .plant import largest_answer
-from .torque import ANSWERED, OFTEN, STRANGE, inertia_of, is_given
+from .sampling import held_over
+from .torque import ANSWERED, STRANGE, inertia_of, is_given
 
 DIGITS = 3
 LN_10 = 2.302585092994046
@@ -48,6 +47,5 @@ def fill_figures(coupling: Coupling, mem: Array, told: Array) -> None:
             told[M.T_ANSWER] = rounded(mem[M.INERTIA])
         elif slip > most:
             told[M.T_SLIP], told[M.T_EXPECTED] = rounded(slip), rounded(most)
-    if mem[M.REPEATS] >= OFTEN:
-        told[M.T_REPEATS] = mem[np.uintp(M.REPEATED + 1)] + 1.0
+    told[M.T_REPEATS] = held_over(mem)
     told[M.T_ENGAGEMENT] = mem[M.COUNT] - mem[M.CLOSED] + 1.0

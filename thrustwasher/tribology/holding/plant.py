@@ -38,6 +38,8 @@ ENOUGH = 8.0  # weight of samples from which on they bound the answer
 ROUGHER = 64.0  # times the mean square of that difference: more is none of the speed's own
 RISES = 100.0  # times that mean square: a larger one counts as so much
 FINE = 0.02  # of the slip that capacity makes in a step: below it the noise is of no account
+N_GUESSES = N_AGES + 2  # of the age, where speeds are held over steps
+CLOSE = 0.3  # steps: ages that differ by less are the same to a pack that holds
 FADED = 0.9  # of the mean square of the slip's third difference, at each new one
 
 
@@ -45,6 +47,33 @@ FADED = 0.9  # of the mean square of the slip's third difference, at each new on
 def _second_difference(mem: Array, at: int) -> float:
     """Return that of the torque whose last value lies at ``at``."""
     return mem[np.uintp(at)] - 2.0 * mem[np.uintp(at + 1)] + mem[np.uintp(at + 2)]
+
+
+@kernel
+def _guesses(mem: Array) -> int:
+    """Return how many ages are possible."""
+    return N_AGES if mem[M.EVERY] == 0.0 else N_GUESSES
+
+
+@kernel
+def _age_of_guess(mem: Array, k: int) -> float:
+    """Return an age: 0, 1, 2; where speeds are held also steps of which a part is over."""
+    if k < N_AGES:
+        return float(k)
+    return (k - N_AGES + 0.5) if mem[M.EVERY] == 2.0 else (k - N_AGES + 1.0) / mem[M.EVERY]
+
+
+@kernel
+def _changes(mem: Array, k: int) -> tuple[float, float]:
+    """Return the second differences of coded part and rest of the torque, were this its age."""
+    age = _age_of_guess(mem, k)
+    d = int(age)
+    part = age - d
+    z, all_ = -_second_difference(mem, M.CODED + d), -_second_difference(mem, M.TORQUE + d)
+    if part > 0.0:
+        z -= part * (z + _second_difference(mem, M.CODED + d + 1))
+        all_ -= part * (all_ + _second_difference(mem, M.TORQUE + d + 1))
+    return z, all_ - z
 
 
 @kernel
@@ -82,7 +111,7 @@ def learn(mem: Array, slip: float, answer: float, age: int) -> None:
 
     ``answer`` [1/(kg m2)]: the one that is given, of a torque of that ``age``; 0: none is.
     """
-    if mem[M.COUNT] < SEEN + 1.0 or mem[M.CLOSED] < SEEN:
+    if mem[M.COUNT] - mem[M.SINCE] < SEEN + 1.0 or mem[M.CLOSED] < SEEN:
         return
     rate_1 = (mem[M.SLIP] - mem[M.SLIP + 1]) / mem[M.STEP + 1]
     rate_2 = (mem[M.SLIP + 1] - mem[M.SLIP + 2]) / mem[M.STEP + 2]
@@ -102,9 +131,8 @@ def learn(mem: Array, slip: float, answer: float, age: int) -> None:
         mem[M.ROUGH] = FADED * mem[M.ROUGH] + (1.0 - FADED) * square
     if not asked:
         return
-    for d in range(N_AGES):
-        z = -_second_difference(mem, M.CODED + d)
-        f = -_second_difference(mem, M.TORQUE + d) - z
+    for d in range(_guesses(mem)):
+        z, f = _changes(mem, d)
         mem[np.uintp(M.ZZ + d)] = KEPT * mem[np.uintp(M.ZZ + d)] + z * z
         mem[np.uintp(M.ZF + d)] = KEPT * mem[np.uintp(M.ZF + d)] + z * f
         mem[np.uintp(M.FF + d)] = KEPT * mem[np.uintp(M.FF + d)] + f * f
@@ -149,14 +177,26 @@ def _is_alike(mem: Array, d: int, answer: float, by_rest: float) -> bool:
 
 
 @kernel
+def _next_best(mem: Array, age: int) -> float:
+    """Return the squares that the best other age leaves; one that is hardly another is none."""
+    least = 1e300
+    for k in range(_guesses(mem)):
+        if abs(_age_of_guess(mem, k) - _age_of_guess(mem, age)) > CLOSE:
+            _, left, _, _, own = fit(mem, k)
+            if own != 0.0:
+                least = min(least, left)
+    return least
+
+
+@kernel
 def _judge(mem: Array) -> None:
     """Take over the age whose coded part is answered beyond chance, and its inertia."""
     n = mem[M.WEIGHT]
     if n < 3.9:
         return
-    best, second, age = 1e300, 1e300, -1
+    best, age = 1e300, -1
     mem[M.PROOF] = 0.0
-    for d in range(N_AGES):
+    for d in range(_guesses(mem)):
         alone, left, answer, by_rest, own = fit(mem, d)
         if own == 0.0:
             continue
@@ -164,16 +204,14 @@ def _judge(mem: Array) -> None:
             ratio = answer * answer * own / left * (n - 2.0)
             mem[M.PROOF] = max(mem[M.PROOF], math.sqrt(ratio))
         if left < best:
-            second, best, age = best, left, d
-        elif left < second:
-            second = left
+            best, age = left, d
     if age < 0:
         return
     alone, left, answer, by_rest, own = fit(mem, age)
     chance = RISK ** (2.0 * ALIKE / max(n - 2.0 * ALIKE, 1.5))
     if not (answer > 0.0 and left < chance * alone):
         return
-    if not left < math.exp(-LIKELIER / n) * second:
+    if not left < math.exp(-LIKELIER / n) * _next_best(mem, age):
         return
     if not _is_alike(mem, age, answer, by_rest):
         return
@@ -191,7 +229,9 @@ def _judge(mem: Array) -> None:
         return
     if mem[M.KNOWN] == 0.0:
         mem[M.REVERSALS] = mem[M.DOUBT] = 0.0
-    mem[M.KNOWN], mem[M.INERTIA], mem[M.AGE] = 1.0, 1.0 / answer, float(age)
+    found = _age_of_guess(mem, age)
+    mem[M.KNOWN], mem[M.INERTIA], mem[M.AGE] = 1.0, 1.0 / answer, float(int(found))
+    mem[M.PART] = found - int(found)
     mem[M.ERROR], mem[M.NOISE] = error, math.sqrt(left / (n - 1.0) / 20.0) * mem[M.STEP]
 
 

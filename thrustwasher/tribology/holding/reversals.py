@@ -54,7 +54,7 @@ def count_repeats(mem: Array, slip: float) -> None:
     A speed that is held jumps by what it has become meanwhile, one that is rounded by a quantum:
     equal jumps do not count.
     """
-    if mem[M.COUNT] == 0.0:
+    if mem[M.COUNT] == 0.0 or mem[M.EVERY] > 0.0:
         return
     jump = abs(slip - mem[M.SLIP])
     if jump == 0.0:

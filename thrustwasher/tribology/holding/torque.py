@@ -53,6 +53,7 @@ from .plant import (
     was_rougher,
 )
 from .reversals import calm, chatters, count_repeats, watch
+from .sampling import held_over
 from .work import book
 
 OPEN = 0.02  # of the largest capacity: below it the pack is open, and a new engagement follows
@@ -80,7 +81,6 @@ EXACT = 1e-6  # third difference of the slip over its change in a step: speeds a
 ENDLESS = 200.0  # steps of an engagement in which no driveline was found: none is waited for
 TOLD_BY = 20.0  # steps far from zero after which exact speeds have told a driveline
 ANSWERED = 2.0  # what was given is refuted by an answer: the driveline is another one
-OFTEN = 5.0  # times that the slip came to the bit again, over the same number of steps: it is held
 DROWNED = 0.3  # of the slip that capacity makes in a step: noise in which nothing is held
 UNSEEN = 1.5  # times the slip: a larger change by outside torques is none of the slip's
 TINY = 1e-6  # of the largest slip: no slip that matters
@@ -124,6 +124,12 @@ def age_of(coupling: Coupling, mem: Array) -> int:
     if not knows(coupling, mem):
         return -1
     return coupling[2] if coupling[0] == M.GIVEN else int(mem[M.AGE])
+
+
+@kernel
+def part_of(coupling: Coupling, mem: Array) -> float:
+    """Return the part of a step by which the torque is later than that."""
+    return mem[M.PART] if coupling[0] == M.IDENTIFIED and mem[M.KNOWN] > 0.0 else 0.0
 
 
 @kernel
@@ -198,10 +204,10 @@ def notice(coupling: Coupling, mem: Array, slip: float) -> None:
 @kernel
 def book_heat(coupling: Coupling, mem: Array, slip: float) -> None:
     """Book the heat of the step that ended at ``slip`` [rad/s]."""
-    age, inertia = age_of(coupling, mem), inertia_of(coupling, mem)
+    age, inertia = age_of(coupling, mem) + part_of(coupling, mem), inertia_of(coupling, mem)
     kept = coupling[0] == M.IDENTIFIED or mem[M.CONFIRMED] > 0.0
     if age < 0 and kept and mem[M.REFUSED] == 0.0:  # that which was known last
-        age, inertia = int(mem[M.HEAT_AGE]) - 1, mem[M.HEAT_INERTIA]
+        age, inertia = mem[M.HEAT_AGE] - 1.0, mem[M.HEAT_INERTIA]
     if mem[M.CLOSED] <= SEEN:
         mem[M.ALONE] = 0.0
     deaf = is_deaf(coupling, mem) and mem[M.COUNT] - mem[M.TOLD] > SAID
@@ -258,8 +264,10 @@ def _wanted(
     slip does not show it: then the gain is the smallest, at which they calm down.
     """
     age, inertia, outside, by_rate = age_of(coupling, mem), inertia_of(coupling, mem), 0.0, 0.0
+    part = part_of(coupling, mem)
     if mem[M.COUNT] > 0.0:
         acting = mem[np.uintp(M.TORQUE + age)]
+        acting += part * (mem[np.uintp(M.TORQUE + age + 1)] - acting)
         outside, by_rate = (slip - mem[M.SLIP]) / mem[M.STEP] + acting / inertia, 1.0
         turn = abs(outside - mem[M.OUTSIDE]) * mem[M.STEP]
         seen = max(abs(slip), abs(mem[M.SLIP]))
@@ -270,6 +278,9 @@ def _wanted(
             outside, by_rate = mem[M.OUTSIDE] + gain * (outside - mem[M.OUTSIDE]), gain
         by_rate /= mem[M.STEP]
     ahead, by_ahead, longest = slip, 1.0, max(h, LEAST_STEP * mem[M.LONGEST])
+    if part > 0.0:
+        ahead += part * h * (outside - mem[np.uintp(M.TORQUE + age)] / inertia)
+        by_ahead += part * h * by_rate
     for k in range(age):  # torques that were given and have still to act
         ahead += h * (outside - mem[np.uintp(M.TORQUE + age - 1 - k)] / inertia)
         by_ahead += h * by_rate
@@ -508,7 +519,7 @@ def told_of(coupling: Coupling, mem: Array, advice: int) -> int:
     """Return the status of a pack that could hold: why it does not, else ``advice``."""
     if coupling[0] == M.GIVEN and mem[M.REFUSED] > 0.0:
         return REFUTED
-    if mem[M.REPEATS] >= OFTEN:
+    if held_over(mem) > 0.0 and not knows(coupling, mem):
         return CHATTER
     if is_deaf(coupling, mem):
         since = mem[M.COUNT] - mem[M.TOLD]

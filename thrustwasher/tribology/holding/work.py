@@ -84,7 +84,17 @@ def _before_the_start(mem: Array, age: int, inertia: float) -> None:
 
 
 @kernel
-def book(mem: Array, slip: float, age: int, inertia: float) -> None:
+def _of_age(mem: Array, at: int, age: float) -> float:
+    """Return what lies at ``at`` for each age, between two of them in proportion."""
+    d = int(age)
+    of_age = mem[np.uintp(at + d)]
+    if age > d:
+        of_age += (age - d) * (mem[np.uintp(at + d + 1)] - of_age)
+    return of_age
+
+
+@kernel
+def book(mem: Array, slip: float, age: float, inertia: float) -> None:
     """Book the step that ended at ``slip`` [rad/s]; ``age`` of the torque, -1 if not known.
 
     ``inertia`` [kg m2]: the one that was known last, 0 if none was.
@@ -92,24 +102,23 @@ def book(mem: Array, slip: float, age: int, inertia: float) -> None:
     mem[M.HEAT_INERTIA], mem[M.RISES] = inertia, 0.0
     if mem[M.COUNT] == 0.0:
         return
-    basis = int(mem[M.HEAT_AGE]) - 1
-    if age != basis:
-        if age >= 0:
-            mem[M.OWED] += mem[M.WORK + N_AGES + 1] - mem[np.uintp(M.WORK + age)]
-            mem[M.WORK + N_AGES + 1] = mem[np.uintp(M.WORK + age)]
-        mem[M.HEAT_AGE] = float(age + 1)
+    if age != mem[M.HEAT_AGE] - 1.0:
+        if age >= 0.0:
+            mem[M.OWED] += mem[M.WORK + N_AGES + 1] - _of_age(mem, M.WORK, age)
+            mem[M.WORK + N_AGES + 1] = _of_age(mem, M.WORK, age)
+        mem[M.HEAT_AGE] = age + 1.0
     turned = 0.5 * (mem[M.SLIP] + slip) * mem[M.STEP]
     for k in range(N_AGES):
         mem[np.uintp(M.WORK + k)] += mem[np.uintp(M.TORQUE + k)] * turned
     if mem[M.COUNT] <= 3.0:
         _note_first(mem, slip)
-    elif age > 0 and mem[M.FIRST] != 0.0:
-        _before_the_start(mem, age, inertia)
+    elif age > 0.0 and mem[M.FIRST] != 0.0:
+        _before_the_start(mem, int(age), inertia)
     power = mem[M.TORQUE] * mem[M.SLIP]
     mem[M.WORK + N_AGES] += 0.5 * (mem[M.STEP] + mem[M.STEP + 1]) * power
     missed = _count_late(mem, slip)
-    if age >= 0:
-        made = mem[np.uintp(M.TORQUE + age)] * turned
+    if age >= 0.0:
+        made = _of_age(mem, M.TORQUE, age) * turned
     else:
         due = _due(mem, mem[M.WORK + N_AGES], missed)
         made = max(0.0, due - mem[M.WORK + N_AGES + 1])
@@ -120,8 +129,8 @@ def book(mem: Array, slip: float, age: int, inertia: float) -> None:
     mem[M.DEBT] += max(-made, 0.0) - paid
     rest = max(made, 0.0) - paid - mem[M.OWED]
     mem[M.HEAT] += max(rest, 0.0)
-    if age >= 0:
-        mem[M.RISES] = mem[np.uintp(M.TORQUE + age)]
+    if age >= 0.0:
+        mem[M.RISES] = _of_age(mem, M.TORQUE, age)
     if rest <= 0.0:
         mem[M.RISES] = 0.0
     mem[M.OWED] = max(-rest, 0.0)

@@ -213,3 +213,43 @@ def test_a_checker_finds_nothing(key):
     command += [str(built_fmu(key, local=True)), "-check"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120)
     assert "seems to be compliant" in done.stdout + done.stderr
+
+
+@each_unit
+@both
+def test_in_co_simulation_states_are_those_of_the_outputs_and_derivatives_their_change(key, fmi):
+    """Its pack has film ratio and temperature as outputs too; a bristle there is none."""
+    step, same = 0.01, {"film": "film_ratio", "plate_temperature_1": "temperature"}
+    with unit(key, fmi, "CoSimulation") as u:
+        u.fmu.setupExperiment(startTime=0.0) if fmi == 2 else None
+        u.fmu.enterInitializationMode()
+        u.set(**at_work(key))
+        u.fmu.exitInitializationMode()
+        states = [n for n in u.states if not n.endswith("bend")]
+        others = [n for n in states if n in same and same[n] in u.variables]
+        rates, before = [f"der({n})" for n in states], np.array(u.get(*states, "time"))
+        assert not np.any(u.get(*rates))
+        for k in range(5):
+            u.fmu.doStep(k * step, step)
+            now = np.array(u.get(*states, "time"))
+            assert u.get(*rates, "time")[:-1] == list((now - before)[:-1] / step)
+            assert [u.get(n) for n in others] == [u.get(same[n]) for n in others]
+            before = now
+        assert np.any(np.array(u.get(*rates)) != 0.0)
+
+
+@both
+def test_rings_in_co_simulation_have_the_heat_that_is_stored_in_them(fmi):
+    with unit("clutch", fmi, "CoSimulation") as u:
+        u.fmu.setupExperiment(startTime=0.0) if fmi == 2 else None
+        u.set(fidelity=5)
+        u.fmu.enterInitializationMode()
+        u.set(load=20e3, speed=50.0, oil_temperature=350.0, drum_speed=100.0)
+        u.fmu.exitInitializationMode()
+        rings = [f"plate_temperature_{k}" for k in range(1, 5)]
+        assert u.get(*rings) == [350.0] * 4
+        for k in range(20):
+            u.fmu.doStep(k * 0.01, 0.01)
+        hot = u.get(*rings)
+        assert min(hot) > 350.5 and len(set(hot)) == 4
+        assert min(hot) <= u.get("temperature") <= max(hot)

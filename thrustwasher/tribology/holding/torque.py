@@ -40,6 +40,7 @@ from .asking import (
     next_bit,
     share_asked,
 )
+from .doubts import ask_anew, is_missed
 from .memory import Coupling
 from .plant import (
     LESS,
@@ -184,6 +185,8 @@ def notice(coupling: Coupling, mem: Array, slip: float) -> None:
         mem[M.STUCK] = 1.0 if slip == 0.0 else 0.0
         mem[M.LEAST] = mem[M.CAPACITY]
     given = is_given(coupling, mem)
+    if mode == M.IDENTIFIED and mem[M.KNOWN] > 0.0 and is_missed(mem, slip):
+        refuse(coupling, mem)
     learn(mem, slip, 1.0 / coupling[1] if given else 0.0, age if given else 0)
     if given:
         mem[M.NOISE] = math.sqrt(mem[M.ROUGH] / 20.0)
@@ -225,7 +228,7 @@ def refuse(coupling: Coupling, mem: Array) -> None:
         mem[M.KNOWN] = mem[M.DOUBT] = mem[M.HELD] = 0.0
     else:
         forget(mem)
-        mem[M.TURN] = 0.0
+        ask_anew(mem)
     mem[M.HEAT_AGE] = 0.0
     for k in range(N_AGES + 2):
         mem[np.uintp(M.WORK + k)] = 0.0
@@ -406,11 +409,14 @@ def decide(
         number, slope, mem[M.OUTSIDE] = _wanted(coupling, mem, slip, h, gain)
         slides = abs(slip) > _reach(coupling, mem, slip, made)
         drives = not slides and number * slip < 0.0 and abs(number) > capacity
-        if ((slides and mem[M.HELD] > 0.0) or drives) and is_unproved(coupling, mem):
+        escapes = slides and mem[M.HELD] > 0.0
+        if drives and mem[M.HELD] == 0.0 and coupling[0] == M.IDENTIFIED:
+            mem[M.DOUBT] += ESCAPED
+        elif (escapes or drives) and is_unproved(coupling, mem):
             mem[M.DOUBT] += ESCAPED
             number = 0.0 if drives else number
-            if mem[M.DOUBT] > 6.0 + 2.0 * age_of(coupling, mem):
-                refuse(coupling, mem)
+        if mem[M.DOUBT] > 6.0 + 2.0 * age_of(coupling, mem):
+            refuse(coupling, mem)
         if mem[M.STUCK] > 0.0 and coupling[0] == M.IDENTIFIED:
             most = EASILY * abs(inertia_of(coupling, mem) * mem[M.OUTSIDE])
             if slides or abs(number) > most:
@@ -451,6 +457,8 @@ def _slide(
     known_of = mem[M.KNOWN] > 0.0 or unclear or of_others
     if near and mem[M.AWAY] > FIRST_STEPS and known_of and not given:
         forget(mem)  # it may be another plant by now
+        if mem[M.ASKED] > FIRST_STEPS:
+            ask_anew(mem)
     mem[M.AWAY] = 0.0 if near else mem[M.AWAY] + 1.0
     if not probing or mem[M.REFUSED] > 0.0 or (given and not near):
         return share, slope, 0.0

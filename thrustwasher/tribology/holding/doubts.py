@@ -13,11 +13,19 @@ import numpy as np
 
 from ...numerics.jit import Array, kernel
 from . import memory as M
-from .asking import SHARE
+from .asking import SHARE, next_bit
+from .plant import evidence, excludes, learn
 
 MISSED, ANSWERED = 0.4, 1.0  # of the capacity squared: what one step says at most
 ENOUGH, BY_NOISE = 0.5, 60.0  # of the same: it is refuted; more for the noise over C H/J squared
 FADES = 0.9  # of what was missed, at each step of a hold
+SETTLES = 20.0  # steps of a hold that show how large its slip usually is
+SMALL, TINY = 1e-3, 1e-3  # of the largest slip, of C H/J: a slip that is none
+LARGER = 2.0  # times the usual one: it strays
+CODED, QUESTIONS = 0.02, 16.0  # of the capacity; steps in which a pack that holds asks again
+ROUNDS = 3.0  # of questions: an outside torque that jumps drowns an answer
+SURELY = 7.0  # ln of the likelihood, 1000: with it an answer confirms or refutes
+ALIKE = 3.0  # standard deviations: two inertias that differ by less are one
 
 
 @kernel
@@ -46,3 +54,54 @@ def ask_anew(mem: Array) -> None:
         third = mem[np.uintp(at)] - mem[np.uintp(at + 3)] - 3.0 * turn
         most = max(most, third * third)
     mem[M.ROUGH] = min(mem[M.ROUGH], most)
+
+
+@kernel
+def is_strange(mem: Array) -> bool:
+    """Tell if a slip that is held has lately been larger than outside torques have left so far."""
+    return mem[M.UNSURE] > 0.0 or mem[M.STRAYS] > 1.0 + mem[M.AGE]
+
+
+@kernel
+def asked_in_hold(mem: Array, slip: float, room: float, capacity: float, made: float) -> float:
+    """Return the coded torque of a pack that holds [N m], 0 where it has nothing to ask.
+
+    ``room``: what its torque may grow by; ``made``: slip that the capacity makes in a step.
+    """
+    size, late = abs(slip), 1.0 + mem[M.AGE]
+    if mem[M.AGAIN] == 0.0:
+        if mem[M.HELD] < SETTLES and mem[M.UNSURE] == 0.0:
+            mem[M.USUAL] = max(mem[M.USUAL], size) if mem[M.HELD] > late else 0.0
+            mem[M.STRAYS] = 0.0
+            return 0.0
+        none = max(SMALL * mem[M.MOST_SLIP], TINY * made) + 4.0 * mem[M.NOISE]
+        usual = LARGER * mem[M.USUAL] if not 0.0 < mem[M.UNSURE] < ROUNDS else 0.0
+        strays = size > none + usual
+        mem[M.STRAYS] = mem[M.STRAYS] + 1.0 if strays else max(0.0, mem[M.STRAYS] - 0.5)
+        if mem[M.STRAYS] <= 1.0 + 2.0 * late:
+            return 0.0
+        for i in range(M.ZZ, M.WEIGHT + 1):
+            mem[np.uintp(i)] = 0.0
+        mem[M.AGAIN], mem[M.TURN], mem[M.STRAYS] = QUESTIONS, 0.0, 0.0
+        mem[M.UNSURE] += 1.0
+    mem[M.USUAL] = max(mem[M.USUAL], size)
+    if room < CODED * capacity:
+        return 0.0
+    mem[M.AGAIN] -= 1.0
+    return CODED * capacity * (0.5 - next_bit(mem))
+
+
+@kernel
+def hear(mem: Array, slip: float) -> bool:
+    """Take in the slip of a driveline that is known; tell if it is refuted."""
+    missed = is_missed(mem, slip)
+    inertia, age, error, noise = mem[M.INERTIA], mem[M.AGE], mem[M.ERROR], mem[M.NOISE]
+    learn(mem, slip, 0.0, 0)
+    if missed or mem[M.UNSURE] == 0.0:
+        return missed
+    if evidence(mem, mem[M.INERTIA], int(mem[M.AGE])) > SURELY:
+        mem[M.UNSURE] = mem[M.AGAIN] = 0.0
+    differs = abs(mem[M.INERTIA] - inertia) > ALIKE * (error + mem[M.ERROR]) * inertia
+    if mem[M.AGE] == age and mem[M.ERROR] > error and not differs:
+        mem[M.INERTIA], mem[M.ERROR], mem[M.NOISE] = inertia, error, noise
+    return excludes(mem, mem[M.INERTIA], int(mem[M.AGE]))

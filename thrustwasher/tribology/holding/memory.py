@@ -75,13 +75,17 @@ torque there are sums of the least squares, and the work of the torques.
     ALONE,  # 1: no driveline makes its torque act late
     PUSHED,  # first acceleration of the slip of a pack that was stuck at the start [rad/s2]
     MISSED,  # changes of the torque that the slip did not answer, of the capacity squared
+    USUAL,  # slip of this hold [rad/s]
+    STRAYS,  # steps of late in which it was larger
+    AGAIN,  # steps in which a pack that holds has still to ask
+    UNSURE,  # rounds of it that the slip has still to answer, or never did
     N_MEMORY,
 ) = (
     *(0, 1, 6, 11, 16, 21, 24, 27, 30, 33, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46),
     *(47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 70),
     *(71, 72, 73, 74, 75, 78, 79, 81, 82, 83, 84, 85, 86, 87, 88, 89, 94, 95, 96, 97, 98),
     99,
-    *(100, 108, 111, 113, 114, 115, 116),
+    *(100, 108, 111, 113, 114, 115, 116, 117, 118, 119, 120),
 )
 
 # Numbers in what a unit says when it cannot hold.

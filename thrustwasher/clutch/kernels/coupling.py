@@ -158,7 +158,7 @@ def answer(
         torque, slope, coded = number * capacity, slope * capacity, coded * capacity
     else:
         holds = abs(number) < capacity
-        torque, coded = min(capacity, max(-capacity, number)), 0.0
+        torque = min(capacity, max(-capacity, number))
         share = 0.0 if holds else sign_of(number)
         if not holds:
             slope = 0.0

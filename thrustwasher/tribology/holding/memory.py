@@ -78,12 +78,17 @@ torque there are sums of the least squares, and the work of the torques.
     PHASE,  # of them, how many are over
     SINCE,  # steps before which they were of another length
     PART,  # of the age: what it is more than a whole number of steps
+    MISSED,  # changes of the torque that the slip did not answer, of the capacity squared
+    USUAL,  # slip of this hold [rad/s]
+    STRAYS,  # steps of late in which it was larger
+    AGAIN,  # steps in which a pack that holds has still to ask
+    UNSURE,  # rounds of it that the slip has still to answer, or never did
     N_MEMORY,
 ) = (
     *(0, 1, 6, 11, 16, 21, 26, 31, 36, 41, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58),
     *(59, 60, 61, 62, 63, 64, 65, 66, 67, 68, 69, 70, 71, 72, 73, 74, 75, 76, 80, 81, 82, 83),
     *(84, 85, 88, 89, 91, 92, 93, 94, 95, 96, 97, 98, 99, 104, 105, 106, 107, 108, 109, 110),
-    *(118, 121, 123, 124, 125, 126, 127, 128, 129),
+    *(118, 121, 123, 124, 125, 126, 127, 128, 129, 130, 131, 132, 133, 134),
 )
 
 # Numbers in what a unit says when it cannot hold.

@@ -81,7 +81,8 @@ def forget(mem: Array) -> None:
     """Forget the plant and the samples that proved it."""
     for i in range(M.ZZ, M.WEIGHT + 1):
         mem[np.uintp(i)] = 0.0
-    mem[M.KNOWN] = mem[M.DOUBT] = mem[M.HELD] = 0.0
+    mem[M.KNOWN] = mem[M.DOUBT] = mem[M.HELD] = mem[M.MISSED] = 0.0
+    mem[M.USUAL] = mem[M.STRAYS] = mem[M.AGAIN] = mem[M.UNSURE] = 0.0
 
 
 @kernel

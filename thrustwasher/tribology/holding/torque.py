@@ -40,6 +40,7 @@ from .asking import (
     next_bit,
     share_asked,
 )
+from .doubts import SMALL, SURELY, ask_anew, asked_in_hold, hear, is_strange
 from .memory import Coupling
 from .plant import (
     LESS,
@@ -75,7 +76,6 @@ LOUD, LOUDER = 0.03, 0.1  # torque by noise over capacity: above it the same
 REACH = 4.0  # steps of the last kind in which a slip that is to be ended must be gone
 STRANGE = 0.05  # of the slip that capacity makes in a step: what outside torques may leave
 LARGE = 0.05  # of the largest slip: more is not held
-SMALL = 1e-3  # of the largest slip: a pack that slips by less is locked
 ANSWERS, SAID = 4.0, 34.0  # steps after the last question: an answer may come, it is told
 EXACT = 1e-6  # third difference of the slip over its change in a step: speeds are exact
 ENDLESS = 200.0  # steps of an engagement in which no driveline was found: none is waited for
@@ -84,7 +84,6 @@ ANSWERED = 2.0  # what was given is refuted by an answer: the driveline is anoth
 DROWNED = 0.3  # of the slip that capacity makes in a step: noise in which nothing is held
 UNSEEN = 1.5  # times the slip: a larger change by outside torques is none of the slip's
 TINY = 1e-6  # of the largest slip: no slip that matters
-SURELY = 7.0  # ln of the likelihood, 1000: with it an answer confirms or refutes
 ESCAPED = 3.0  # doubts: a slip that is held and leaves its reach
 MANY = 3.5  # reversals of late
 
@@ -152,7 +151,7 @@ def shown_inertia(coupling: Coupling, mem: Array) -> float:
 def bound_of(coupling: Coupling, mem: Array, capacity: float, h: float) -> float:
     """Return the slip [rad/s] within which a pack is called locked."""
     inertia, bound = inertia_of(coupling, mem), SMALL * mem[M.MOST_SLIP]
-    if inertia > 0.0:
+    if inertia > 0.0 and not is_strange(mem):
         bound = max(bound, STRANGE * capacity * h / inertia)
     return bound + 4.0 * mem[M.NOISE]
 
@@ -160,7 +159,7 @@ def bound_of(coupling: Coupling, mem: Array, capacity: float, h: float) -> float
 @kernel
 def slope_of_bound(coupling: Coupling, mem: Array, capacity: float, h: float) -> float:
     """Return how that slip grows with the capacity [rad/s/(N m)]."""
-    inertia = inertia_of(coupling, mem)
+    inertia = 0.0 if is_strange(mem) else inertia_of(coupling, mem)
     if inertia > 0.0 and STRANGE * capacity * h / inertia > SMALL * mem[M.MOST_SLIP]:
         return STRANGE * h / inertia
     return 0.0
@@ -190,7 +189,11 @@ def notice(coupling: Coupling, mem: Array, slip: float) -> None:
         mem[M.STUCK] = 1.0 if slip == 0.0 else 0.0
         mem[M.LEAST] = mem[M.CAPACITY]
     given = is_given(coupling, mem)
-    learn(mem, slip, 1.0 / coupling[1] if given else 0.0, age if given else 0)
+    if mode == M.IDENTIFIED and mem[M.KNOWN] > 0.0:
+        if hear(mem, slip):
+            refuse(coupling, mem)
+    else:
+        learn(mem, slip, 1.0 / coupling[1] if given else 0.0, age if given else 0)
     if given:
         mem[M.NOISE] = math.sqrt(mem[M.ROUGH] / 20.0)
         if probing:
@@ -231,7 +234,7 @@ def refuse(coupling: Coupling, mem: Array) -> None:
         mem[M.KNOWN] = mem[M.DOUBT] = mem[M.HELD] = 0.0
     else:
         forget(mem)
-        mem[M.TURN] = 0.0
+        ask_anew(mem)
     mem[M.HEAT_AGE] = 0.0
     for k in range(N_AGES + 2):
         mem[np.uintp(M.WORK + k)] = 0.0
@@ -395,7 +398,7 @@ def decide(
     """Decide on the torque of a step of ``h`` [s] with this ``capacity`` [N m].
 
     Returns if the pack slides; then the share of the capacity, else the torque [N m] that ends the
-    slip; its slope over the slip; the share of the capacity that is coded.
+    slip; its slope over the slip; the share of the capacity, or the torque, that is coded.
     """
     if capacity < OPEN * mem[M.MOST_CAPACITY]:
         forget(mem)
@@ -417,11 +420,14 @@ def decide(
         number, slope, mem[M.OUTSIDE] = _wanted(coupling, mem, slip, h, gain)
         slides = abs(slip) > _reach(coupling, mem, slip, made)
         drives = not slides and number * slip < 0.0 and abs(number) > capacity
-        if ((slides and mem[M.HELD] > 0.0) or drives) and is_unproved(coupling, mem):
+        escapes = slides and mem[M.HELD] > 0.0
+        if drives and mem[M.HELD] == 0.0 and coupling[0] == M.IDENTIFIED:
+            mem[M.DOUBT] += ESCAPED
+        elif (escapes or drives) and is_unproved(coupling, mem):
             mem[M.DOUBT] += ESCAPED
             number = 0.0 if drives else number
-            if mem[M.DOUBT] > 6.0 + 2.0 * age_of(coupling, mem):
-                refuse(coupling, mem)
+        if mem[M.DOUBT] > 6.0 + 2.0 * age_of(coupling, mem):
+            refuse(coupling, mem)
         if mem[M.STUCK] > 0.0 and coupling[0] == M.IDENTIFIED:
             most = EASILY * abs(inertia_of(coupling, mem) * mem[M.OUTSIDE])
             if slides or abs(number) > most:
@@ -430,10 +436,14 @@ def decide(
             elif mem[M.HELD] > 3.0 + age_of(coupling, mem):
                 mem[M.STUCK] = 0.0
         ends = mem[M.STUCK] > 0.0 and abs(slip) <= abs(mem[M.SLIP])
-        if not slides and abs(number) < capacity and not ends:
+        holds = not slides and abs(number) < capacity and not ends
+        if holds:
             _verify(coupling, mem, slip, made)
         _count_reversals(coupling, mem)
         slides = slides or not knows(coupling, mem)
+        if holds and not slides and coupling[0] == M.IDENTIFIED:
+            coded = asked_in_hold(mem, slip, capacity - abs(number), capacity, made)
+            number += coded
     lent = capacity * h * largest_move(mem, slip)
     if knows(coupling, mem):
         late = 1.0 + age_of(coupling, mem)
@@ -462,6 +472,8 @@ def _slide(
     known_of = mem[M.KNOWN] > 0.0 or unclear or of_others
     if near and mem[M.AWAY] > FIRST_STEPS and known_of and not given:
         forget(mem)  # it may be another plant by now
+        if mem[M.ASKED] > FIRST_STEPS:
+            ask_anew(mem)
     mem[M.AWAY] = 0.0 if near else mem[M.AWAY] + 1.0
     if not probing or mem[M.REFUSED] > 0.0 or (given and not near):
         return share, slope, 0.0

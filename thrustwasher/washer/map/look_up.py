@@ -11,9 +11,10 @@ import numpy as np
 
 from ...errors import ParameterError, Status
 from ...model.parameters import as_numbers
+from ...model.prepare import Recent
 from ...native.load import bound
 from ...numerics.jit import Array
-from ..kernel_arguments import NO_MESH, Recent
+from ..kernel_arguments import NO_MESH
 from ..kernels import layout as L
 from ..kernels.map import map_layout as M
 from ..kernels.map.map_rows import look_up_rows, map_folds, map_tilts, single_look_up

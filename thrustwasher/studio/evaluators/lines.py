@@ -6,8 +6,9 @@ loaded washer does: going up in load the film is kept to its fold, coming down a
 regained at the other one. A point that fails leaves the memory as it was.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from threading import get_ident
 from typing import Any
 
@@ -70,16 +71,11 @@ def _walk_kernel(
     spec: ModelSpec, params: object, fidelity: str, inputs: Array, numbers: Array, flags: Flags
 ) -> None:
     """Fill the rows of one line by steps of the model's kernel."""
-    steps = _steps(spec, fidelity, params)
+    steps, n = _steps(spec, fidelity, params), len(inputs)
     steps.state[:], steps.iout[:] = 0.0, 0
-    outs = np.empty((len(inputs), len(steps.out)))
-    iouts = np.empty((len(inputs), len(steps.iout)), np.int32)
-    statuses = np.empty(len(inputs), np.int32)
-    point, step, out, iout = steps.point, steps.step, steps.out, steps.iout
-    for i, row in enumerate(inputs):
-        point[:] = row
-        statuses[i] = step(0.0, 1.0)
-        outs[i], iouts[i] = out, iout
+    outs, statuses = np.empty((n, len(steps.out))), np.empty(n, np.int32)
+    iouts = np.empty((n, len(steps.iout)), np.int32)
+    steps.over(np.ascontiguousarray(inputs), outs, iouts, statuses)
     real, whole = _places(spec.key)
     numbers[:], flags[:] = outs[:, real], iouts[:, whole]
     failed = statuses >= FIRST_FAILURE
@@ -117,8 +113,24 @@ class _Steps:
         self.out, self.iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
         if fidelity is not None:
             fill_table(spec, params, _constants(spec.key, fidelity, params), self.work)
+        self.kernel = kernel
+
+    @cached_property
+    def step(self) -> Callable[[float, float], int]:
+        """The step on these arrays."""
         arrays = {"par": self.par, "inp": self.point, "state": self.state, "work": self.work}
-        self.step = bound(kernel.step, **arrays, out=self.out, iout=self.iout)
+        return bound(self.kernel.step, **arrays, out=self.out, iout=self.iout)
+
+    def over(self, inputs: Array, outs: Array, iouts: Flags, statuses: Flags) -> None:
+        """Step over rows of inputs; fill the outputs and statuses of each."""
+        if rows := getattr(self.kernel, "step_rows", None):
+            rows(self.par, inputs, self.state, self.work, self.iout, outs, iouts, statuses)
+            return
+        point, step, out, iout = self.point, self.step, self.out, self.iout
+        for i, row in enumerate(inputs):
+            point[:] = row
+            statuses[i] = step(0.0, 1.0)
+            outs[i], iouts[i] = out, iout
 
 
 def _steps(spec: ModelSpec, fidelity: str, params: object) -> _Steps:

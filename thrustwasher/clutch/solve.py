@@ -267,6 +267,7 @@ def solve_clutch(
     return ClutchResult.later(
         lambda: _fields(ready, row, status, request),
         lambda: _warnings(ready, row, status, params, point),
+        status,
     )
 
 

@@ -236,7 +236,7 @@ def solve_gearmesh(
         return _warnings(ready, par, row, torque, status, request)
 
     if par is ready.par:
-        return GearMeshResult.later(fill, say)
+        return GearMeshResult.later(fill, say, status)
     return GearMeshResult(**fill(), warnings=say())  # or each would keep its ``work``
 
 

@@ -52,10 +52,11 @@ class Late(AtPoint):
 
     @classmethod
     def later(
-        cls, fill: Callable[[], Mapping[str, Any]], say: Callable[[], tuple[str, ...]]
+        cls, fill: Callable[[], Mapping[str, Any]], say: Callable[[], tuple[str, ...]], status: Status
     ) -> Self:
         """Return a result: ``fill`` gives its fields by name but ``warnings``, ``say`` these."""
         made = object.__new__(cls)
+        object.__setattr__(made, "status", status)
         object.__setattr__(made, "_fill", fill)
         object.__setattr__(made, "_say", say)
         return made

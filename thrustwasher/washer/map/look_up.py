@@ -176,6 +176,7 @@ class _Solver:
         self.look_up = bound(
             look_up, data=data, state=self.state, w=work, out=self.numbers, branch=self.branch
         )
+        self.covers = bound(map_covers, data=data)
         self.tilt = bound(map_tilts, data=data, w=work, tilts=self.tilts)
 
 
@@ -207,7 +208,8 @@ def solve_by_map(
             "has no far_face_temperature: use fidelity 'field'"
         )
     solver, state = _solver(params), np.zeros(L.S_FIELDS)
-    beyond = words_of_outside(solver.look_up_in, point)
+    there = Point(*point)
+    beyond = "" if solver.covers(there) else words_of_outside(solver.look_up_in, point)
     if beyond and params.outside_map == "refuse":
         raise ParameterError(
             f"{beyond}: fidelity = 'map' with outside_map = 'refuse'; keep to the box, build a map "
@@ -215,13 +217,13 @@ def solve_by_map(
         )
     if beyond and params.outside_map == "solve":
         return None
-    place = _nearest(solver.look_up_in, point) if beyond else point
+    place = Point(*_nearest(solver.look_up_in, point)) if beyond else there
     before, ratio = 0.0, 0.0
     if start is not None and start.branch in BRANCHES:
         if start.params is params or start.params == params:
             before, ratio = BRANCHES[start.branch], start.film_ratio
     solver.state[L.S_MAP_BRANCH], solver.state[L.S_MAP_RATIO] = before, ratio
-    status = solver.look_up(Point(*place), required)
+    status = solver.look_up(place, required)
     if status == NOT_HERE:
         if params.outside_map == "solve":
             return None

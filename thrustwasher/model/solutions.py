@@ -52,7 +52,10 @@ class Late(AtPoint):
 
     @classmethod
     def later(
-        cls, fill: Callable[[], Mapping[str, Any]], say: Callable[[], tuple[str, ...]], status: Status
+        cls,
+        fill: Callable[[], Mapping[str, Any]],
+        say: Callable[[], tuple[str, ...]],
+        status: Status,
     ) -> Self:
         """Return a result: ``fill`` gives its fields by name but ``warnings``, ``say`` these."""
         made = object.__new__(cls)

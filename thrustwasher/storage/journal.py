@@ -204,7 +204,7 @@ class Journal:
 
     def append(self, first: int, numbers: NDArray[np.float64], flags: NDArray[np.int32]) -> None:
         """Keep finished rows, from row ``first`` on."""
-        self.put(first, b"".join(map(np.ascontiguousarray, (numbers, flags))))
+        self.put(first, b"".join(np.ascontiguousarray(part).data for part in (numbers, flags)))
 
     def close(self, *, finished: bool = False) -> None:
         """Close the file; finished work needs it no longer, nor does work that has nothing yet."""

@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...clutch.engagement import engage_clutch
-from ...clutch.kernels import advance, pack_outputs
+from ...clutch.kernels import advance, pack_outputs, steady
 from ...clutch.kernels import layout as k
 from ...clutch.kernels import rates as clutch_rates
-from ...clutch.kernels import steady
 from ...clutch.kernels.constants import derive_rings
 from ...clutch.parameters import ClutchParams
 from ...clutch.profile import outputs_over

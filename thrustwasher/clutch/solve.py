@@ -2,8 +2,9 @@
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, fields, replace
-from typing import Any, NamedTuple
+from dataclasses import dataclass, field
+from functools import cache, cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,7 +15,7 @@ from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
 from ..model.levels import level_named
 from ..model.parameters import check_number
-from ..model.prepare import filled
+from ..model.prepare import Recent, filled
 from ..model.record import Sweep
 from ..model.sensitivity import Differentiable
 from ..model.solutions import Asked
@@ -22,7 +23,7 @@ from ..model.spec import REGIMES, ModelSpec
 from ..numerics.jit import Array
 from ..units import format_quantity
 from .kernels import layout as k
-from .kernels import pack_friction, rates, steady
+from .kernels import pack_friction, steady
 from .parameters import DRUM, LOAD, OIL, SPEC, SPEED, ClutchParams
 
 BEYOND_LAW = (
@@ -54,7 +55,22 @@ NO_CONSTANT = (
     "constant_friction = {value:g} is not used: friction_temperature = points, whose coefficients "
     "stand in its place"
 )
+UNCOOLED = "heat_transfer = 0 W/(m2.K), allowed: above 0 where a steady temperature is requested"
 LESS_COOLING = "heat_transfer = {given}, {here} here: {why}"
+INPUTS = (LOAD, SPEED, OIL, DRUM)
+NUMBERS = (  # of a result, in the order of a row of the kernel
+    "friction_torque",
+    "friction_coefficient",
+    "temperature",
+    "film_thickness",
+    "film_ratio",
+    "shear_ratio",
+    "torque_capacity",
+    "friction_power",
+    "contact_torque",
+    "viscous_torque",
+    "contact_share",
+)
 MUCH = 0.01  # of a number given: a change that is said
 LEAST_PRESSURE = 2e4  # Pa, an estimate: lightest pressure that friction over slip is measured at
 ROUNDED = 1e-6  # K
@@ -155,81 +171,26 @@ def prepare(params: ClutchParams, fidelity: str) -> Any:
     return filled(SPEC, params, fidelity, k.NPAR, steady.derive)
 
 
-class SteadyPack(NamedTuple):
-    """Torques [N m >= 0], temperatures [K] and friction of a pack."""
+class _Ready:
+    """A pack at a level, ready to be solved again."""
 
-    contact: float
-    viscous: float
-    temperature: float  # mean by area
-    hottest: float
-    coefficient: float
-    shear_ratio: float
-    status: int
-    iterations: int
+    def __init__(self, params: ClutchParams, fidelity: str) -> None:
+        self.params, self.fidelity, self.level = params, fidelity, level_named(SPEC, fidelity)
+        self.par = prepare(params, fidelity)
 
-
-def steady_pack(
-    par: Any,
-    load: float,
-    slip: float,
-    drum: float,
-    oil: float,
-    ratio: float,
-    held: float | None = None,
-) -> SteadyPack:
-    """Return the steady state at a settled film of ``ratio`` roughnesses.
-
-    ``held``: temperature of the interface [K] of a slip that is over before it warms up.
-    """
-    if par[k.P_FIDELITY] != k.FINE:
-        return _part(par, load, slip, drum, oil, ratio, held)
-    shares, parts = [], []
-    for n in range(int(par[k.D_RINGS])):
-        ring = rates.ring_of(par, n)
-        shares.append(float(ring[k.D_AREA] / par[k.D_AREA]))
-        parts.append(_part(ring, load * shares[-1], slip, drum, oil, ratio, held))
-    levers = [s * float(rates.ring_of(par, n)[k.D_RADIUS]) for n, s in enumerate(shares)]
-
-    def mean(name: str, weights: list[float]) -> float:
-        pairs = zip(weights, parts, strict=True)
-        return sum(w * float(getattr(p, name)) for w, p in pairs) / sum(weights)
-
-    return SteadyPack(
-        contact=sum(p.contact for p in parts),
-        viscous=sum(p.viscous for p in parts),
-        temperature=mean("temperature", shares),
-        hottest=max(p.hottest for p in parts),
-        coefficient=mean("coefficient", levers),
-        shear_ratio=mean("shear_ratio", levers),
-        status=max(p.status for p in parts),
-        iterations=sum(p.iterations for p in parts),
-    )
+    @cached_property
+    def doubts(self) -> tuple[str, ...]:
+        """What is to be said at every point."""
+        return doubts_of_pack(self.params, self.fidelity)
 
 
-def _part(
-    par: Any,
-    load: float,
-    slip: float,
-    drum: float,
-    oil: float,
-    ratio: float,
-    held: float | None,
-) -> SteadyPack:
-    if held is None:
-        temperature, status, rounds = steady.steady_temperature(par, load, slip, drum, oil, ratio)
-    else:
-        temperature, status, rounds = held, Status.OK, 0
-    contact, viscous, _ = steady.steady_torques(par, load, slip, drum, ratio, temperature)
-    return SteadyPack(
-        float(contact),
-        float(viscous),
-        float(temperature),
-        float(temperature),
-        float(pack_friction.coefficient_slopes(par, slip, temperature)[0]),
-        float(pack_friction.shear_slopes(par, slip, temperature)[0]),
-        int(status),
-        int(rounds),
-    )
+_ready = Recent(_Ready)
+
+
+@cache
+def _start() -> ClutchParams:
+    """Return the pack whose values nobody gave."""
+    return ClutchParams()
 
 
 def solve_clutch(
@@ -292,55 +253,61 @@ def solve_clutch(
         ends = (OIL.range[0], k.EXTRAPOLATED_LIMIT)
         held = check_number("interface_temperature", interface_temperature, "K", *ends)
         point["interface_temperature"] = held
-    par = prepare(params, fidelity)
-    guess = start.film_ratio if start else 1.0
-    ratio, _, film, turns = pack_friction.settled_slope(par, load, guess)
-    if speed != 0.0 and held is None and steady.steady_cooling(par, load, ratio) == 0.0:
-        raise ParameterError(
-            "heat_transfer = 0 W/(m2.K), allowed: above 0 where a steady temperature is requested"
-        )
-    cooling = float(steady.steady_cooling(par, load, ratio))
-    s = steady_pack(par, load, speed, drum, oil, ratio, held)
-    status = _status(max(Status(film), Status(s.status)), ratio, s.hottest)
+    ready = _ready(params, fidelity)
+    guess = start.film_ratio if start else steady.GUESS
+    out, at = np.empty(steady.N_STEADY), steady.NOT_HELD if held is None else held
+    steady.steady_row(ready.par, load, speed, oil, drum, at, guess, out)
+    row: list[float] = out.tolist()
+    status = Status(int(row[steady.S_STATUS]))
+    if status is Status.BAD_INPUT:
+        raise ParameterError(UNCOOLED)
     if status.is_failure and throw:
         raise SolveError(f"load = {load:g} N, speed = {speed:g} rad/s: {status.advice}")
-    sign, torque = float(np.sign(speed)), float(np.sign(speed)) * (s.contact + s.viscous)
-    found = ClutchResult(
-        friction_torque=torque,
-        friction_coefficient=s.coefficient,
-        temperature=s.temperature,
-        film_thickness=float(ratio * params.roughness),
-        film_ratio=float(ratio),
-        shear_ratio=s.shear_ratio,
-        torque_capacity=float(s.contact + s.viscous),
-        friction_power=float(torque * speed),
-        contact_torque=sign * s.contact,
-        viscous_torque=sign * s.viscous,
-        contact_share=float(pack_friction.contact_share(par, ratio)[0]),
-        regime=list(REGIMES)[pack_friction.regime_of(par, ratio, speed) - 1],
-        status=status,
-        iterations=int(turns + s.iterations),
-        fidelity=level_named(SPEC, fidelity),
-        _request=Asked(SPEC.key, params, {**point, "fidelity": fidelity}),
-        warnings=(
-            *doubts_of_pack(params, fidelity),
-            *_corrected(params, par, fidelity, speed, s),
-            *(_less_cooling(params, par, cooling) if speed and held is None else ()),
-            *_light(params, load, fidelity),
-            *doubts_of_lining(params, load),
-            *doubts_of_warmth(params, s.temperature, s.hottest, fidelity),
-            *pack_warnings(status, ratio, s.temperature, s.hottest),
-        ),
+    request = Asked(SPEC.key, params, {**point, "fidelity": fidelity})
+    return ClutchResult.later(
+        lambda: _fields(ready, row, status, request),
+        lambda: _warnings(ready, row, status, params, point),
+        status,
     )
-    return _without_numbers(found) if status is Status.TOO_HOT else found
 
 
-def _without_numbers(result: ClutchResult) -> ClutchResult:
-    """Return a result whose numbers are NaN, and which says its status alone."""
-    numbers = [f.name for f in fields(result) if isinstance(getattr(result, f.name), float)]
-    none: dict[str, Any] = dict.fromkeys(numbers, math.nan)
-    said = (f"{result.status.name}: {result.status.advice}",)
-    return replace(result, warnings=said, **none)
+def _fields(ready: _Ready, row: list[float], status: Status, request: Asked) -> dict[str, Any]:
+    """Return the fields of a result; of a pack that is TOO_HOT the numbers are NaN."""
+    numbers = dict(zip(NUMBERS, row, strict=False))
+    if status is Status.TOO_HOT:
+        numbers = dict.fromkeys(numbers, math.nan)
+    return {
+        **numbers,
+        "regime": list(REGIMES)[int(row[steady.S_REGIME]) - 1],
+        "status": status,
+        "iterations": int(row[steady.S_ITERATIONS]),
+        "fidelity": ready.level,
+        "_request": request,
+    }
+
+
+def _warnings(
+    ready: _Ready,
+    row: list[float],
+    status: Status,
+    params: ClutchParams,
+    point: Mapping[str, float],
+) -> tuple[str, ...]:
+    """Return the warnings of a result; one that is TOO_HOT says its status alone."""
+    if status is Status.TOO_HOT:
+        return (f"{status.name}: {status.advice}",)
+    temperature, hottest = row[steady.S_TEMPERATURE], row[steady.S_HOTTEST]
+    load, speed, cooled = point["load"], point["speed"], "interface_temperature" not in point
+    cooling, fidelity = row[steady.S_COOLING], ready.fidelity
+    return (
+        *ready.doubts,
+        *_corrected(params, ready.par, fidelity, speed, row),
+        *(_less_cooling(params, ready.par, cooling) if speed and cooled else ()),
+        *_light(params, load, fidelity),
+        *doubts_of_lining(params, load),
+        *doubts_of_warmth(params, temperature, hottest, fidelity),
+        *pack_warnings(status, row[steady.S_RATIO], temperature, hottest),
+    )
 
 
 def heat_status(hottest: float) -> Status:
@@ -348,17 +315,6 @@ def heat_status(hottest: float) -> Status:
     if hottest > k.EXTRAPOLATED_LIMIT:
         return Status.EXTRAPOLATED
     return Status.HOT if hottest > k.HOT_LIMIT else Status.OK
-
-
-def _status(solved: Status, ratio: float, hottest: float) -> Status:
-    """Return the status of a solution with this film ratio and this hottest interface [K]."""
-    if solved.is_failure:
-        return solved
-    if hottest > k.EXTRAPOLATED_LIMIT:
-        return Status.TOO_HOT
-    if hottest > k.HOT_LIMIT:
-        return Status.HOT
-    return Status.OUTSIDE_VERIFIED if ratio < k.LEAST_RATIO else solved
 
 
 def doubts_of_pack(
@@ -377,7 +333,7 @@ def doubts_of_pack(
 
 def _not_used(params: ClutchParams, fidelity: str) -> Iterator[str]:
     """Yield a line for a number that was given and ``friction_temperature`` leaves unread."""
-    start, slope = ClutchParams(), params.friction_temperature_slope
+    start, slope = _start(), params.friction_temperature_slope
     idle = params.friction_temperature == "auto" and not params.temperature_law(fidelity)
     if idle and slope not in (0.0, start.friction_temperature_slope):
         yield NO_SLOPE.format(slope=format_quantity(slope, "1/K"))
@@ -389,16 +345,18 @@ def _not_used(params: ClutchParams, fidelity: str) -> Iterator[str]:
 
 
 def _corrected(
-    params: ClutchParams, par: Any, fidelity: str, speed: float, found: SteadyPack
+    params: ClutchParams, par: Any, fidelity: str, speed: float, row: list[float]
 ) -> Iterator[str]:
     """Yield a line for a number that was given and a default changes, with what it is here."""
     wang = params.friction_law == "wang" and params.friction_temperature == "auto"
-    warm = params.reference_temperature
+    if not wang or not params.temperature_law(fidelity):
+        return
+    here, warm = row[steady.S_COEFFICIENT], params.reference_temperature
     own = float(pack_friction.coefficient_slopes(par, speed, warm)[0])
-    if wang and params.temperature_law(fidelity) and abs(found.coefficient - own) > MUCH * own:
+    if abs(here - own) > MUCH * own:
         yield CORRECTED.format(
-            here=found.coefficient,
-            at=format_quantity(found.temperature, "K"),
+            here=here,
+            at=format_quantity(row[steady.S_TEMPERATURE], "K"),
             own=own,
             warm=format_quantity(warm, "K"),
             slope=format_quantity(params.friction_temperature_slope, "1/K"),
@@ -407,7 +365,7 @@ def _corrected(
 
 def _less_cooling(params: ClutchParams, par: Any, cooling: float) -> Iterator[str]:
     """Yield a line if less than the given ``heat_transfer`` cools the faces; ``cooling`` [W/K]."""
-    given, start = params.heat_transfer, ClutchParams()
+    given, start = params.heat_transfer, _start()
     here = cooling / params.lining_area
     if given == start.heat_transfer or abs(here - given) <= MUCH * given:
         return
@@ -482,24 +440,26 @@ def walk_steady(
     flags: NDArray[np.int32],
 ) -> None:
     """Fill the rows of a sweep's line with the steady state of a pack that slips."""
-    regimes = {name: i for i, name in enumerate(REGIMES, 1)}
+    rows = np.empty((len(inputs), steady.N_STEADY))
+    steady.steady_rows(_ready(params, fidelity).par, _in_ranges(inputs), rows)
+    if (rows[:, steady.S_STATUS] == Status.BAD_INPUT).any():
+        raise ParameterError(UNCOOLED)
     names = [name for name in spec.real_outputs if name not in SWEEP.not_shown]
-    result = None
-    for (load, speed, oil, drum), row, flag in zip(inputs.tolist(), numbers, flags, strict=True):
-        result = solve_clutch(
-            params,
-            load=load,
-            speed=speed,
-            oil_temperature=oil,
-            drum_speed=drum,
-            fidelity=fidelity,
-            start=result,
-            throw=False,
-        )
-        row[:] = [getattr(result, name) for name in names]
-        flag[0], flag[-1] = regimes[result.regime], result.status
-        if result.status.is_failure:
-            result = None
+    numbers[:] = rows[:, [NUMBERS.index(name) for name in names]]
+    flags[:, 0], flags[:, -1] = rows[:, steady.S_REGIME], rows[:, steady.S_STATUS]
+
+
+def _in_ranges(inputs: Array) -> Array:
+    """Return rows of load, speed, oil and drum that are in their ranges; ParameterError."""
+    low, high = np.transpose([s.range for s in INPUTS])
+    if ((inputs >= low) & (inputs <= high)).all():
+        return np.ascontiguousarray(inputs)
+    return np.array(
+        [
+            [check_number(s.name, x, s.unit, *s.range) for s, x in zip(INPUTS, row, strict=True)]
+            for row in inputs.tolist()
+        ]
+    )
 
 
 SWEEP = Sweep(

@@ -1,8 +1,9 @@
 """Gear mesh: loss, heat, temperatures, contact and thermal stress, safety factors."""
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
 from ..model.levels import level_named
 from ..model.parameters import check_number
-from ..model.prepare import filled
+from ..model.prepare import Recent, filled
 from ..model.record import Sweep
 from ..model.sensitivity import Differentiable
 from ..model.solutions import Asked
@@ -221,10 +222,10 @@ def solve_gearmesh(
     power = check_number("power", power, "W", -1e9, 1e9)
     speed = check_number("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0)
     oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
-    par, work = prepare(params, fidelity), np.zeros(k.NWORK)
+    ready, work = _ready(params, fidelity), np.zeros(k.NWORK)
     torque = pinion_torque(power, speed)
     drive, state = torque * abs(speed), np.zeros(k.NSTATE)
-    par = shared(par, torque, work)
+    par = shared(ready.par, torque, work)
     status = Status(solve_point(par, torque, speed, oil, drive, state, 0.0, work))
     if not np.isfinite(work[: k.N_FIELD]).all():
         status = Status.NOT_FINITE
@@ -233,26 +234,65 @@ def solve_gearmesh(
             f"power = {power:g} W, speed = {speed:g} rad/s, oil_temperature = {oil:g} K: "
             f"{status.advice}"
         )
-    doubts = [
-        *idle_warnings(SPEC.key, params, fidelity),
-        *doubts_of_parameters(params),
-        *doubts_of_point(params, par, work, torque, speed, oil),
-    ]
-    absent = dict.fromkeys(absent_outputs(params))
+    row: list[float] = work[: k.N_FIELD].tolist()
+    point = {"power": power, "speed": speed, "oil_temperature": oil, "fidelity": fidelity}
+    request = Asked(SPEC.key, params, point)
+
+    def fill() -> dict[str, Any]:
+        return _fields(ready, par, row, torque, status, request)
+
+    def say() -> tuple[str, ...]:
+        return _warnings(ready, par, row, torque, status, request)
+
+    if par is ready.par:
+        return GearMeshResult.later(fill, say, status)
+    return GearMeshResult(**fill(), warnings=say())  # or each would keep its ``work``
+
+
+class _Ready:
+    """A mesh at a level, ready to be solved again."""
+
+    def __init__(self, params: GearMeshParams, fidelity: str) -> None:
+        self.params, self.fidelity, self.level = params, fidelity, level_named(SPEC, fidelity)
+        self.par = prepare(params, fidelity)
+
+    @cached_property
+    def known(self) -> dict[str, Any]:
+        """The fields that are the same at every point, of rigid pairs their sizes too."""
+        absent = dict.fromkeys(absent_outputs(self.params))
+        own = {"fidelity": self.level, "limits": _limits_assumed(self.params)}
+        return {**absent, **own, **_size(self.params, self.par)}
+
+    @cached_property
+    def doubts(self) -> list[str]:
+        """What is to be said at every point."""
+        idle = idle_warnings(SPEC.key, self.params, self.fidelity)
+        return [*idle, *doubts_of_parameters(self.params)]
+
+
+_ready = Recent(_Ready)
+
+
+def _fields(
+    ready: _Ready, par: Any, row: list[float], torque: float, status: Status, request: Asked
+) -> dict[str, Any]:
+    """Return the fields of a result but its warnings; ``row``: the kernel's field."""
+    size = {} if par is ready.par else _size(request.params, par)
+    known = {**ready.known, **size, "status": status, "_request": request}
+    return _result(par, row, torque, request.point["speed"], known)
+
+
+def _warnings(
+    ready: _Ready, par: Any, row: list[float], torque: float, status: Status, request: Asked
+) -> tuple[str, ...]:
+    """Return the warnings of a result."""
+    _, params, point = request
+    speed, oil = point["speed"], point["oil_temperature"]
+    doubts = [*ready.doubts, *doubts_of_point(params, par, row, torque, speed, oil)]
     short = [line for line in doubts if SHORT in line]  # that the status is about
     doubts = [line for line in doubts if line not in short]
-    at, shown = {"oil_temperature": oil}, _shown(work.tolist())
-    messages = warnings_of(SPEC, status, at, shown, short)
-    point = {"power": power, "speed": speed, "oil_temperature": oil, "fidelity": fidelity}
-    known = {
-        "status": status,
-        "fidelity": level_named(SPEC, fidelity),
-        "limits": _limits_assumed(params),
-        "_request": Asked(SPEC.key, params, point),
-        **_size(params, par),
-    }
-    result = _result(par, work.tolist(), torque, speed, absent | known)
-    return replace(result, warnings=(*messages, *_failures(result), *doubts))
+    messages = warnings_of(SPEC, status, {"oil_temperature": oil}, _shown(row), short)
+    return (*messages, *_failures({**_shown(row), **ready.known}, par, row), *doubts)
 
 
 def _limits_assumed(params: GearMeshParams) -> str:
@@ -288,8 +328,8 @@ def _shown(f: list[float]) -> dict[str, Any]:
 
 def _result(
     par: Any, f: list[float], torque: float, speed: float, more: dict[str, Any]
-) -> GearMeshResult:
-    """Return the result; ``more`` are fields that are known already."""
+) -> dict[str, Any]:
+    """Return the fields of a result; ``more`` are those that are known already."""
     loss = f[k.F_MEAN_FRICTION] * float(par[k.D_LOSS]) * torque
     ratio = f[k.F_RATIO]
     shown = _shown(f)
@@ -297,7 +337,7 @@ def _result(
     shown["friction_power"] = loss * abs(speed)
     asperity = shown.pop("temperature")
     del shown["oil_energy"]  # of a step, not of a point
-    return GearMeshResult(
+    return dict(
         **(shown | more),
         asperity_temperature=asperity,
         micropitting_at=_place_of_thinnest(par, f),
@@ -326,10 +366,10 @@ def _place_of_thinnest(par: Any, f: list[float]) -> str:
     return f"{found:.4g}"
 
 
-def _failures(result: GearMeshResult) -> Iterator[str]:
+def _failures(shown: Mapping[str, Any], par: Any, f: list[float]) -> Iterator[str]:
     """Yield a line for each safety below 1."""
     for name, fails in SAFETIES.items():
-        safety = getattr(result, name)
+        safety = shown[name]
         if safety is not None and safety < 1.0:
-            at = f" at {result.micropitting_at}" if name.startswith("micropitting") else ""
+            at = f" at {_place_of_thinnest(par, f)}" if name.startswith("micropitting") else ""
             yield f"{name} = {safety:.3g}{at}, below 1: {fails}"

@@ -7,8 +7,9 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import field, fields
 from functools import cache, wraps
-from operator import attrgetter
-from typing import Any, TypeVar
+from operator import attrgetter, contains, le
+from types import MappingProxyType
+from typing import Any, NamedTuple, TypeVar
 
 from ..errors import ParameterError
 from ..units import into_range, meant
@@ -17,6 +18,9 @@ from .unread import condition_words
 
 T = TypeVar("T")
 Renew = Callable[[dict[str, Any]], dict[str, Any]]
+NOTHING: Mapping[str, str] = MappingProxyType({})
+_NUMBERS = {float, int}
+_TYPES = {"integer": int, "boolean": bool, "enumeration": str}
 EARLIER: dict[type[Any], tuple[dict[str, Any], Renew, Callable[[Any], dict[str, float]]]] = {}
 
 
@@ -193,6 +197,8 @@ def other_names_of(params: type[Any]) -> dict[str, str]:
 
 def plainly_named(others: Mapping[str, str], given: Mapping[str, object]) -> dict[str, Any]:
     """Return values by the fields' own names; ParameterError if one comes by both of its names."""
+    if others.keys().isdisjoint(given):
+        return dict(given)
     for other, name in others.items():
         if other in given and name in given:
             raise ParameterError(f"{other}: another name of {name}, allowed: one of the two")
@@ -212,11 +218,59 @@ def check_ranges(params: Any) -> None:
 
     What only rounding put outside becomes the end of its range, in a frozen dataclass too.
     """
+    if _is_in_range(params):
+        return
     for f in fields(params):
         value = getattr(params, f.name)
         taken = check_value(f.name, value, f.metadata)
         if taken is not value:
             object.__setattr__(params, f.name, taken)
+
+
+class _Ranges(NamedTuple):
+    """The ranges of a dataclass's fields, so that all of them are looked at together."""
+
+    reals: Callable[[Any], tuple[Any, ...]]
+    low: tuple[float, ...]
+    high: tuple[float, ...]
+    others: Callable[[Any], tuple[Any, ...]]
+    types: tuple[type, ...]
+    allowed: tuple[Any, ...]
+
+
+def _is_in_range(params: Any) -> bool:
+    """Tell if all fields have the usual types and lie in their ranges; False: look closer."""
+    known = _ranges(params.__class__)
+    reals, others = known.reals(params), known.others(params)
+    return (
+        _NUMBERS.issuperset(map(type, reals))
+        and tuple(map(type, others)) == known.types
+        and all(map(le, known.low, reals))
+        and all(map(le, reals, known.high))
+        and all(map(contains, known.allowed, others))
+    )
+
+
+@cache
+def _ranges(kind: Any) -> _Ranges:
+    """Return the ranges of all fields."""
+    metas = {f.name: f.metadata for f in fields(kind)}
+    real = {n: m for n, m in metas.items() if m["kind"] == "real"}
+    whole = {n: m for n, m in metas.items() if n not in real}
+    return _Ranges(
+        _getter(real),
+        tuple(m["min"] for m in real.values()),
+        tuple(m["max"] for m in real.values()),
+        _getter(whole),
+        tuple(_TYPES[m["kind"]] for m in whole.values()),
+        tuple(m.get("options") or range(m["min"], m["max"] + 1) for m in whole.values()),
+    )
+
+
+def _getter(names: Iterable[str]) -> Callable[[Any], tuple[Any, ...]]:
+    """Return what gives these attributes of an object, as a tuple whatever their number."""
+    get: Any = attrgetter(*names, "__class__", "__class__")
+    return lambda params: get(params)[:-2]
 
 
 def check_value(name: str, value: Any, m: Mapping[str, Any], *, stated: bool = False) -> Any:
@@ -255,6 +309,8 @@ def check_number(
     One that only rounding put outside comes back as the end of the range.
     ``stated``: it came with its unit, so that no other one was meant.
     """
+    if type(value) is float and low <= value <= high:
+        return value
     try:
         if isinstance(value, bool | str):
             raise TypeError
@@ -270,17 +326,28 @@ def check_number(
     return number
 
 
-def as_numbers(params: Any) -> list[float]:
-    """Return the fields as floats in declared order; an enumeration counts from 1."""
-    values = ((getattr(params, name), codes) for name, codes in _codes(params.__class__))
-    return [float(codes[value] if codes else value) for value, codes in values]
+def as_numbers(params: Any, instead: Mapping[str, str] = NOTHING) -> list[float]:
+    """Return the fields as floats in declared order; an enumeration counts from 1.
+
+    ``instead``: options of enumerations by name that count in place of the parameters' own.
+    """
+    get, choices = _codes(params.__class__)
+    values = list(get(params))
+    for place, name, codes in choices:
+        values[place] = codes[instead.get(name, values[place])]
+    return list(map(float, values))
 
 
 @cache
-def _codes(kind: Any) -> list[tuple[str, dict[str, int]]]:
-    """Return the names of all fields, with the numbers of an enumeration's options."""
-    options = [(f.name, f.metadata.get("options", ())) for f in fields(kind)]
-    return [(name, {option: i for i, option in enumerate(own, 1)}) for name, own in options]
+def _codes(kind: Any) -> tuple[Callable[[Any], Any], list[tuple[int, str, dict[str, int]]]]:
+    """Return what gives all fields; place, name and numbers of the options of enumerations."""
+    every = [(f.name, f.metadata.get("options", ())) for f in fields(kind)]
+    numbered = [
+        (place, name, {option: i for i, option in enumerate(own, 1)})
+        for place, (name, own) in enumerate(every)
+        if own
+    ]
+    return _getter(name for name, _ in every), numbered
 
 
 def check_rules(

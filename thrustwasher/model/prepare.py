@@ -4,10 +4,11 @@ The kernel tests the rules between parameters, the texts in the interface say wh
 Profiles of inputs over time are checked here too.
 """
 
+import threading
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from importlib import import_module
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +21,45 @@ from .registry import MODELS, find_model
 from .spec import ModelSpec, Signal, Tables
 
 Array = NDArray[np.float64]
+WITHOUT_PAST = {"thermal_mode": "quasi_steady", "holding": "off"}
+KEPT = 16  # parameter objects
+T = TypeVar("T")
+
+
+class Recent(Generic[T]):
+    """What ``make(params, *key)`` returned for the last few parameters of this thread.
+
+    The object itself is looked for first, which is quicker than comparing all its fields; one that
+    is new and equal finds what was made for the other.
+    """
+
+    def __init__(self, make: Callable[..., T]) -> None:
+        self.make, self.local = make, threading.local()
+
+    def __call__(self, params: Any, *key: object) -> T:
+        """Return what was made for this object, or make it."""
+        try:
+            known: dict[Any, tuple[Any, T]] = self.local.known
+        except AttributeError:
+            known, self.local.equal = {}, {}
+            self.local.known = known
+        found = known.get((id(params), key))
+        if found is not None and found[0] is params:
+            return found[1]
+        equal: dict[Any, T] = self.local.equal
+        if len(known) >= KEPT:
+            known.clear()
+        made = equal.get((params, key))
+        if made is None:
+            if len(equal) >= KEPT:
+                equal.clear()
+            made = equal[params, key] = self.make(params, *key)
+        known[id(params), key] = params, made
+        return made
+
+    def forget(self) -> None:
+        """Make all anew: a file that something was made of has changed."""
+        self.local = threading.local()
 
 
 def filled(
@@ -32,11 +72,7 @@ def filled(
     level is not one of the model's, or the parameters cannot be used together.
     """
     level = level_named(spec, fidelity)
-    if getattr(params, "thermal_mode", "quasi_steady") != "quasi_steady":
-        params = replace(params, thermal_mode="quasi_steady")
-    if getattr(params, "holding", "off") != "off":
-        params = replace(params, holding="off")
-    numbers = [*as_numbers(params), list(spec.fidelities).index(level) + 1]
+    numbers = [*as_numbers(params, WITHOUT_PAST), list(spec.fidelities).index(level) + 1]
     par = np.zeros(size)
     par[: len(numbers)] = numbers
     status = Status(derive(par))

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from ..errors import ParameterError, suggestion
 from .parameters import held_choices
 from .registry import find_model
-from .solutions import Asked, AtPoint
+from .solutions import Asked, Late
 
 STEP = 1e-6  # of a value, or of its range where it is 0
 Table = dict[str, dict[str, float]]  # output -> parameter -> derivative
@@ -23,7 +23,7 @@ class Varied(NamedTuple):
     points: Points
 
 
-class Differentiable(AtPoint):
+class Differentiable(Late):
     """Base of results that follow from their parameters quickly and to rounding."""
 
     __slots__ = ()

@@ -1,10 +1,10 @@
 """Solutions of a model, at a point and over time, as a person reads them: in its record's words."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import fields
 from enum import Enum
-from typing import Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 
 from ..errors import Status
 from ..face_load import LIMITED
@@ -40,6 +40,41 @@ class AtPoint(Shown):
         return Card(
             heading(model, params, point), lines, [f"{closing(model, self)}."], self.warnings
         )
+
+
+class Late(AtPoint):
+    """Base of results at a point whose fields are filled in when they are first read.
+
+    Most are read for a number or two, and making texts takes longer than a solution.
+    """
+
+    __slots__ = ("_fill", "_say")
+
+    @classmethod
+    def later(
+        cls,
+        fill: Callable[[], Mapping[str, Any]],
+        say: Callable[[], tuple[str, ...]],
+        status: Status,
+    ) -> Self:
+        """Return a result: ``fill`` gives its fields by name but ``warnings``, ``say`` these."""
+        made = object.__new__(cls)
+        object.__setattr__(made, "status", status)
+        object.__setattr__(made, "_fill", fill)
+        object.__setattr__(made, "_say", say)
+        return made
+
+    if not TYPE_CHECKING:  # else any name would pass
+
+        def __getattr__(self, name: str) -> Any:
+            """Return a field that was not filled in yet, and fill in what is made with it."""
+            if name not in type(self).__dataclass_fields__:
+                kind = type(self).__name__
+                raise AttributeError(f"{kind!r} object has no attribute {name!r}")
+            made = {"warnings": self._say()} if name == "warnings" else self._fill()
+            for key, value in made.items():
+                object.__setattr__(self, key, value)
+            return made[name]
 
 
 class OverTime(Tabled):

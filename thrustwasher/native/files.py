@@ -76,13 +76,13 @@ def user_cache() -> Path:
     home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
     if not os.path.isabs(home):  # without a home, "~" is a folder like any other
         home = str(private_folder())
-    return Path(_trusted_home(home)) / "thrustwasher"
+    return _trusted_cache(home)
 
 
 @cache
-def _trusted_home(home: str) -> str:
-    """Return a folder for caches, or a private one where others could change what lies there."""
-    return home if is_trusted(Path(home)) else str(private_folder())
+def _trusted_cache(home: str) -> Path:
+    """Return our folder in one for caches, or in a private one where others could change it."""
+    return (Path(home) if is_trusted(Path(home)) else private_folder()) / "thrustwasher"
 
 
 def code_folder(name: str = "native", *, runs: bool = False) -> Path:

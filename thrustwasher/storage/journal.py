@@ -1,8 +1,8 @@
 """Finished work on disk, in an SQLite file: what was stopped goes on where it was.
 
 One process writes: the one that hands the work out. What is done is committed at the first entry,
-then once a second and at the end: a signal loses nothing, a crash a second's work. SQLite does not
-notice a changed bit, so every entry has a checksum.
+then once a second or where it is much, and at the end: a signal loses nothing, a crash a second's
+work. SQLite does not notice a changed bit, so every entry has a checksum.
 """
 
 import errno
@@ -22,7 +22,8 @@ from numpy.typing import NDArray
 from ..errors import ParameterError, naming
 
 LAYOUT = "3"
-INTERVAL = 1.0  # [s] from commit to commit
+INTERVAL = 1.0  # [s] from commit to commit, if there is not much to write before
+MUCH = 8_000_000  # bytes
 PATIENCE = 900.0  # [s] that one run waits for another; a lock ends with the process that has it
 LOOK = 0.5  # [s] between two attempts
 TABLES = """
@@ -86,6 +87,7 @@ class Journal:
     def __init__(self, path: Path, identity: dict[str, str], work: str = "sweep") -> None:
         self.path, self.work = path, work
         self._waiting: list[tuple[int, bytes, int]] = []
+        self._size = 0  # [bytes] of what waits
         self._is_blank = False
         self._committed = -INTERVAL  # the first entry is written at once
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -156,7 +158,8 @@ class Journal:
         """Keep an entry; it is on disk a second later, or when the journal is closed."""
         self._is_blank = False
         self._waiting.append((entry, value, _checksum(entry, value)))
-        if time.monotonic() - self._committed >= INTERVAL:
+        self._size += len(value)
+        if self._size >= MUCH or time.monotonic() - self._committed >= INTERVAL:
             self.flush()
 
     def flush(self) -> None:
@@ -169,7 +172,7 @@ class Journal:
             except sqlite3.OperationalError:
                 while self._waiting:
                     self._commit(1)
-        self._committed = time.monotonic()
+        self._committed, self._size = time.monotonic(), 0
 
     def _commit(self, n: int) -> None:
         self._db.execute("BEGIN")
@@ -201,7 +204,7 @@ class Journal:
 
     def append(self, first: int, numbers: NDArray[np.float64], flags: NDArray[np.int32]) -> None:
         """Keep finished rows, from row ``first`` on."""
-        self.put(first, numbers.tobytes() + flags.tobytes())
+        self.put(first, b"".join(np.ascontiguousarray(part).data for part in (numbers, flags)))
 
     def close(self, *, finished: bool = False) -> None:
         """Close the file; finished work needs it no longer, nor does work that has nothing yet."""

@@ -1,9 +1,7 @@
 """What the washer's kernels take: constants of parameters and mesh, memory kept by each thread."""
 
 import threading
-from collections.abc import Callable
 from functools import lru_cache
-from typing import Any, Generic, TypeVar
 
 import numpy as np
 
@@ -15,8 +13,6 @@ from .kernels.constants import derive_grid, size_of_par
 from .parameters import WasherParams
 
 NO_MESH = (0, 0)  # of what was looked up
-KEPT = 16  # parameter objects
-T = TypeVar("T")
 _local = threading.local()
 
 
@@ -50,39 +46,3 @@ def work_array(key: tuple[object, ...], size: int) -> Array:
             arrays.clear()
         arrays[key] = np.zeros(size)
     return arrays[key]
-
-
-class Recent(Generic[T]):
-    """What ``make(params, *key)`` returned for the last few parameters of this thread.
-
-    The object itself is looked for first, which is quicker than comparing all its fields; one that
-    is new and equal finds what was made for the other.
-    """
-
-    def __init__(self, make: Callable[..., T]) -> None:
-        self.make, self.local = make, threading.local()
-
-    def __call__(self, params: WasherParams, *key: object) -> T:
-        """Return what was made for this object, or make it."""
-        try:
-            known: dict[Any, tuple[Any, T]] = self.local.known
-        except AttributeError:
-            known, self.local.equal = {}, {}
-            self.local.known = known
-        found = known.get((id(params), key))
-        if found is not None and found[0] is params:
-            return found[1]
-        equal: dict[Any, T] = self.local.equal
-        if len(known) >= KEPT:
-            known.clear()
-        made = equal.get((params, key))
-        if made is None:
-            if len(equal) >= KEPT:
-                equal.clear()
-            made = equal[params, key] = self.make(params, *key)
-        known[id(params), key] = params, made
-        return made
-
-    def forget(self) -> None:
-        """Make all anew: a file that something was made of has changed."""
-        self.local = threading.local()

@@ -14,10 +14,11 @@ import numpy as np
 from ..errors import FIRST_FAILURE, BranchError, ParameterError, SolveError, Status
 from ..model.levels import gone_level, level_named
 from ..model.parameters import check_number
+from ..model.prepare import Recent
 from ..model.record import Sweep
 from ..native.load import bound
 from ..numerics.jit import Array
-from .kernel_arguments import Recent, constants, work_array
+from .kernel_arguments import constants, work_array
 from .kernels import layout as L
 from .kernels import step as kernel
 from .kernels.continuation import BUDGET

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from ..ladder.error_table import error_estimate
 from ..model.advice import warnings_of
 from ..model.idle import idle_warnings
 from ..model.sensitivity import chosen_unit
-from ..model.solutions import Asked, AtPoint
+from ..model.solutions import Asked, Late
 from ..numerics.jit import Array
 from .kernel_arguments import NO_MESH, constants, work_array
 from .kernels import layout as L
@@ -56,6 +57,23 @@ BEYOND = (
 )
 LOAD, SPEED, TILT, OIL = (signal.verified for signal in SPEC.inputs[:4])
 BRANCH_NAMES = {L.FILM_BRANCH: "film", L.UNSTABLE: "unstable", L.CONTACT_BRANCH: "contact"}
+PLACES = {  # of a result's numbers among the outputs of the kernels
+    "friction_torque": L.O_TORQUE,
+    "temperature": L.O_MEAN,
+    "temperature_max": L.O_PEAK,
+    "film_thickness": L.O_FILM,
+    "film_ratio": L.O_RATIO,
+    "fluid_load": L.O_FLUID_LOAD,
+    "contact_load": L.O_CONTACT_LOAD,
+    "friction_coefficient": L.O_COEFFICIENT,
+    "friction_power": L.O_POWER,
+    "oil_flow": L.O_OIL_FLOW,
+    "throughflow_heat": L.O_THROUGHFLOW_HEAT,
+    "oil_heat": L.O_OIL_HEAT,
+    "oil_outlet_temperature": L.O_OUTLET,
+    "film_temperature": L.O_FILM_TEMPERATURE,
+    "stick_margin": L.O_STICK_MARGIN,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +106,7 @@ class Fold:
 
 
 @dataclass(frozen=True, slots=True)
-class WasherResult(AtPoint, OnFaces):
+class WasherResult(Late, OnFaces):
     """Steady state of the washer at one operating point; SI units."""
 
     friction_torque: float  # [N m] sign of speed
@@ -274,36 +292,29 @@ def result_of(
     state: Array,
 ) -> WasherResult:
     """Return the result with the kernels' outputs ``x`` and the washer's tilts about x and y."""
-    return WasherResult(
-        x[L.O_TORQUE],
-        x[L.O_MEAN],
-        x[L.O_PEAK],
-        x[L.O_FILM],
-        x[L.O_RATIO],
-        x[L.O_FLUID_LOAD],
-        x[L.O_CONTACT_LOAD],
-        x[L.O_COEFFICIENT],
-        x[L.O_POWER],
-        x[L.O_OIL_FLOW],
-        x[L.O_THROUGHFLOW_HEAT],
-        x[L.O_OIL_HEAT],
-        x[L.O_OUTLET],
-        x[L.O_FILM_TEMPERATURE],
-        x[L.O_STICK_MARGIN],
-        tilts[0],
-        tilts[1],
-        branch,
-        distress,
-        advised(point, x[L.O_PEAK], distress, status),
-        iterations,
-        fidelity,
-        grid,
-        error,
-        *point,
-        params,
-        state,
-        washer_warnings(params, point, x, distress, status),
-    )
+    own = advised(point, x[L.O_PEAK], distress, status)
+
+    def fill() -> dict[str, Any]:
+        return {
+            **{name: x[place] for name, place in PLACES.items()},
+            "washer_tilt_x": tilts[0],
+            "washer_tilt_y": tilts[1],
+            "branch": branch,
+            "distress": distress,
+            "status": own,
+            "iterations": iterations,
+            "fidelity": fidelity,
+            "grid": grid,
+            "_error": error,
+            **dict(zip(INPUTS, point, strict=True)),
+            "params": params,
+            "_state": state,
+        }
+
+    def say() -> tuple[str, ...]:
+        return washer_warnings(params, point, x, distress, status)
+
+    return WasherResult.later(fill, say, own)
 
 
 def advised(point: Sequence[float], peak: float, distress: bool, status: Status) -> Status:

@@ -4,9 +4,10 @@ import importlib
 import math
 import pickle
 import re
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from thrustwasher import ParameterError, WasherParams
@@ -65,6 +66,27 @@ def test_every_end_of_a_range_typed_in_a_display_unit_is_taken(spec):
                 for typed in ((end - zero) / size * size + zero, end * (1.0 + 4e-16)):
                     taken = check_number(name, typed, unit, low, high)
                     assert low <= taken <= high and taken == pytest.approx(end, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ({"outside_map": "none", "inner_radius": -1.0}, r"^inner_radius = -1\.0 m, allowed"),
+        ({"coupling_age": 1.5, "outside_map": "none"}, r"^coupling_age = 1\.5, allowed"),
+        ({"heat_split": True}, r"^heat_split = True, allowed: 0 \.\. 1$"),
+        ({"inner_radius": 20.0}, r"^inner_radius = 20\.0 m, allowed: .*did you mean 0\.02 m"),
+    ],
+)
+def test_the_first_wrong_field_in_declared_order_is_named(given, says):
+    with pytest.raises(ParameterError, match=says):
+        WasherParams(**given)
+
+
+def test_numbers_of_other_types_are_looked_at_one_by_one():
+    same = WasherParams(heat_split=np.float64(0.25), coupling_age=2.0)
+    assert as_numbers(same) == as_numbers(WasherParams(heat_split=0.25, coupling_age=2))
+    off = as_numbers(replace(same, holding="off"))
+    assert as_numbers(same, {"holding": "off", "of": "another model"}) == off != as_numbers(same)
 
 
 def test_parameters_that_rounding_put_outside_are_the_ends_of_their_ranges():

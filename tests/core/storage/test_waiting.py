@@ -43,3 +43,15 @@ def test_the_wait_has_an_end(path):
         when_free(lambda: begin(path), said.append)
     assert len(said) == 1
     first.close()
+
+
+def test_much_is_written_before_the_second_is_over(path, monkeypatch):
+    monkeypatch.setattr(journal, "MUCH", 10)
+    monkeypatch.setattr(journal, "INTERVAL", 1e9)
+    one = begin(path)
+    one.put(1, b"first")
+    one.put(2, b"few")
+    assert len(one._waiting) == 1
+    one.put(3, b"many of them")
+    assert not one._waiting and [entry for entry, _ in one.entries()] == [1, 2, 3]
+    one.close()

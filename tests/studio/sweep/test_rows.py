@@ -13,11 +13,13 @@ from thrustwasher import (
     ParameterError,
     WasherParams,
     run_sweep,
+    solve_clutch,
     solve_gearmesh,
     solve_washer,
 )
+from thrustwasher.clutch.parameters import SPEC as CLUTCH
 from thrustwasher.gearmesh.parameters import SPEC as GEARMESH
-from thrustwasher.model.registry import find_model
+from thrustwasher.model.registry import find_model, kernel_of
 from thrustwasher.storage import journal
 from thrustwasher.studio.evaluators import lines
 from thrustwasher.studio.evaluators.lines import output_signals
@@ -88,6 +90,53 @@ def test_gear_mesh_rows_are_single_solves():
     assert table["load"][1] == pytest.approx(1e4 / 180.0)
     assert table["thermal_stress"][1] == pytest.approx(one.thermal_stress, rel=1e-12)
     assert table["friction_torque"][1] == pytest.approx(one.friction_torque, rel=1e-9)
+
+
+@pytest.mark.parametrize("fidelity", ["closed", "stribeck", "field", "fine"])
+def test_clutch_rows_are_single_solves_to_the_bit(fidelity):
+    """Rows that are too hot and open packs among them; after a failure the search begins anew."""
+    over = {"load": [0.0, 3e3, 9e3, 2e5, 1e4], "speed": [-20.0, 0.0, 60.0]}
+    table = run_sweep("clutch", over, fidelity=fidelity, workers=1)
+    real = [s.name for s in output_signals(CLUTCH)[0]]
+    assert set(table["status"]) >= {"OK", "TOO_HOT"}
+    for first in range(0, len(table), len(over["load"])):
+        result = None
+        for i in range(first, first + len(over["load"])):
+            point = {name: float(table[name][i]) for name in over}
+            result = solve_clutch(
+                ClutchParams(), **point, fidelity=fidelity, start=result, throw=False
+            )
+            assert table["status"][i] == result.status.name
+            if result.status.is_failure:
+                result = None
+                continue
+            assert [table[name][i] for name in real] == [getattr(result, n) for n in real]
+            assert table["regime"][i] == result.regime
+
+
+def test_a_point_that_is_not_allowed_or_cannot_be_cooled_fails_its_line():
+    points = {"load": [1e3, 2e3, -1.0], "speed": [5.0, 5.0, 5.0]}
+    with pytest.raises(ParameterError, match=r"^point 3: load = -1\.0 N, allowed: 0 \.\. 1e\+06 N"):
+        run_sweep("clutch", points=points, workers=1)
+    uncooled = {"heat_transfer": 0.0, "groove_count": 0}
+    table = run_sweep("clutch", {"load": [1e3], "speed": [0.0, 5.0]}, at=uncooled, workers=1)
+    assert table["status"].tolist() == ["OK", "BAD_INPUT"]
+
+
+@pytest.mark.parametrize(("model", "level"), [("gearmesh", "field"), ("washer", "map")])
+def test_rows_that_are_stepped_compiled_are_single_steps_to_the_bit(model, level, monkeypatch):
+    ends = {
+        "gearmesh": {"load": "10:90:n4", "speed": "-90:180:n4"},
+        "washer": {"load": "200:1900:n4", "speed": "300:1300:n3"},
+    }[model]
+    together = run_sweep(model, ends, fidelity=level, workers=1)
+    kernel = kernel_of(find_model(model).spec)
+    monkeypatch.delattr(kernel, "step_rows")
+    alone = run_sweep(model, ends, fidelity=level, workers=1)
+    for name, column in alone.columns.items():
+        assert column.tolist() == together[name].tolist() or np.array_equal(
+            column, together[name], equal_nan=True
+        )
 
 
 def test_a_power_without_speed_is_a_failed_row_not_a_missing_one():
@@ -208,9 +257,8 @@ def test_memory_does_not_grow_with_the_outputs_of_a_sweep_to_a_file(tmp_path, mo
 
 def test_no_two_threads_write_to_one_work_array():
     spec, params = GEARMESH, GEARMESH.params()
-    par = lines._constants(spec.key, "field", params)
-    here = lines._work(spec, "field", params, par)
-    assert here is lines._work(spec, "field", params, par)
+    here = lines._steps(spec, "field", params).work
+    assert here is lines._steps(spec, "field", params).work
     with ThreadPoolExecutor(1) as pool:
-        there = pool.submit(lines._work, spec, "field", params, par).result()
+        there = pool.submit(lines._steps, spec, "field", params).result().work
     assert not np.shares_memory(here, there)

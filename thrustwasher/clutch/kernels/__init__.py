@@ -31,7 +31,8 @@ CALLED = {
         "thrustwasher.clutch.kernels.pack_outputs: fill_outputs mean_surface ring_outputs",
         "thrustwasher.clutch.kernels.pack_outputs: stored_heat",
         "thrustwasher.clutch.kernels.rates: pack_rates",
-        "thrustwasher.clutch.kernels.steady: steady_cooling steady_temperature steady_torques",
+        "thrustwasher.clutch.kernels.steady: steady_pack steady_row",
+        "thrustwasher.clutch.kernels.steady.steady_rows inputs out",
         "thrustwasher.clutch.kernels.step: step",
     ),
 }

@@ -41,5 +41,6 @@ CALLED = {
         "thrustwasher.gearmesh.kernels.tooth_root: corner_left root_factors root_section",
         "thrustwasher.gearmesh.kernels.working_pair: distance_of_shifts gear_shift is_standard",
         "thrustwasher.gearmesh.kernels.working_pair: section tip_thickness tips working_section",
+        "thrustwasher.gearmesh.kernels.step.step_rows inputs out whole",
     ),
 }

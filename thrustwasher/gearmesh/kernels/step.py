@@ -110,6 +110,21 @@ def step(
 
 
 @kernel
+def step_rows(
+    par: Array, inputs: Array, state: Array, work: Array, iout: Ints, out: Array, whole: Ints,
+    statuses: Ints,
+) -> None:  # fmt: skip
+    """Step over rows of inputs (n, NINP), one after the other, each held for a second.
+
+    Fills ``out`` (n, NOUT), ``whole`` (n, NIOUT), what ``iout`` is after each, and ``statuses``.
+    """
+    for i in range(inputs.shape[0]):
+        statuses[i] = step(par, inputs[i], state, work, out[i], iout, 0.0, 1.0)
+        for k in range(iout.size):
+            whole[i, k] = iout[k]
+
+
+@kernel
 def step_over(
     par: Array, inp: Array, width: float, state: Array, work: Array, out: Array, iout: Ints,
     dt: float,

@@ -6,8 +6,9 @@ loaded washer does: going up in load the film is kept to its fold, coming down a
 regained at the other one. A point that fails leaves the memory as it was.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from threading import get_ident
 from typing import Any
 
@@ -70,28 +71,27 @@ def _walk_kernel(
     spec: ModelSpec, params: object, fidelity: str, inputs: Array, numbers: Array, flags: Flags
 ) -> None:
     """Fill the rows of one line by steps of the model's kernel."""
-    kernel = kernel_of(spec)
-    state = np.zeros(kernel.NSTATE)
-    par = _constants(spec.key, fidelity, params)
-    work = _work(spec, fidelity, params, par)
-    out, iout = np.empty(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
-    real, whole = _places(spec)
-    step = bound(kernel.step, par=par, state=state, work=work, out=out, iout=iout)
-    for point, row, flag in zip(inputs, numbers, flags, strict=True):
-        status = step(point, 0.0, 1.0)
-        row[:], flag[:] = out[real], iout[whole]
-        if status >= FIRST_FAILURE:
-            flag[-1] = status
+    steps, n = _steps(spec, fidelity, params), len(inputs)
+    steps.state[:], steps.iout[:] = 0.0, 0
+    outs, statuses = np.empty((n, len(steps.out))), np.empty(n, np.int32)
+    iouts = np.empty((n, len(steps.iout)), np.int32)
+    steps.over(np.ascontiguousarray(inputs), outs, iouts, statuses)
+    real, whole = _places(spec.key)
+    numbers[:], flags[:] = outs[:, real], iouts[:, whole]
+    failed = statuses >= FIRST_FAILURE
+    flags[failed, -1] = statuses[failed]
 
 
-def _places(spec: ModelSpec) -> tuple[list[int], list[int]]:
+@lru_cache(maxsize=64)
+def _places(model: str) -> tuple[list[int], list[int]]:
     """Return where in the kernel's ``out`` and ``iout`` the columns of a row stand."""
+    spec = spec_of(model)
     every = (
-        [s for s in spec.outputs if s.kind == "real"],
-        [s for s in spec.outputs if s.kind != "real"],
+        [s.name for s in spec.outputs if s.kind == "real"],
+        [s.name for s in spec.outputs if s.kind != "real"],
     )
     real, whole = output_signals(spec)
-    return [every[0].index(s) for s in real], [every[1].index(s) for s in whole]
+    return [every[0].index(s.name) for s in real], [every[1].index(s.name) for s in whole]
 
 
 @lru_cache(maxsize=64)
@@ -103,23 +103,52 @@ def _constants(model: str, fidelity: str, params: object) -> Array:
     return par
 
 
-def _work(spec: ModelSpec, fidelity: str, params: object, par: Array) -> Array:
-    """Return this thread's work array of a kernel; ParameterError: the level's table is missing."""
+class _Steps:
+    """A kernel's step on arrays that stay: looking at them takes longer than a step."""
+
+    def __init__(self, spec: ModelSpec, fidelity: str | None, params: object) -> None:
+        kernel = kernel_of(spec)
+        self.par, self.state = np.zeros(kernel.NPAR), np.zeros(kernel.NSTATE)
+        self.point, self.work = np.zeros(len(spec.inputs)), np.zeros(kernel.NWORK)
+        self.out, self.iout = np.zeros(kernel.NOUT), np.zeros(kernel.NIOUT, np.int32)
+        if fidelity is not None:
+            fill_table(spec, params, _constants(spec.key, fidelity, params), self.work)
+        self.kernel = kernel
+
+    @cached_property
+    def step(self) -> Callable[[float, float], int]:
+        """The step on these arrays."""
+        arrays = {"par": self.par, "inp": self.point, "state": self.state, "work": self.work}
+        return bound(self.kernel.step, **arrays, out=self.out, iout=self.iout)
+
+    def over(self, inputs: Array, outs: Array, iouts: Flags, statuses: Flags) -> None:
+        """Step over rows of inputs; fill the outputs and statuses of each."""
+        if rows := getattr(self.kernel, "step_rows", None):
+            rows(self.par, inputs, self.state, self.work, self.iout, outs, iouts, statuses)
+            return
+        point, step, out, iout = self.point, self.step, self.out, self.iout
+        for i, row in enumerate(inputs):
+            point[:] = row
+            statuses[i] = step(0.0, 1.0)
+            outs[i], iouts[i] = out, iout
+
+
+def _steps(spec: ModelSpec, fidelity: str, params: object) -> _Steps:
+    """Return this thread's step of a part; ParameterError: the level's table is missing."""
+    par = _constants(spec.key, fidelity, params)
     table = (fidelity, params) if wants_table(spec, par) else (None, None)
-    return _filled_work(spec.key, *table, get_ident())
+    steps = _kept_steps(spec.key, *table, get_ident())
+    steps.par[:] = par
+    return steps
 
 
 @lru_cache(maxsize=16)
-def _filled_work(model: str, fidelity: str | None, params: object, _thread: int) -> Array:
-    """Return a work array; the kernel writes to it: no two threads have the same."""
-    spec = spec_of(model)
-    work: Array = np.zeros(kernel_of(spec).NWORK)
-    if fidelity is not None:
-        fill_table(spec, params, _constants(model, fidelity, params), work)
-    return work
+def _kept_steps(model: str, fidelity: str | None, params: object, _thread: int) -> _Steps:
+    """Return a step, with its table if it has one; no two threads have the same."""
+    return _Steps(spec_of(model), fidelity, params)
 
 
 def check_level(spec: ModelSpec, fidelity: str, params: object) -> None:
     """Raise ParameterError if a level lacks what it needs for the first parameters of a sweep."""
     if not find_model(spec.key).sweep.walk and params is not None:
-        _work(spec, fidelity, params, _constants(spec.key, fidelity, params))
+        _steps(spec, fidelity, params)

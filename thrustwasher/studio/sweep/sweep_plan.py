@@ -359,5 +359,5 @@ def _identity(
 def digest(part: Any) -> str:
     """Return the digest of a text or of a column."""
     if not isinstance(part, str):
-        part = repr(part.tolist()) if part.dtype == object else part.tobytes()
+        part = repr(part.tolist()) if part.dtype == object else np.ascontiguousarray(part)
     return hashlib.sha256(part.encode() if isinstance(part, str) else part).hexdigest()[:16]

@@ -4,7 +4,6 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
-from itertools import chain
 from pathlib import Path
 from typing import IO, Any
 
@@ -29,7 +28,7 @@ ADVICE = {
     "slip_left": "it has not run out, there is no slip_time: a longer duration, more load or faces",
 }
 SUFFIXES = (".csv", ".parquet")
-CHUNK = 50_000  # rows made into text, or a group of Parquet, at a time
+CHUNK = 10_000  # rows made into text, or a group of Parquet, at a time
 
 
 @dataclass(frozen=True)
@@ -210,20 +209,24 @@ def write_table(
 
     Return the points by status, and what is beyond its bound.
     """
-    counts, first, found = Counter[str](), next(tables), list[Beyond]()
+    counts, found, writer, schema = Counter[str](), list[Beyond](), None, None
     with whole_file(path) as draft, ExitStack() as stack:
-        if is_parquet := path.suffix.lower() == ".parquet":
-            group = _batch(first)
-            writer = stack.enter_context(_pyarrow()[1].ParquetWriter(draft, group.schema))
-        else:
+        if path.suffix.lower() != ".parquet":
             stream = stack.enter_context(draft.open("w", encoding="utf-8", newline=""))
-        for table in chain([first], tables):
+        else:
+            stream = None
+        for table in tables:
+            if stream:
+                write_csv(table, stream, head=not counts)
+            else:
+                group = _batch(table)
+                if writer is None:
+                    schema, more = group.schema, {"use_dictionary": _repeating(table)}
+                    writer = _pyarrow()[1].ParquetWriter(draft, schema, **more)
+                    stack.enter_context(writer)
+                writer.write_table(group.cast(schema))
             counts.update(table.counts)
             found = joined([*found, *table.beyond])
-            if is_parquet:
-                writer.write_table(_batch(table).cast(group.schema))
-            else:
-                write_csv(table, stream, head=table is first)
     return counts, tuple(found)
 
 
@@ -256,24 +259,55 @@ def _texts(column: NDArray[Any]) -> Sequence[str]:
     return found
 
 
+def _repeating(table: SweepTable) -> list[str]:
+    """Return the columns whose values come again and again: a dictionary of others only costs."""
+    return [
+        name
+        for name, column in table.columns.items()
+        if column.dtype.kind != "f" or len(np.unique(column)) <= len(column) // 2
+    ]
+
+
 def _batch(table: SweepTable) -> Any:
     """Return a table of pyarrow with units in the columns' metadata; failed numbers are null."""
     pa, _ = _pyarrow()
     fields, arrays = [], []
-    bad = np.isin(table["status"], list(table.failures))
+    bad = np.isin(table["status"], list(table.failures)) if table.failures else None
     for title, column in table.columns.items():
-        if column.dtype == object:
-            array = pa.array(column.tolist())
-            if pa.types.is_string(array.type):
-                array = array.dictionary_encode()
-        elif column.dtype == bool:
-            array = pa.array(np.ascontiguousarray(column), mask=bad)
-        else:  # NaN, from a failed point, becomes null
-            array = pa.array(np.ascontiguousarray(column), from_pandas=True)
+        array = _arrow(column, bad)
         unit = table.units.get(title, "")
         fields.append(pa.field(title, array.type, metadata={"unit": unit} if unit else None))
         arrays.append(array)
     return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
+
+
+def _arrow(column: NDArray[Any], bad: NDArray[np.bool_] | None) -> Any:
+    """Return a column of pyarrow; numbers that are NaN, and truths of ``bad`` rows, are null.
+
+    It is made of its bytes: to look at numpy's arrays pyarrow imports pandas, of 50 MB.
+    """
+    pa, _ = _pyarrow()
+    n, valid, kind = len(column), None, pa.float64()
+    if column.dtype == object:
+        words = column.tolist()
+        if any(type(word) is not str for word in words):
+            return pa.array(words)
+        known = {word: i for i, word in enumerate(dict.fromkeys(words))}
+        ends = np.cumsum([0, *(len(word.encode()) for word in known)], dtype=np.int32)
+        texts = map(pa.py_buffer, (ends, "".join(known).encode()))
+        codes = pa.py_buffer(np.fromiter(map(known.__getitem__, words), np.int32, n))
+        return pa.DictionaryArray.from_arrays(
+            pa.Array.from_buffers(pa.int32(), n, [None, codes]),
+            pa.Array.from_buffers(pa.string(), len(known), [None, *texts]),
+        )
+    if column.dtype == bool:
+        kind, values = pa.bool_(), np.packbits(column, bitorder="little")
+        lacks = bad
+    else:
+        values, lacks = np.ascontiguousarray(column, float), np.isnan(column)
+    if lacks is not None and lacks.any():
+        valid = pa.py_buffer(np.packbits(~lacks, bitorder="little"))
+    return pa.Array.from_buffers(kind, n, [valid, pa.py_buffer(values)])
 
 
 def _pyarrow() -> tuple[Any, Any]:

@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...clutch.engagement import engage_clutch
-from ...clutch.kernels import advance, pack_outputs
+from ...clutch.kernels import advance, pack_outputs, steady
 from ...clutch.kernels import layout as k
 from ...clutch.kernels import rates as clutch_rates
 from ...clutch.kernels.constants import derive_rings
 from ...clutch.parameters import ClutchParams
 from ...clutch.profile import outputs_over
-from ...clutch.solve import prepare, solve_clutch, steady_pack
+from ...clutch.solve import prepare, solve_clutch
 from ...errors import ParameterError, SolveError, Status
 from ...ladder.error_table import QUANTITIES
 from . import reference_values as ref
@@ -55,14 +55,16 @@ def reference_clutch(
     for n in RINGS:
         par = prepare(params, "fine")
         derive_rings(par, n)
-        s = steady_pack(par, load, speed, 0.0, oil_temperature, whole.film_ratio)
+        contact, viscous, temperature, _, coefficient, *_ = steady.steady_pack(
+            par, load, speed, 0.0, oil_temperature, whole.film_ratio, steady.NOT_HELD
+        )
         rows.append(
             {
-                "friction_torque": sign * (s.contact + s.viscous),
-                "temperature": s.temperature,
-                "contact_torque": sign * s.contact,
-                "viscous_torque": sign * s.viscous,
-                "friction_coefficient": s.coefficient,
+                "friction_torque": sign * (contact + viscous),
+                "temperature": temperature,
+                "contact_torque": sign * contact,
+                "viscous_torque": sign * viscous,
+                "friction_coefficient": coefficient,
                 "film_ratio": whole.film_ratio,
                 "film_thickness": whole.film_thickness,
             }

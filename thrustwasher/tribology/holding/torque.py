@@ -189,7 +189,7 @@ def notice(coupling: Coupling, mem: Array, slip: float) -> None:
         mem[M.STUCK] = 1.0 if slip == 0.0 else 0.0
         mem[M.LEAST] = mem[M.CAPACITY]
     given = is_given(coupling, mem)
-    if mode == M.IDENTIFIED and mem[M.KNOWN] > 0.0:
+    if mode == M.IDENTIFIED and mem[M.KNOWN] > 0.0 and mem[M.EVERY] == 0.0:
         if hear(mem, slip):
             refuse(coupling, mem)
     else:
@@ -441,7 +441,7 @@ def decide(
             _verify(coupling, mem, slip, made)
         _count_reversals(coupling, mem)
         slides = slides or not knows(coupling, mem)
-        if holds and not slides and coupling[0] == M.IDENTIFIED:
+        if holds and not slides and coupling[0] == M.IDENTIFIED and mem[M.EVERY] == 0.0:
             coded = asked_in_hold(mem, slip, capacity - abs(number), capacity, made)
             number += coded
     lent = capacity * h * largest_move(mem, slip)

@@ -51,6 +51,7 @@ CALLED = {
         "thrustwasher.washer.kernels.step: derive sens step",
         "thrustwasher.washer.kernels.map.map_rows.look_up_rows rows out found",
         "thrustwasher.washer.kernels.map.map_rows.map_folds folds",
+        "thrustwasher.washer.kernels.step.step_rows inputs out whole",
     ),
     "thrustwasher.washer.kernels.map.alone": (
         "thrustwasher.washer.kernels.map.alone: derive sens step",

@@ -11,9 +11,10 @@ import numpy as np
 
 from ...errors import ParameterError, Status
 from ...model.parameters import as_numbers
+from ...model.prepare import Recent
 from ...native.load import bound
 from ...numerics.jit import Array
-from ..kernel_arguments import NO_MESH, Recent
+from ..kernel_arguments import NO_MESH
 from ..kernels import layout as L
 from ..kernels.map import map_layout as M
 from ..kernels.map.map_rows import look_up_rows, map_folds, map_tilts, single_look_up
@@ -175,6 +176,7 @@ class _Solver:
         self.look_up = bound(
             look_up, data=data, state=self.state, w=work, out=self.numbers, branch=self.branch
         )
+        self.covers = bound(map_covers, data=data)
         self.tilt = bound(map_tilts, data=data, w=work, tilts=self.tilts)
 
 
@@ -206,7 +208,8 @@ def solve_by_map(
             "has no far_face_temperature: use fidelity 'field'"
         )
     solver, state = _solver(params), np.zeros(L.S_FIELDS)
-    beyond = words_of_outside(solver.look_up_in, point)
+    there = Point(*point)
+    beyond = "" if solver.covers(there) else words_of_outside(solver.look_up_in, point)
     if beyond and params.outside_map == "refuse":
         raise ParameterError(
             f"{beyond}: fidelity = 'map' with outside_map = 'refuse'; keep to the box, build a map "
@@ -214,13 +217,13 @@ def solve_by_map(
         )
     if beyond and params.outside_map == "solve":
         return None
-    place = _nearest(solver.look_up_in, point) if beyond else point
+    place = Point(*_nearest(solver.look_up_in, point)) if beyond else there
     before, ratio = 0.0, 0.0
     if start is not None and start.branch in BRANCHES:
         if start.params is params or start.params == params:
             before, ratio = BRANCHES[start.branch], start.film_ratio
     solver.state[L.S_MAP_BRANCH], solver.state[L.S_MAP_RATIO] = before, ratio
-    status = solver.look_up(Point(*place), required)
+    status = solver.look_up(place, required)
     if status == NOT_HERE:
         if params.outside_map == "solve":
             return None

@@ -311,8 +311,54 @@ class PartEvaluator:
         numbers, flags = solve_task(Task(spec.key, self.fidelity, 0, inputs, lines, params))
         return numbers, flags[:, -1], np.zeros(len(params))
 
+    def slopes(
+        self, rows: Rows, wanted: Sequence[tuple[int, str]], quantities: Sequence[str]
+    ) -> Array | None:
+        """Return exact derivatives of figures of rows in lines over parameters.
+
+        Parameters
+        ----------
+        rows : in lines, each walked as by ``evaluate``
+        wanted : place of a row and a figure, n of them
+        quantities : names of parameters
+
+        Returns
+        -------
+        (n, quantities), or None where the model has none here
+        """
+        exact = find_model(self.part.spec.key).fits.slopes
+        found = np.empty((len(wanted), len(quantities)))
+        if exact is None:
+            return None
+        inputs, params = self._lines(rows)
+        for first, end, own in zip(rows.starts[:-1], rows.starts[1:], params, strict=True):
+            here = [k for k, (row, _) in enumerate(wanted) if first <= row < end]
+            asked = [(wanted[k][0] - int(first), wanted[k][1]) for k in here]
+            if own is None:
+                return None
+            of_line = exact(own, inputs[first:end], self.fidelity, asked, quantities)
+            if of_line is None:
+                return None
+            found[here] = of_line
+        return found
+
     def _walked(self, rows: Rows, figures: Sequence[str]) -> Answers:
         """Return figures of rows in lines; whole numbers too, enumerations from 1."""
+        spec = self.part.spec
+        inputs, params = self._lines(rows)
+        starts = tuple(rows.starts.tolist())
+        numbers, flags = solve_task(Task(spec.key, self.fidelity, 0, inputs, starts, params))
+        real, whole = output_signals(spec)
+        columns = {s.name: numbers[:, i] for i, s in enumerate(real)}
+        columns |= {s.name: flags[:, i].astype(float) for i, s in enumerate(whole)}
+        failed = flags[:, -1] >= FIRST_FAILURE
+        columns = {name: np.where(failed, np.nan, column) for name, column in columns.items()}
+        columns |= self._measured_besides(rows, inputs, params, {*figures} - {*columns})
+        values = np.column_stack([columns[name] for name in figures])
+        return Answers(values, flags[:, -1].astype(np.int32))
+
+    def _lines(self, rows: Rows) -> tuple[Array, tuple[Any, ...]]:
+        """Return the inputs (n, inputs) of rows, and the parameters of each line or None."""
         spec, n = self.part.spec, len(rows)
         own = {f.name for f in fields(spec.params)}
         inputs = np.empty((n, len(spec.inputs)))
@@ -326,17 +372,24 @@ class PartEvaluator:
         for key in dict.fromkeys(lines):
             known[key] = None
             with suppress(ParameterError):
-                known[key] = replace(base, **held, **dict(zip(varied, key, strict=True)))
-        params = tuple(known[key] for key in lines)
-        starts = tuple(rows.starts.tolist())
-        numbers, flags = solve_task(Task(spec.key, self.fidelity, 0, inputs, starts, params))
-        real, whole = output_signals(spec)
-        columns = {s.name: numbers[:, i] for i, s in enumerate(real)}
-        columns |= {s.name: flags[:, i].astype(float) for i, s in enumerate(whole)}
-        failed = flags[:, -1] >= FIRST_FAILURE
-        values = np.column_stack([columns[name] for name in figures])
-        values[failed] = np.nan
-        return Answers(values, flags[:, -1].astype(np.int32))
+                known[key] = replace(base, **{**dict(zip(varied, key, strict=True)), **held})
+        return inputs, tuple(known[key] for key in lines)
+
+    def _measured_besides(
+        self, rows: Rows, inputs: Array, params: Sequence[Any], names: Collection[str]
+    ) -> dict[str, Array]:
+        """Return what no solution at a point has but can be measured, as a washer's folds."""
+        fits, spec = find_model(self.part.spec.key).fits, self.part.spec
+        found = {name: np.full(len(rows), np.nan) for name in names}
+        if not found or fits.computed is None:
+            return found
+        for i, point in enumerate(inputs.tolist()):
+            own = params[int(np.searchsorted(rows.starts, i, "right")) - 1]
+            at = dict(zip((s.name for s in spec.inputs), point, strict=True))
+            for name, value in (fits.computed(own, at, self.fidelity) if own else {}).items():
+                if name in found:
+                    found[name][i] = value
+        return found
 
     @property
     def _shown(self) -> tuple[Signal, ...]:

@@ -108,6 +108,21 @@ def engagements(
     return engagement_evaluator(found, inputs_of(found, at or {}))
 
 
+def gearbox(scene: "str | Path | Scene", gear: str = "first") -> Any:
+    """Return a scene's gearbox that runs steadily as an ``Evaluator``: torque and speed vary.
+
+    Parameters
+    ----------
+    scene : a scene (``load_scene``), the path of its file, or the name of a built-in one
+    gear : "first" or "second"
+    """
+    from ...shift import load_scene
+    from .gearbox import gearbox_evaluator
+
+    found = load_scene(scene) if isinstance(scene, str | Path) else scene
+    return gearbox_evaluator(found, gear)
+
+
 def part_of(target: object, *models: str) -> PartFile:
     """Return the part of a part, of parameters, of the name of a model or the path of a file.
 

@@ -81,6 +81,16 @@ class PartEvaluator:
                 found[name] = Figure(name, "N", words, of_curve=True)
         return self.part.suggesting(found)
 
+    @cached_property
+    def measurable(self) -> dict[str, Figure]:
+        """What rows give that can be measured, by name; no study lists those besides figures."""
+        model = find_model(self.part.spec.key)
+        found = {s.name: Figure(s.name, s.unit, s.help) for s in self.part.spec.outputs if _real(s)}
+        more = {"loss_factor": ("1", "power of friction over that transmitted")}
+        more |= model.command.extra if model.command else {}
+        more |= {name: (unit, "") for name, unit in model.fits.units.items()}
+        return found | {name: Figure(name, *words) for name, words in more.items()}
+
     @property
     def signals(self) -> dict[str, str]:
         """None: a part stands."""
@@ -149,12 +159,19 @@ class PartEvaluator:
             return self._walked(rows, figures)
         values = np.full((len(rows), len(figures)), np.nan)
         codes = np.zeros(len(rows), np.int32)
-        if any(name not in FOLDS for name in figures):
+        besides = [name for name in figures if name not in self.figures]
+        if any(name not in (*FOLDS, *besides) for name in figures):
             columns, codes = self._points(rows)
             for i, name in enumerate(figures):
-                if name not in FOLDS:
+                if name in columns:
                     values[:, i] = columns[name]
             values[codes >= FIRST_FAILURE] = np.nan
+        for k, row in enumerate(rows if besides else ()):
+            with suppress(ParameterError):
+                params, given = self.part.varied(row)
+                found = self._besides(params, {**self.inputs, **given}, besides)
+                for name, value in found.items():
+                    values[k, list(figures).index(name)] = value
         if any(name in FOLDS for name in figures):
             for i, row in enumerate(rows):
                 with suppress(ParameterError, SolveError):
@@ -353,7 +370,15 @@ class PartEvaluator:
         columns |= {s.name: flags[:, i].astype(float) for i, s in enumerate(whole)}
         failed = flags[:, -1] >= FIRST_FAILURE
         columns = {name: np.where(failed, np.nan, column) for name, column in columns.items()}
-        columns |= self._measured_besides(rows, inputs, params, {*figures} - {*columns})
+        if besides := [name for name in figures if name not in columns]:
+            table = np.full((len(rows), len(besides)), np.nan)
+            names = [s.name for s in spec.inputs]
+            for i, point in enumerate(inputs.tolist()):
+                own = params[int(np.searchsorted(rows.starts, i, "right")) - 1]
+                if own is not None:
+                    at = dict(zip(names, point, strict=True))
+                    table[i] = [*self._besides(own, at, besides).values()]
+            columns |= dict(zip(besides, table.T, strict=True))
         values = np.column_stack([columns[name] for name in figures])
         return Answers(values, flags[:, -1].astype(np.int32))
 
@@ -375,20 +400,23 @@ class PartEvaluator:
                 known[key] = replace(base, **{**dict(zip(varied, key, strict=True)), **held})
         return inputs, tuple(known[key] for key in lines)
 
-    def _measured_besides(
-        self, rows: Rows, inputs: Array, params: Sequence[Any], names: Collection[str]
-    ) -> dict[str, Array]:
-        """Return what no solution at a point has but can be measured, as a washer's folds."""
-        fits, spec = find_model(self.part.spec.key).fits, self.part.spec
-        found = {name: np.full(len(rows), np.nan) for name in names}
-        if not found or fits.computed is None:
-            return found
-        for i, point in enumerate(inputs.tolist()):
-            own = params[int(np.searchsorted(rows.starts, i, "right")) - 1]
-            at = dict(zip((s.name for s in spec.inputs), point, strict=True))
-            for name, value in (fits.computed(own, at, self.fidelity) if own else {}).items():
-                if name in found:
-                    found[name][i] = value
+    def _besides(
+        self, params: Any, inputs: Mapping[str, float], names: Sequence[str]
+    ) -> dict[str, float]:
+        """Return what no row of the kernel has: of a result, or of folds; NaN where there is none.
+
+        ParameterError: an input is out of its range.
+        """
+        model, found = find_model(self.part.spec.key), dict.fromkeys(names, math.nan)
+        fits = model.fits
+        if fits.computed and not fits.units.keys().isdisjoint(names):
+            loads = fits.computed(params, inputs, self.fidelity)
+            found |= {name: x for name, x in loads.items() if name in found}
+        if rest := [name for name in names if name not in fits.units]:
+            point: Any = model.back(dict(inputs))
+            result = model.solve(params, **point, fidelity=self.fidelity, throw=False)
+            if not result.status.is_failure:
+                found |= {name: float(getattr(result, name)) for name in rest}
         return found
 
     @property
@@ -487,6 +515,10 @@ def part_evaluator(
         reached=reached,
         fidelity=level_named(spec, part.fidelity),
     )
+
+
+def _real(signal: Signal) -> bool:
+    return signal.kind == "real"
 
 
 def _below_1(columns: Mapping[str, Array], outcome: str) -> Array:

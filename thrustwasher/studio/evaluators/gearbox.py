@@ -68,14 +68,19 @@ class GearboxEvaluator:
         """Return figures of rows; those that differ in torque alone are a line of a map."""
         values = np.full((len(rows), len(figures)), np.nan)
         codes = np.zeros(len(rows), np.int32)
-        for places in _lines(rows):
+        lines = [*_lines(rows)]
+        while lines:
+            places = lines.pop()
             try:
                 columns = self._line([rows[i] for i in places])
                 values[places] = np.column_stack([columns[name] for name in figures])
-            except ParameterError:
-                codes[places] = Status.BAD_INPUT
-            except SolveError:
-                codes[places] = Status.MAX_ITERATIONS
+            except (ParameterError, SolveError) as problem:
+                if len(places) > 1:  # the others have a solution perhaps
+                    lines += [[i] for i in places]
+                elif isinstance(problem, SolveError):
+                    codes[places] = Status.MAX_ITERATIONS
+                else:
+                    codes[places] = Status.BAD_INPUT
         return Answers(values, codes)
 
     def gradient(self, *_: Any) -> None:

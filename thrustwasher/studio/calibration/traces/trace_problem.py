@@ -55,7 +55,7 @@ def fit_traces(
         changes=points.matters,
         terms=Terms(error_name=errors, fidelity=points.plan.fidelity),
         starts=_decades_aside,
-        input_shifts=partial(_input_shifts, points),
+        input_shifts=partial(input_shifts, points),
         correlation=partial(_correlation, points),
     )
     _check_first(points, problem, first)
@@ -83,7 +83,7 @@ def _decades_aside(problem: FitProblem, first: Array) -> list[Array]:
     return [np.clip(first + way, problem.low, problem.high) for way in ways]
 
 
-def _input_shifts(points: Traced, problem: FitProblem, guess: Array) -> tuple[Array, Array] | None:
+def input_shifts(points: Traced, problem: FitProblem, guess: Array) -> tuple[Array, Array] | None:
     """Return changes of the misfit by independent scatter of the inputs, and what they share.
 
     By 24 draws, the same in every run, of what recorded inputs scatter: a film remembers the

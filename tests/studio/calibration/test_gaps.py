@@ -2,18 +2,14 @@
 
 import numpy as np
 import pytest
+from rigs import OIL, PACK, history
 
 from thrustwasher import ClutchParams, ParameterError, calibrate_traces, engage_clutch
-
-OIL = 353.15  # K
-PACK = ClutchParams()
 
 
 def stopped(scale, inertia=0.25, steps=25):
     """Return a recording of a wheel that a pack stops, by repeated integration of its torque."""
-    time = np.linspace(0.0, 0.6, 601)
-    way = {"time": time, "load": 5000.0 * np.clip((time - 0.05) / 0.1, 0.0, 1.0)}
-    way["speed"] = np.full(601, 300.0)
+    way = history(601) | {"speed": np.full(601, 300.0)}
     for _ in range(steps):
         made = engage_clutch(ClutchParams(friction_scale=scale), **way, oil_temperature=OIL)
         torque = made.friction_torque

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from thrustwasher import ClutchParams, ParameterError, calibrate, solve_clutch
+from thrustwasher.model.quantity import Quantity
 from thrustwasher.studio.calibration.identifiability import information
-from thrustwasher.studio.calibration.least_squares import FitProblem
+from thrustwasher.studio.calibration.least_squares import FitProblem, Search
 from thrustwasher.studio.calibration.row_groups import GROUPS
 from thrustwasher.studio.calibration.signs import folded, too_fast
 
@@ -48,26 +49,19 @@ def test_what_points_tell_takes_no_memory_of_rows_squared(monkeypatch):
         shapes.extend(part.shape for part in parts)
         return parts
 
-    class Line(FitProblem):
-        resolution = 1e-9
-
-        def curve(self, guess):
-            return guess[0] + guess[1] * self.measured
-
-        def slopes_of_curve(self, guess):
-            return np.column_stack([np.ones(n), self.measured])
-
     x = np.linspace(0.0, 1.0, n)
-    line = Line(
+    line = FitProblem(
+        computed=lambda values: values["a"] + values["b"] * x,
+        exact_slopes=lambda values, names: np.column_stack([np.ones(n), x]),
+        search=Search(resolution=1e-9),
         base={},
-        names=("a", "b"),
+        quantities=(Quantity(name="a"), Quantity(name="b")),
         measured=x,
         weight=np.ones(n),
         low=np.full(2, -9.0),
         high=np.full(2, 9.0),
         scale=np.ones(2),
         logarithmic=np.zeros(2, bool),
-        units={"a": "1", "b": "1"},
         known_errors=True,
     )
     monkeypatch.setattr(np.linalg, "svd", watched)

@@ -4,7 +4,9 @@ import json
 import sys
 import tracemalloc
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -23,6 +25,7 @@ from thrustwasher.studio.calibration.engagement.traced_pack import traced_pack
 from thrustwasher.studio.calibration.identifiability import information
 from thrustwasher.studio.calibration.traces.binned import binned, smoothed
 from thrustwasher.studio.calibration.traces.recording import Recording, pieces, row_scatter
+from thrustwasher.studio.calibration.traces.trace_problem import input_shifts
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 sys.path.insert(0, str(EXAMPLES))
@@ -67,56 +70,50 @@ def test_a_start_far_away_finds_the_same():
     assert values(found) == pytest.approx(TRUTH, rel=0.1)
 
 
-@pytest.mark.parametrize(
-    "seeds", [range(3), pytest.param(range(30), marks=pytest.mark.slow)], ids=len
-)
-@pytest.mark.slow
-def test_95_percent_intervals_hold_friction_permeability_and_the_pistons_fill(seeds):
-    """Of two engagements, between the 0.05 % and 99.95 % quantiles of the binomial distribution."""
-    held = dict.fromkeys(rig.TRUTH, 0)
-    for seed in seeds:
-        found = calibrate_traces(PACK, rig.rows(seed), fit=tuple(rig.TRUTH), piston_area=rig.AREA)
-        assert found.engagements == 2 and not found.warnings
-        assert all(e.identifiable for e in found.estimates)
-        held = {name: held[name] + inside for name, inside in holds(found, rig.TRUTH).items()}
-    low, high = binom.interval(0.999, len(seeds), 0.95)
-    assert all(low <= count <= high for count in held.values()), held
+def without(name, **changes):
+    """Return the recording of a wheel with a drag that lacks a column."""
+    return {n: x for n, x in wheel(drag_torque=2.0, **changes).items() if n != name}
+
+
+def rough(seed):
+    """Return the rig's recording with scatter of its pressure."""
+    with patch.dict(rig.NOISE, pressure=2e3):
+        return rig.rows(seed)
+
+
+AREA, BY_TORQUE = {"piston_area": rig.AREA}, {"inertia": 0.25, "drag_torque": 2.0}
+BY_TORQUE["at"] = {"speed": 300.0}
+INTERVALS = {  # recording by seed, its engagements, truth, the test rig
+    "the piston's fill": (rig.rows, 2, rig.TRUTH, AREA),
+    "scatter of the pressure": (rough, 2, rig.TRUTH, AREA),
+    "slip that comes out": (lambda seed: wheel(seed=seed), 1, TRUTH, {"inertia": 0.25}),
+    "slip by the torque, whose noise is in it": (
+        lambda seed: without("speed", seed=seed), 1, TRUTH, BY_TORQUE,
+    ),
+}  # fmt: skip
 
 
 @pytest.mark.slow
-def test_95_percent_intervals_hold_where_slip_comes_out():
-    held = dict.fromkeys(TRUTH, 0)
+@pytest.mark.parametrize("case", INTERVALS)
+def test_95_percent_intervals_hold_in_95_percent_of_recordings(case):
+    """Between the 0.05 % and 99.95 % quantiles of the binomial distribution."""
+    made, engagements, truth, around = INTERVALS[case]
+    held = dict.fromkeys(truth, 0)
     for seed in range(30):
-        found = calibrate_traces(PACK, wheel(seed=seed), fit=tuple(TRUTH), inertia=0.25)
-        held = {name: held[name] + inside for name, inside in holds(found, TRUTH).items()}
+        found = calibrate_traces(PACK, made(seed), fit=tuple(truth), **around)
+        assert found.engagements == engagements and not found.warnings
+        assert all(e.identifiable for e in found.estimates)
+        held = {name: held[name] + inside for name, inside in holds(found, truth).items()}
     low, high = binom.interval(0.999, 30, 0.95)
-    assert all(low <= count <= high for count in held.values()), held
-
-
-@pytest.mark.parametrize(
-    "seeds", [range(4), pytest.param(range(30), marks=pytest.mark.slow)], ids=len
-)
-@pytest.mark.slow
-def test_95_percent_intervals_hold_where_slip_is_found_by_the_torque(seeds):
-    """The noise of the torque is in the slip too, summed up over time."""
-    held, around = dict.fromkeys(TRUTH, 0), {"inertia": 0.25, "drag_torque": 2.0}
-    for seed in seeds:
-        whole = wheel(seed=seed, drag_torque=2.0)
-        torque = {n: x for n, x in whole.items() if n != "speed"}
-        found = calibrate_traces(PACK, torque, fit=tuple(TRUTH), at={"speed": 300.0}, **around)
-        held = {name: held[name] + inside for name, inside in holds(found, TRUTH).items()}
-    low, high = binom.interval(0.999, len(seeds), 0.95)
     assert all(low <= count <= high for count in held.values()), held
 
 
 @pytest.mark.slow
 def test_noise_that_is_in_slip_and_torque_widens_the_interval():
     """By some percent: a higher torque makes slip lower, and a lower slip friction higher."""
-    torque = {n: x for n, x in wheel(drag_torque=2.0).items() if n != "speed"}
-    around = {"inertia": 0.25, "drag_torque": 2.0, "at": {"speed": 300.0}}
-    found = calibrate_traces(PACK, torque, fit=tuple(TRUTH), **around)
-    problem = found._problem
-    exact = replace(problem, points=replace(problem.points, follows=None))
+    found = calibrate_traces(PACK, without("speed"), fit=tuple(TRUTH), **BY_TORQUE)
+    alone = partial(input_shifts, replace(found.points, follows=None))
+    exact = replace(found._problem, input_shifts=alone)
     narrow = information(exact, found._best, 0.95)
     friction = np.array([1.0, 0.0])
     ratio = found._learned.error_of(friction) / narrow.error_of(friction)
@@ -159,14 +156,19 @@ def test_the_right_law_is_not_suspected():
 
 
 @pytest.mark.slow
-def test_slip_alone_tells_friction_where_the_inertia_is_known():
-    slip = {n: x for n, x in wheel(drag_torque=2.0).items() if n != "friction_torque"}
-    found = calibrate_traces(
-        PACK, slip, fit=tuple(TRUTH), inertia="0.25 kg.m2", drag_torque="2 N.m"
-    )
-    assert found.points.names == ("slip",)
+@pytest.mark.parametrize(
+    ("lacking", "told", "around"),
+    [
+        ("friction_torque", "slip", {"inertia": "0.25 kg.m2", "drag_torque": "2 N.m"}),
+        ("speed", "friction_torque", BY_TORQUE),
+    ],
+)
+def test_slip_or_torque_alone_tells_friction_where_the_inertia_is_known(lacking, told, around):
+    found = calibrate_traces(PACK, without(lacking), fit=tuple(TRUTH), **around)
+    assert found.points.names == (told,) and all(holds(found, TRUTH).values())
     assert values(found) == pytest.approx(TRUTH, rel=0.05)
-    assert all(holds(found, TRUTH).values())
+    by_torque = any("by the recorded torque" in note for note in found.notes)
+    assert by_torque == (lacking == "speed")
 
 
 @pytest.mark.slow
@@ -176,18 +178,6 @@ def test_torque_and_slip_together_tell_the_drag_too():
     )
     assert found["drag_torque"].value == pytest.approx(6.0, abs=1.0)
     assert all(holds(found, {**TRUTH, "drag_torque": 6.0}).values())
-
-
-@pytest.mark.slow
-def test_slip_that_was_not_recorded_is_found_by_the_torque():
-    torque = {n: x for n, x in wheel(drag_torque=2.0).items() if n != "speed"}
-    rig = {"inertia": 0.25, "drag_torque": 2.0, "at": {"speed": 300.0}}
-    found = calibrate_traces(PACK, torque, fit=tuple(TRUTH), **rig)
-    assert found.points.names == ("friction_torque",)
-    assert values(found) == pytest.approx(TRUTH, rel=0.05)
-    assert any("by the recorded torque" in note for note in found.notes)
-    with pytest.raises(ParameterError, match="with a column speed"):
-        calibrate_traces(PACK, torque, fit=["drag_torque"], **rig)
 
 
 @pytest.mark.slow
@@ -373,17 +363,6 @@ def test_scatter_of_the_recorded_force_widens_the_intervals():
     again = calibrate_traces(PACK, rough, fit=fit)
     assert values(again) == values(doubtful)
     assert again["fill_time"].interval == doubtful["fill_time"].interval
-
-
-@pytest.mark.slow
-def test_95_percent_intervals_hold_with_scatter_of_the_pressure(monkeypatch):
-    held = dict.fromkeys(rig.TRUTH, 0)
-    monkeypatch.setitem(rig.NOISE, "pressure", 2e3)
-    for seed in range(30):
-        found = calibrate_traces(PACK, rig.rows(seed), fit=tuple(rig.TRUTH), piston_area=rig.AREA)
-        held = {name: held[name] + inside for name, inside in holds(found, rig.TRUTH).items()}
-    low, high = binom.interval(0.999, 30, 0.95)
-    assert all(low <= count <= high for count in held.values()), held
 
 
 def test_recorded_inputs_are_smoothed_where_they_scatter_and_only_there():

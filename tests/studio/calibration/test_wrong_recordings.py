@@ -68,17 +68,18 @@ def out_of_order():
         (3.0, {}, "recordings: float"),
         ([3.0], {}, "columns by their names"),
         ({n: x[:3] for n, x in history().items()}, {}, "3 rows"),
+        (recorded(), {"part": "washer"}, "part: washer, allowed: a part or parameters of clutch"),
+        (
+            wrong(speed=None),
+            {"fit": ["drag_torque"], "inertia": 0.25, "at": {"speed": 300.0}},
+            "with a column speed",
+        ),
     ],
 )
 def test_a_recording_that_cannot_be_used_is_refused_by_name(data, more, words):
     with pytest.raises(ParameterError) as problem:
-        calibrate_traces(PACK, data, **{"fit": ["friction_scale"], **more})
+        calibrate_traces(**{"part": PACK, "recordings": data, "fit": ["friction_scale"], **more})
     assert words in str(problem.value)
-
-
-def test_parts_of_other_models_are_refused():
-    with pytest.raises(ParameterError, match="part: washer"):
-        calibrate_traces("washer", recorded())
 
 
 def test_settled_points_are_not_taken_for_a_recording():

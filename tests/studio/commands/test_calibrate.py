@@ -101,15 +101,10 @@ def test_points_out_of_reach_are_a_warning_and_no_error(words, tmp_path, capsys)
     [
         ("", "is empty"),
         ("speed,load,friction\n", "no line of numbers"),
-        ("speed,load\n1,2\n", "column friction is missing"),
-        ("speed,load,friction\n1,2\n", "line 2: friction is missing"),
         ("speed,load,friction\n1,2,0.1\n\n1,x,0.1\n", "line 4: load = 'x'"),
         ("speed,load,friction\n1,2,nan\n", "finite"),
         ("speed,load,friction\n1,2,0,1\n", "line 2: has 4 cells, the head names 3"),
         ("a,speed,load,friction,,\n\n0,1,2,0,1\n", "line 3: has 5 cells, the head names 4"),
-        ("speed [kg],load,friction\n1,2,0.1\n", "kg"),
-        ("speed,load,friction,speed\n1,2,0.1,1\n", "two columns speed"),
-        ("speed,load,friction\n1,0,0.1\n", "load: point 1 is 0"),
         ("speed,load,friction\n1,2,\0\n", "not text"),
         ("\xff\xfes", "begins as UTF-16 text and is none"),
     ],
@@ -238,7 +233,7 @@ AREA = ("--piston-area", "60 cm2")
 HEAD = "time [ms], load [kN], speed [rpm], oil_temperature [degC], friction_torque [N.m]"
 
 
-def traces_write(path, head=HEAD, *, scale=0.92, load=5000.0, cut=slice(None)):
+def traces_write(path, head=HEAD, *, scale=0.92, load=5000.0):
     """Write a recording of one engagement."""
     time = np.linspace(0.0, 0.5, 151)
     way = {"load": load * np.clip(time / 0.1, 0.0, 1.0), "speed": 300.0 * (1.0 - time / 0.5)}
@@ -246,7 +241,7 @@ def traces_write(path, head=HEAD, *, scale=0.92, load=5000.0, cut=slice(None)):
     torque = engage_clutch(pack, time=time, **way, oil_temperature=353.15).friction_torque
     columns = (1e3 * time, way["load"] / 1e3, way["speed"] * 30 / np.pi, 80.0 + 0 * time, torque)
     rows = [", ".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
-    path.write_text("\n".join([head, *rows[cut]]) + "\n", "utf-8")
+    path.write_text("\n".join([head, *rows]) + "\n", "utf-8")
     return str(path)
 
 
@@ -388,25 +383,21 @@ def test_a_recording_and_settled_points_are_not_mixed(tmp_path, capsys):
         (("clutch", "{p}", "{p}"), "have no column time"),
         (("clutch", "{p}", "--inertia", "1", "--fit", "roughness"), "--inertia: allowed: with rec"),
         (("clutch", "{a}", "--torque-at", "hub"), "inertia_between = 0"),
-        (("clutch", "{a}", "--torque-at", "rim"), "pack or hub"),
         (("clutch", "{a}", "--inertia", "1 N"), "inertia"),
-        (("clutch", "{a}", "--fit", "kiss_pressure"), "allowed: with piston_area"),
         (("clutch", "{a}", "--bounds", "permeability=1"), "NAME=LOW:HIGH"),
         (("clutch", "{a}", "--bounds", "permeabilty=1:2"), "did you mean permeability"),
         (("clutch", "{a}", "--set", "load=3"), "load: allowed: as a column"),
         (("clutch", "{a}", "--error", "temperature=2 K"), "allowed: of friction_torque"),
         (("clutch", "{c}"), "time goes back by"),
-        (("clutch", "{d}"), "3 rows"),
         (("clutch", "{e}"), "line 5: load"),
         (("clutch", "{f}"), "line 4: speed is missing"),
         (("clutch", "{none}"), "none.csv"),
     ],
 )
 def test_what_cannot_be_used_is_refused_in_one_line(tmp_path, capsys, words, said):
-    paths = {name: tmp_path / f"{name}.csv" for name in ("a", "b", "c", "d", "e", "f", "p", "none")}
+    paths = {name: tmp_path / f"{name}.csv" for name in ("a", "b", "c", "e", "f", "p", "none")}
     for name in "abcef":
         traces_write(paths[name])
-    traces_write(paths["d"], cut=slice(0, 3))
     paths["p"].write_text("load, speed, friction_torque\n1000, 20, 30\n", "utf-8")
     lines = paths["a"].read_text("utf-8").splitlines()
     paths["c"].write_text("\n".join([*lines[:20], lines[21], lines[20], *lines[22:]]), "utf-8")

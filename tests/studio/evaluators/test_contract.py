@@ -1,5 +1,6 @@
-"""What all evaluators promise: a part, an engagement, a function, a gear shift."""
+"""What all evaluators promise: a part, an engagement, a function, a gearbox, a gear shift."""
 
+import json
 import math
 import pickle
 
@@ -8,7 +9,7 @@ import pytest
 
 from thrustwasher import SolveError, engagements, load_part, load_scene, run_shift, run_sweep
 from thrustwasher.cli import main
-from thrustwasher.studio.evaluators.make import evaluator
+from thrustwasher.studio.evaluators.make import evaluator, gearbox
 
 
 def picky(a=10.0, b=20.0):
@@ -43,6 +44,13 @@ CASES = {
         [{"a": 9.0}, {"a": 10.0, "b": 1.0}, {"b": 3.0}],
         {"a": 14.0},
         ("sum", "product"),
+    ),
+    "gearbox": (
+        lambda: gearbox("planetary", "first"),
+        [{"torque": 50.0, "speed": 200.0, "oil_temperature": x} for x in (330.0, 360.0)]
+        + [{"torque": 90.0, "speed": 120.0, "washer.roughness": 5e-7}],
+        {"torque": 5e6, "speed": 200.0, "oil_temperature": 330.0},
+        ("efficiency", "mesh_loss", "washer_loss"),
     ),
     "shift": (
         lambda: evaluator("msl"),
@@ -116,15 +124,23 @@ def test_the_file_of_a_parts_row_runs_and_gives_the_same(model, tmp_path):
     assert [getattr(found, n) for n in figures] == pytest.approx(values.tolist(), rel=1e-12)
 
 
-def test_the_file_of_an_engagement_runs_by_the_command_it_names(tmp_path, capsys):
-    make, rows, _, figures = CASES["engagement"]
-    made, path = make(), tmp_path / "pack.toml"
+@pytest.mark.parametrize(
+    ("kind", "more"), [("engagement", ["--workers", "1"]), ("gearbox", ["--json"])]
+)
+def test_the_file_of_a_row_runs_by_the_command_it_names(kind, more, tmp_path, capsys):
+    make, rows, _, figures = CASES[kind]
+    made, path = make(), tmp_path / "row.toml"
     text = made.file(rows[0])
     path.write_text(text, "utf-8")
     words = text.partition("\n")[0].removeprefix("# thrustwasher ").replace("FILE", str(path))
-    assert main([*words.split(), "--workers", "1"]) == 0
-    head, line = capsys.readouterr().out.strip().splitlines()
-    found = dict(zip((h.split(" [")[0] for h in head.split(",")), line.split(","), strict=True))
+    assert main([*words.split(), *more]) == 0
+    told = capsys.readouterr().out.strip()
+    if kind == "gearbox":
+        found = json.loads(told)["points"][0]
+    else:
+        head, line = told.splitlines()
+        names = (h.split(" [")[0] for h in head.split(","))
+        found = dict(zip(names, line.split(","), strict=True))
     values = made.evaluate(rows[:1], figures).values[0]
     assert [float(found[n]) for n in figures] == values.tolist()
 

@@ -114,6 +114,7 @@ GOOD = "2.0, 180, 0.5, 0.01, table"
         ({"lines": ["2.0, 180, 0.5, 0.01, guess"]}, "origin 'guess', allowed: table, figure"),
         ({"lines": ["2.0, 180, 0.5, 0.01, fit"]}, "1 points are of a published fit"),
         ({"lines": []}, "no line of numbers"),
+        ({"lines": ["2.0, 1e6, 0.5, 0.01, table"]}, "speed = 1e6|speed = 1000000"),
         ({"head": HEAD.replace("speed", "spede")}, "column 'spede' is not known; did you"),
         ({"head": HEAD.replace("friction_torque,", "load_factor,")}, "column 'load_factor'"),
         ({"source": ""}, "source = None, a text is required"),

@@ -10,7 +10,7 @@ washer's folds).
 ``fit``              a fit with values, intervals and verdicts
 ``estimates``        what comes out: numbers, sentences, plain data
 ``measured``         measured points of a model, checked
-``model_fit``        a model's outputs over its parameters, what it cannot follow
+``model_fit``        rows of a model fitted to its outputs, what it cannot follow
 ``friction``         the clutch's friction law instead of a model's outputs
 ``traces``           recordings over time: what all models share
 ``engagement``       a pack stepped along recordings, ``calibrate_traces``

@@ -1,7 +1,7 @@
 """A calibration as it comes out: numbers, sentences, plain data."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any, NamedTuple
 
@@ -13,7 +13,9 @@ from ...numerics.jit import Array
 from ...shown import Card, Line, Tabled, Words
 from ...storage.digests import finite
 from ...units import display_unit
+from ..evaluators.evaluator import Remark, texts
 from .identifiability import Information, counted
+from .least_squares import FitProblem
 from .measured import Measured, output_units
 
 NARROW = 1e-8  # relative width below which the ends of an interval would need too many digits
@@ -70,16 +72,22 @@ class Calibration(Tabled):
     degrees_of_freedom: int
     reduced_chi_square: float | None  # None without given errors
     confidence: float
-    warnings: tuple[str, ...] = ()
-    """Sentences on points that the fit cannot follow, the gravest first; empty for a sound fit."""
-    _problem: Any = field(repr=False)  # the ModelProblem, which knows what is drawn and said
+    remarks: tuple[Remark, ...] = ()
+    """Warnings of points that the fit cannot follow, the gravest first, none of a sound fit; notes
+    on what else the points tell."""
+    _problem: FitProblem = field(repr=False)
     _best: Array = field(repr=False)
     _learned: Information = field(repr=False)
 
     @property
+    def warnings(self) -> tuple[str, ...]:
+        """What of ``remarks`` is a warning, in words."""
+        return texts(self.remarks, "warning")
+
+    @property
     def taken(self) -> str:
         """The inputs that the points do not have, and where their values come from."""
-        return str(self.points.plan.taken) if self._problem.by_level else ""
+        return str(self.points.plan.taken) if self._problem.terms.fidelity else ""
 
     def __getitem__(self, name: str) -> Estimate:
         """Return the estimate of one constant."""
@@ -130,7 +138,7 @@ class Calibration(Tabled):
         return words_at_points(find_model(self.points.plan.spec.key))
 
     def _card(self) -> Card:
-        known, notes = self._words(), [_size_text(self), *self.remarks()]
+        known, notes = self._words(), [_size_text(self), *texts(self.remarks, "note")]
         lines = [
             Line(e.name, _value_text(e), _told(e, known.get(e.name, Words()).help, self.confidence))
             for e in (*self.estimates, *self.derived)
@@ -146,18 +154,18 @@ class Calibration(Tabled):
             if name in points.names:
                 at, known = points.of(name), points.error
                 error = None if known is None else known[at]
-                inputs = {n: (u, x[at]) for n, (u, x) in self._problem.drawn_over(name).items()}
+                inputs = {n: (u, x[at]) for n, (u, x) in self._drawn_over(name).items()}
                 values = (points.value[at], error, self.fitted[at], half[at])
                 found.append(Series(name, unit, inputs, *values))
         return found
 
-    def remarks(self) -> list[str]:
-        """Return sentences on what else the points tell."""
-        return []
+    def _drawn_over(self, output: str) -> Mapping[str, tuple[str, Array]]:
+        """Return unit and values (n,) of what an output is drawn over."""
+        return self.points.drawn_over(output)
 
     def __str__(self) -> str:
         """Return the calibration in sentences and one table."""
-        problem, lines = self._problem, [f"WARNING. {text}" for text in self.warnings]
+        terms, lines = self._problem.terms, [f"WARNING. {text}" for text in self.warnings]
         reasons = dict.fromkeys(e.reason for e in self.estimates if e.reason)
         lines.append(_size_text(self))
         if self.taken:
@@ -173,14 +181,17 @@ class Calibration(Tabled):
         for reason in reasons:
             names = [e.name for e in self.estimates if e.reason == reason]
             lines.append(f"{', '.join(names)}: {reason}.")
-        lines += [*filter(None, map(_curved, self.estimates)), *self.remarks()]
-        errors = problem.error_name if problem.known_errors else "the points' scatter"
-        doubt = (
-            f"; they suppose a {problem.law} that can follow the points" if self.warnings else ""
-        )
+        lines += [*filter(None, map(_curved, self.estimates)), *texts(self.remarks, "note")]
+        errors = terms.error_name if self._problem.known_errors else "the points' scatter"
+        doubt = f"; they suppose a {terms.law} that can follow the points" if self.warnings else ""
         return "\n".join(
             [*lines, f"Intervals: linearised covariance with {errors}{doubt}.", *_widened(self)]
         )
+
+
+def remarks(warnings: Iterable[str], notes: Iterable[str] = ()) -> tuple[Remark, ...]:
+    """Return warnings, then notes."""
+    return (*(Remark("warning", w) for w in warnings), *(Remark("note", n) for n in notes))
 
 
 def _widened(found: Calibration) -> list[str]:
@@ -199,11 +210,12 @@ def _size_text(found: Calibration) -> str:
     """Say how many constants were fitted to what, and how well."""
     points, units = found.points, output_units(found.points.plan.spec)
     parts = ", ".join(f"{points.output.count(name)} {name}" for name in points.names)
-    level = f", fidelity level {points.plan.fidelity}" if found._problem.by_level else ""
+    terms = found._problem.terms
+    level = f", fidelity level {terms.fidelity}" if terms.fidelity else ""
     rms = (f"{found.rms_of(n):.3g} {units[n]}".removesuffix(" 1") for n in points.names)
     return (
         f"{counted(len(found.estimates), 'constant')} fitted to "
-        f"{counted(len(points.value), found._problem.counted_as)} ({parts}){points.pieces_text}"
+        f"{counted(len(points.value), terms.counted_as)} ({parts}){points.pieces_text}"
         f"{level}, rms residual {', '.join(rms)}, "
         f"{counted(found.degrees_of_freedom, 'degree')} of freedom."
     )
@@ -251,11 +263,12 @@ def _chi_text(found: Calibration, reduced: float) -> str:
     from scipy.stats import chi2
 
     chance = float(chi2.sf(reduced * found.degrees_of_freedom, found.degrees_of_freedom))
-    name = found._problem.error_name
+    terms = found._problem.terms
+    name = terms.error_name
     text = f"Reduced chi-square {reduced:.3g}: the residuals are "
     if chance < 0.01:
         return (
-            f"{text}larger than {name} allows; the {found._problem.law} does not fit, or the "
+            f"{text}larger than {name} allows; the {terms.law} does not fit, or the "
             "errors are too small and so are the intervals."
         )
     if chance > 0.99:

@@ -1,7 +1,7 @@
 """A fit and what the points tell of it: values, intervals, verdicts."""
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,7 +12,21 @@ from .identifiability import Information, Verdict, combination, information, ver
 from .least_squares import FitProblem, best_fit, profile_end, settled
 
 
-def chosen_names(fit: Sequence[str], known: Sequence[str], words: str) -> tuple[str, ...]:
+class Asked(NamedTuple):
+    """What is to be fitted to points, and how it is told; see ``calibrate``."""
+
+    fit: Sequence[str] | None
+    columns: Collection[str]
+    """Of the data."""
+    at: Collection[str]
+    bounds: Mapping[str, tuple[float, float]]
+    confidence: float
+    profile: bool | None
+
+
+def chosen_names(
+    fit: Sequence[str], known: Sequence[str], words: str, columns: Collection[str] = ()
+) -> tuple[str, ...]:
     """Return the names to fit, or say which one cannot be; ``words`` say what is allowed."""
     names = (fit,) if isinstance(fit, str) else tuple(fit)
     if not names:
@@ -23,6 +37,8 @@ def chosen_names(fit: Sequence[str], known: Sequence[str], words: str) -> tuple[
             raise ParameterError(f"fit = {name!r}, {hint}allowed: {words}")
         if names.count(name) > 1:
             raise ParameterError(f"fit names {name} twice")
+        if name in columns:
+            raise ParameterError(f"fit = {name!r}: is a column of the data, allowed: one of both")
     return names
 
 
@@ -107,5 +123,5 @@ def _estimate(
             ends = (lower, upper)
     error *= float(problem.derivative(best)[i])
     interval, judged = (shown(low), shown(high)), (verdict.identifiable, verdict.at_bound)
-    unit = problem.units[name]
+    unit = problem.quantities[i].unit
     return Estimate(name, unit, shown(value), error, interval, ends, *judged, verdict.reason)

@@ -83,7 +83,7 @@ def information(problem: FitProblem, best: Array, confidence: float) -> Informat
     weighted = problem.measured * problem.weight
     singular = np.concatenate([singular, np.zeros(p - len(singular))])
     size = VANISHES * float(np.linalg.norm(weighted))
-    singular[singular <= problem.resolution * max(singular[0], size)] = 0.0
+    singular[singular <= problem.search.resolution * max(singular[0], size)] = 0.0
     freedom, tail = n - int(np.count_nonzero(singular)), 0.5 + 0.5 * confidence
     deviation, quantile = 0.0, np.inf
     if problem.known_errors:
@@ -91,11 +91,11 @@ def information(problem: FitProblem, best: Array, confidence: float) -> Informat
     elif freedom > 0:
         deviation = float(np.sqrt(problem.cost(best) / freedom))
         quantile = float(t.ppf(tail, freedom))
-    found = problem.correlation(best)
+    found = problem.correlation(problem, best)
     together = min(found, MOST_TOGETHER) if found > TOGETHER else 0.0
     least = max(deviation, 1e-16 * float(np.abs(weighted).max()), 1e-300)
     strength = singular / (least * widening(together))
-    shifts = problem.input_shifts(best) if n >= p and strength.all() else None
+    shifts = problem.input_shifts(problem, best) if n >= p and strength.all() else None
     if shifts is not None:
         moved, known = (
             directions.T @ ((left[:, :p].T @ part) / singular[:, None]) for part in shifts
@@ -140,13 +140,13 @@ def combination(problem: FitProblem, best: Array, direction: Array) -> str:
     """Say in one sentence which constants the points cannot tell apart."""
     named, names = members(problem, direction), problem.names
     if len(named) == 1:
-        return f"no {problem.counted_as} says enough about {names[named[0]]}"
+        return f"no {problem.terms.counted_as} says enough about {names[named[0]]}"
     change = direction / direction[named[0]] * 0.01 * problem.scale[named[0]]
     change = change * problem.derivative(best)
     parts = listed([f"{names[i]} {change[i]:+.3g}" for i in named], "and")
     return (
         f"the points cannot tell {listed([names[i] for i in named], 'and')} apart: changed "
-        f"together by {parts} they move the {problem.subject} at no point beyond its scatter"
+        f"together by {parts} they move the {problem.terms.subject} at no point beyond its scatter"
     )
 
 
@@ -186,14 +186,14 @@ def _bound_text(problem: FitProblem, best: Array, i: int, side: str) -> str:
     gradient = problem.slopes(best)[:, i] @ problem.misfit(best) * problem.scale[i]
     if gradient * (1.0 if side == "lower" else -1.0) <= 1e-9 * problem.cost(best):
         return text
-    return f"{text}: the points pull beyond it{problem.why_bound(best, i, side)}"
+    return f"{text}: the points pull beyond it{problem.why_bound(problem, best, i, side)}"
 
 
 def _why_not(problem: FitProblem, best: Array, learned: Information, i: int, half: float) -> str:
     """Return the reason why the points do not tell a constant, the most tangible one first."""
     count = len(problem.measured)
-    few = f"{counted(count, problem.counted_as)} for {counted(len(best), 'constant')}"
-    lead, is_all = problem.why_not(best, i)
+    few = f"{counted(count, problem.terms.counted_as)} for {counted(len(best), 'constant')}"
+    lead, is_all = problem.why_not(problem, best, i)
     if is_all:
         return lead
     lead = few if count < len(best) else lead
@@ -202,7 +202,8 @@ def _why_not(problem: FitProblem, best: Array, learned: Information, i: int, hal
     if about:
         return lead + combination(problem, best, about[0])
     if not np.isfinite(learned.quantile):
-        return f"{few}: no scatter is left to evaluate by, add points or give {problem.error_name}"
+        errors = problem.terms.error_name
+        return f"{few}: no scatter is left to evaluate by, add points or give {errors}"
     width = f"a factor of {np.exp(half):.2g}" if problem.logarithmic[i] else f"{half:.2g}"
     return f"{lead}at this scatter its interval would be +- {width}"
 

@@ -1,20 +1,21 @@
 """Measured points of a model, checked: operating points, measured outputs, their errors."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import FIRST_FAILURE, ParameterError, Status, suggestion
+from ...model.parameters import written_out
 from ...model.part_file import PartFile
 from ...model.registry import find_model
 from ...model.spec import ModelSpec
 from ...numerics.jit import Array
 from ...settings import places
 from ...units import parse_quantity
-from ..evaluators.lines import Task, output_signals, solve_task
+from ..evaluators.lines import output_signals
 from ..sweep.sweep_plan import Plan, make_plan
 from .signs import folded, odd_pressure, too_fast
 
@@ -52,56 +53,57 @@ class Measured:
         place = [s.name for s in self.plan.spec.inputs].index(name)
         return np.asarray(self.plan.inputs[self.row, place])
 
+    def values(self, changes: Mapping[str, float]) -> Array:
+        """Return the outputs [SI] with changed parameters, (n,); NaN where a point fails."""
+        return self.computed(changes)[0]
+
     def computed(self, changes: Mapping[str, float]) -> tuple[Array, dict[int, Status]]:
         """Return the outputs [SI] with changed parameters, (n,), and the rows that failed, why."""
-        plan, own = self.plan, find_model(self.plan.spec.key).fits
-        sets = [_changed(params, changes) for params in plan.params]
-        params = tuple(sets[i] for i in plan.params_of)
-        starts = tuple(plan.starts.tolist())
-        task = Task(plan.spec.key, plan.fidelity, 0, plan.inputs, starts, params)
-        numbers, flags = solve_task(task)
-        known = [s.name for s in output_signals(plan.spec)[0]]
-        failed = {i: Status(int(s)) for i, s in enumerate(flags[:, -1]) if s >= FIRST_FAILURE}
-        curves: dict[int, Mapping[str, float]] = {}
-        found = np.full(len(self.value), np.nan)
-        for k, (row, name) in enumerate(zip(self.row.tolist(), self.output, strict=True)):
-            if name in known:
-                found[k] = numbers[row, known.index(name)]
-            elif own.computed:
-                part = params[int(np.searchsorted(plan.starts, row, "right")) - 1]
-                if row not in curves:
-                    names = (s.name for s in plan.spec.inputs)
-                    point = dict(zip(names, plan.inputs[row].tolist(), strict=True))
-                    curves[row] = own.computed(part, point, plan.fidelity) if part else {}
-                found[k] = curves[row].get(name, np.nan)
-        return found, failed
+        plan, names = self.plan, self.names
+        assert plan.rows is not None
+        rows = replace(plan.rows, held={**plan.rows.held, **changes})
+        found, codes, _ = plan.evaluator.evaluate(rows, names)
+        failed = {i: Status(int(s)) for i, s in enumerate(codes) if s >= FIRST_FAILURE}
+        return found[self.row, [names.index(name) for name in self.output]], failed
 
     def slopes(self, changes: Mapping[str, float], names: Sequence[str]) -> Array | None:
         """Return exact derivatives over parameters, (n, names), if the model has them here."""
-        plan, exact = self.plan, find_model(self.plan.spec.key).fits.slopes
-        found = np.empty((len(self.value), len(names)))
-        if exact is None:
-            return None
-        for line, i in enumerate(plan.params_of):
-            first, end = plan.starts[line : line + 2].tolist()
-            params = _changed(plan.params[i], changes)
-            here = [k for k, row in enumerate(self.row.tolist()) if first <= row < end]
-            if params is None:
-                return None
-            wanted = [(int(self.row[k]) - first, self.output[k]) for k in here]
-            rows = exact(params, plan.inputs[first:end], plan.fidelity, wanted, names)
-            if rows is None:
-                return None
-            found[here] = rows
-        return found
+        plan = self.plan
+        assert plan.rows is not None
+        rows = replace(plan.rows, held={**plan.rows.held, **changes})
+        wanted = list(zip(self.row.tolist(), self.output, strict=True))
+        slopes: Array | None = plan.evaluator.slopes(rows, wanted, names)
+        return slopes
+
+    def drawn_over(self, output: str) -> dict[str, tuple[str, Array]]:
+        """Return unit and values (n,) of the inputs of all points, over which one is drawn."""
+        plan, own = self.plan, find_model(self.plan.spec.key).fits
+        left_out = own.without if output in own.units else ""
+        names = (name for name in plan.units if name != left_out)
+        return {name: (plan.units[name], plan.shown[name][self.row]) for name in names}
 
 
-def _changed(params: Any, changes: Mapping[str, float]) -> Any:
-    """Return changed parameters, or None if they break a rule."""
-    try:
-        return None if params is None else replace(params, **changes)
-    except ParameterError:
-        return None
+def decided(points: Measured, fitted: Sequence[str]) -> Measured:
+    """Return the points with choices ``auto`` held as the parameters before the fit make them.
+
+    ``fitted``: names of parameters that are to act.
+    """
+    plan = points.plan
+    assert plan.rows is not None
+    params = tuple(p and written_out(p, fitted) for p in plan.params)
+    made = {
+        f.name
+        for old, new in zip(plan.params, params, strict=True)
+        for f in (fields(new) if new else ())
+        if getattr(old, f.name) != getattr(new, f.name)
+    }
+    of_row = np.repeat(plan.params_of, np.diff(plan.starts)).tolist()
+    chosen = {
+        name: np.array([getattr(params[i] or params[0], name) for i in of_row], object)
+        for name in made
+    }
+    rows = replace(plan.rows, columns={**plan.rows.columns, **chosen})
+    return replace(points, plan=replace(plan, params=params, rows=rows))
 
 
 def output_units(spec: ModelSpec) -> dict[str, str]:
@@ -119,7 +121,6 @@ def column_units(spec: ModelSpec) -> dict[str, str]:
 
 def measured(
     part: PartFile,
-    params: object,
     data: Mapping[str, Any],
     at: Mapping[str, object],
     errors: Mapping[str, float | str],
@@ -156,7 +157,7 @@ def measured(
             if x is None and (name != own.without or i in needed):
                 raise ParameterError(f"{name}: point {i + 1} has none")
         points[name] = [part.starts[name] if x is None else x for x in column]
-    plan = make_plan(part, {}, at, points, params, fidelity)
+    plan = make_plan(part, {}, at, points, None, fidelity)
     if plan.params[0] is None:
         raise ParameterError("data: the parameters of point 1 break a rule of the model")
     spread = _deviations(units, columns, errors, found)

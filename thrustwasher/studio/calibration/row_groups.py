@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...numerics.jit import Array
+from ..evaluators.evaluator import Rows
 from ..sweep.sweep_plan import Plan
 from .measured import Measured
 
@@ -31,8 +32,8 @@ class Groups:
 
         It is the mean of the outputs less the output at the mean of the inputs, over the sample.
         """
-        rows = self.sample.computed(changes)[0].reshape(-1, SAMPLE)
-        bend = rows.mean(axis=1) - self.middle.computed(changes)[0]
+        rows = self.sample.values(changes).reshape(-1, SAMPLE)
+        bend = rows.mean(axis=1) - self.middle.values(changes)
         value = self.base - np.where(np.isfinite(bend), bend, 0.0)
         return replace(self.means, value=value)
 
@@ -104,14 +105,20 @@ def _at(points: Measured, inputs: Array, names: tuple[str, ...]) -> Measured:
 
 
 def _plan(points: Measured, inputs: Array, shown: dict[str, Any], said: str) -> Plan:
-    """Return the plan of other rows."""
+    """Return the plan of other rows, all with the same parameters."""
+    plan = points.plan
+    assert plan.rows is not None
+    columns = {s.name: inputs[:, i] for i, s in enumerate(plan.spec.inputs)}
+    same = {n: x[0] for n, x in plan.rows.columns.items() if n not in columns}
+    starts = np.arange(len(inputs) + 1)
     return replace(
-        points.plan,
+        plan,
+        rows=Rows(columns=columns, starts=starts, held={**plan.rows.held, **same}),
         inputs=inputs,
         shown=shown,
-        starts=np.arange(len(inputs) + 1),
+        starts=starts,
         params_of=np.zeros(len(inputs), np.int64),
-        warnings=(*points.plan.warnings, *filter(None, [said])),
+        warnings=(*plan.warnings, *filter(None, [said])),
     )
 
 

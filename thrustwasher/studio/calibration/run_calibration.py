@@ -1,27 +1,22 @@
 """Fit parameters of a model, or a law of its own, to measured outputs: ``calibrate``."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from ...errors import ParameterError
-from ...model.parameters import written_out
-from ...model.part_file import PartFile, find_part
-from ...model.registry import find_model, models_with_points
+from ...model.registry import find_model
+from ..evaluators.make import part_of
 from .engagement.trace_fit import TRACES
-from .fit import fitted
-from .friction.friction_fit import FrictionFit
-from .least_squares import best_fit
-from .measured import measured
-from .model_fit import ModelProblem
-from .row_groups import grouped
+from .estimates import Calibration
+from .fit import Asked
+from .friction.friction_fit import fit_law
+from .measured import Measured, decided, measured
+from .model_fit import fit_points
 from .traces.recording import Traces
 
 # Model -> what fits the outputs that no solution at a point has, by a law of the model's own.
-LAWS: dict[str, type[ModelProblem]] = {"clutch": FrictionFit}
+LAWS: dict[str, Callable[[Measured, Asked], Calibration]] = {"clutch": fit_law}
 # Model -> what fits it to recordings over time.
 RECORDED: dict[str, Traces] = {"clutch": TRACES}
-PASSES = 2  # of a fit to means, each with the curvature at the one before
 
 
 def calibrate(
@@ -87,43 +82,11 @@ def calibrate(
     >>> round(found.params.constant_friction, 6)
     0.06
     """
-    start, params = _start(part)
-    spec = start.spec
-    data, at = {**(data or {}), **columns}, at or {}
-    own = find_model(spec.key).fits
+    start, at = part_of(part), at or {}
+    data = {**(data or {}), **columns}
+    own = find_model(start.spec.key).fits
     is_law = not own.computed and not own.units.keys().isdisjoint(data)
-    kind = LAWS.get(spec.key, ModelProblem) if is_law else ModelProblem
-    points = measured(start, params, data, at, errors or {}, fidelity or start.fidelity)
-    held = tuple(p and written_out(p, fit or ()) for p in points.plan.params)
-    points = replace(points, plan=replace(points.plan, params=held))
-    groups = grouped(points) if kind.by_level else None
-    points, names = kind.asked(groups.means if groups else points, fit, {*data, *at})
-    if twice := set(names) & set(data):
-        raise ParameterError(
-            f"fit = {twice.pop()!r}: is a column of the data, allowed: one of both"
-        )
-    problem, first = kind.of(points, names, bounds or {})
-    problem.check_first(first)
-    guess = first
-    for _ in range(PASSES if groups else 0):
-        assert groups is not None
-        there = groups.straightened(problem.values(guess))
-        problem = replace(problem, points=there, measured=there.value)
-        guess = best_fit(problem, guess)
-    found, judged = fitted(
-        problem, first, confidence, kind.profiles if profile is None else profile
-    )
-    changes = {e.name: e.value for e in found["estimates"]}
-    return problem.result(replace(points.plan.params[0], **changes), found, first, judged)
-
-
-def _start(part: object) -> tuple[PartFile, Any]:
-    """Return the part and its parameters before the fit."""
-    part = find_part(part) if isinstance(part, str) else part
-    if isinstance(part, PartFile):
-        return part, part.params
-    for model in models_with_points().values():
-        if isinstance(part, model.spec.params):
-            return find_part(model.key), part
-    known = ", ".join(models_with_points())
-    raise ParameterError(f"part: {type(part).__name__}, allowed: a part or parameters of {known}")
+    points = measured(start, data, at, errors or {}, fidelity or start.fidelity)
+    fit_to = LAWS.get(start.spec.key, fit_points) if is_law else fit_points
+    asked = Asked(fit, {*data}, {*at}, bounds or {}, confidence, profile)
+    return fit_to(decided(points, fit or ()), asked)

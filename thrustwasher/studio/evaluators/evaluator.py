@@ -18,7 +18,7 @@ Row = Mapping[str, Any]  # values [SI] by path; what is not there is as it is no
 Effort = Literal["least", "search", "shown"]
 """How much a row may take: ``least`` leaves costly figures out (NaN), ``search`` does what the
 figures ask for, ``shown`` solves on the finest means."""
-Kind = Literal["part", "engagement", "scene", "function"]
+Kind = Literal["part", "engagement", "scene", "gearbox", "function"]
 
 
 class Remark(NamedTuple):

@@ -1,6 +1,7 @@
 """An evaluator from a name, a path, a part, a scene or a function: made once, at the door."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -105,6 +106,39 @@ def engagements(
 
     found = part if isinstance(part, PartFile) else find_part(str(part))
     return engagement_evaluator(found, inputs_of(found, at or {}))
+
+
+def gearbox(scene: "str | Path | Scene", gear: str = "first") -> Any:
+    """Return a scene's gearbox that runs steadily as an ``Evaluator``: torque and speed vary.
+
+    Parameters
+    ----------
+    scene : a scene (``load_scene``), the path of its file, or the name of a built-in one
+    gear : "first" or "second"
+    """
+    from ...shift import load_scene
+    from .gearbox import gearbox_evaluator
+
+    found = load_scene(scene) if isinstance(scene, str | Path) else scene
+    return gearbox_evaluator(found, gear)
+
+
+def part_of(target: object, *models: str) -> PartFile:
+    """Return the part of a part, of parameters, of the name of a model or the path of a file.
+
+    ``models``: the keys of those that are allowed; by default of all that are solved at points.
+    ParameterError if it is none of these.
+    """
+    found = find_part(target) if isinstance(target, str) else target
+    known = models or tuple(models_with_points())
+    for key in known:
+        if isinstance(found, PartFile) and (not models or found.spec.key == key):
+            return found
+        if isinstance(found, find_model(key).spec.params):
+            values = {f.name: getattr(found, f.name) for f in fields(found)}
+            return replace(find_part(key), parameters=values)
+    kind = found.spec.key if isinstance(found, PartFile) else type(found).__name__
+    raise ParameterError(f"part: {kind}, allowed: a part or parameters of {', '.join(known)}")
 
 
 def is_at_points(target: object) -> bool:

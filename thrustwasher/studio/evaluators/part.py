@@ -81,6 +81,16 @@ class PartEvaluator:
                 found[name] = Figure(name, "N", words, of_curve=True)
         return self.part.suggesting(found)
 
+    @cached_property
+    def measurable(self) -> dict[str, Figure]:
+        """What rows give that can be measured, by name; no study lists those besides figures."""
+        model = find_model(self.part.spec.key)
+        found = {s.name: Figure(s.name, s.unit, s.help) for s in self.part.spec.outputs if _real(s)}
+        more = {"loss_factor": ("1", "power of friction over that transmitted")}
+        more |= model.command.extra if model.command else {}
+        more |= {name: (unit, "") for name, unit in model.fits.units.items()}
+        return found | {name: Figure(name, *words) for name, words in more.items()}
+
     @property
     def signals(self) -> dict[str, str]:
         """None: a part stands."""
@@ -149,12 +159,19 @@ class PartEvaluator:
             return self._walked(rows, figures)
         values = np.full((len(rows), len(figures)), np.nan)
         codes = np.zeros(len(rows), np.int32)
-        if any(name not in FOLDS for name in figures):
+        besides = [name for name in figures if name not in self.figures]
+        if any(name not in (*FOLDS, *besides) for name in figures):
             columns, codes = self._points(rows)
             for i, name in enumerate(figures):
-                if name not in FOLDS:
+                if name in columns:
                     values[:, i] = columns[name]
             values[codes >= FIRST_FAILURE] = np.nan
+        for k, row in enumerate(rows if besides else ()):
+            with suppress(ParameterError):
+                params, given = self.part.varied(row)
+                found = self._besides(params, {**self.inputs, **given}, besides)
+                for name, value in found.items():
+                    values[k, list(figures).index(name)] = value
         if any(name in FOLDS for name in figures):
             for i, row in enumerate(rows):
                 with suppress(ParameterError, SolveError):
@@ -311,8 +328,62 @@ class PartEvaluator:
         numbers, flags = solve_task(Task(spec.key, self.fidelity, 0, inputs, lines, params))
         return numbers, flags[:, -1], np.zeros(len(params))
 
+    def slopes(
+        self, rows: Rows, wanted: Sequence[tuple[int, str]], quantities: Sequence[str]
+    ) -> Array | None:
+        """Return exact derivatives of figures of rows in lines over parameters.
+
+        Parameters
+        ----------
+        rows : in lines, each walked as by ``evaluate``
+        wanted : place of a row and a figure, n of them
+        quantities : names of parameters
+
+        Returns
+        -------
+        (n, quantities), or None where the model has none here
+        """
+        exact = find_model(self.part.spec.key).fits.slopes
+        found = np.empty((len(wanted), len(quantities)))
+        if exact is None:
+            return None
+        inputs, params = self._lines(rows)
+        for first, end, own in zip(rows.starts[:-1], rows.starts[1:], params, strict=True):
+            here = [k for k, (row, _) in enumerate(wanted) if first <= row < end]
+            asked = [(wanted[k][0] - int(first), wanted[k][1]) for k in here]
+            if own is None:
+                return None
+            of_line = exact(own, inputs[first:end], self.fidelity, asked, quantities)
+            if of_line is None:
+                return None
+            found[here] = of_line
+        return found
+
     def _walked(self, rows: Rows, figures: Sequence[str]) -> Answers:
         """Return figures of rows in lines; whole numbers too, enumerations from 1."""
+        spec = self.part.spec
+        inputs, params = self._lines(rows)
+        starts = tuple(rows.starts.tolist())
+        numbers, flags = solve_task(Task(spec.key, self.fidelity, 0, inputs, starts, params))
+        real, whole = output_signals(spec)
+        columns = {s.name: numbers[:, i] for i, s in enumerate(real)}
+        columns |= {s.name: flags[:, i].astype(float) for i, s in enumerate(whole)}
+        failed = flags[:, -1] >= FIRST_FAILURE
+        columns = {name: np.where(failed, np.nan, column) for name, column in columns.items()}
+        if besides := [name for name in figures if name not in columns]:
+            table = np.full((len(rows), len(besides)), np.nan)
+            names = [s.name for s in spec.inputs]
+            for i, point in enumerate(inputs.tolist()):
+                own = params[int(np.searchsorted(rows.starts, i, "right")) - 1]
+                if own is not None:
+                    at = dict(zip(names, point, strict=True))
+                    table[i] = [*self._besides(own, at, besides).values()]
+            columns |= dict(zip(besides, table.T, strict=True))
+        values = np.column_stack([columns[name] for name in figures])
+        return Answers(values, flags[:, -1].astype(np.int32))
+
+    def _lines(self, rows: Rows) -> tuple[Array, tuple[Any, ...]]:
+        """Return the inputs (n, inputs) of rows, and the parameters of each line or None."""
         spec, n = self.part.spec, len(rows)
         own = {f.name for f in fields(spec.params)}
         inputs = np.empty((n, len(spec.inputs)))
@@ -326,17 +397,27 @@ class PartEvaluator:
         for key in dict.fromkeys(lines):
             known[key] = None
             with suppress(ParameterError):
-                known[key] = replace(base, **held, **dict(zip(varied, key, strict=True)))
-        params = tuple(known[key] for key in lines)
-        starts = tuple(rows.starts.tolist())
-        numbers, flags = solve_task(Task(spec.key, self.fidelity, 0, inputs, starts, params))
-        real, whole = output_signals(spec)
-        columns = {s.name: numbers[:, i] for i, s in enumerate(real)}
-        columns |= {s.name: flags[:, i].astype(float) for i, s in enumerate(whole)}
-        failed = flags[:, -1] >= FIRST_FAILURE
-        values = np.column_stack([columns[name] for name in figures])
-        values[failed] = np.nan
-        return Answers(values, flags[:, -1].astype(np.int32))
+                known[key] = replace(base, **{**dict(zip(varied, key, strict=True)), **held})
+        return inputs, tuple(known[key] for key in lines)
+
+    def _besides(
+        self, params: Any, inputs: Mapping[str, float], names: Sequence[str]
+    ) -> dict[str, float]:
+        """Return what no row of the kernel has: of a result, or of folds; NaN where there is none.
+
+        ParameterError: an input is out of its range.
+        """
+        model, found = find_model(self.part.spec.key), dict.fromkeys(names, math.nan)
+        fits = model.fits
+        if fits.computed and not fits.units.keys().isdisjoint(names):
+            loads = fits.computed(params, inputs, self.fidelity)
+            found |= {name: x for name, x in loads.items() if name in found}
+        if rest := [name for name in names if name not in fits.units]:
+            point: Any = model.back(dict(inputs))
+            result = model.solve(params, **point, fidelity=self.fidelity, throw=False)
+            if not result.status.is_failure:
+                found |= {name: float(getattr(result, name)) for name in rest}
+        return found
 
     @property
     def _shown(self) -> tuple[Signal, ...]:
@@ -434,6 +515,10 @@ def part_evaluator(
         reached=reached,
         fidelity=level_named(spec, part.fidelity),
     )
+
+
+def _real(signal: Signal) -> bool:
+    return signal.kind == "real"
 
 
 def _below_1(columns: Mapping[str, Array], outcome: str) -> Array:

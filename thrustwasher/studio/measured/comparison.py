@@ -10,14 +10,8 @@ from scipy.optimize import least_squares
 from scipy.stats import binomtest, qmc
 
 from ...errors import ParameterError, SolveError
-from ...model.part_file import PartFile
-from ...model.point import Point, point_of
-from ...model.registry import find_model
-from ...shift.scene.places import scene_places, scene_scatter
-from ...shift.scene.scene import Scene
-from ...shift.scene.variation import varied_scene
-from ...shift.steady_points import efficiency_map
 from ...shown import Card, Line, Tabled
+from ..evaluators.evaluator import Remark, texts
 from .data_set_file import KINDS, DataSet
 
 Array = NDArray[np.float64]
@@ -38,7 +32,12 @@ class Comparison(Tabled):
     judged: NDArray[np.bool_]
     fitted: Mapping[str, float]
     """Parameters that were fitted to the points that are not judged."""
-    warnings: tuple[str, ...] = ()
+    remarks: tuple[Remark, ...] = ()
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What of ``remarks`` is a warning, in words."""
+        return texts(self.remarks, "warning")
 
     @property
     def deviations(self) -> Array:
@@ -136,67 +135,20 @@ def compare(
     computed = values_of(data_set, fitted)
     if not np.isfinite(computed).all():
         row = int(np.flatnonzero(~np.isfinite(computed))[0])
-        raise SolveError(f"measured data set {data_set.name}: point {row + 1} has no solution here")
-    low, high, warnings = _band(data_set, fitted, computed, draws, progress)
-    warnings = tuple(filter(None, (_not_measured(data_set), *warnings)))
-    return Comparison(data_set, computed, low, high, judged, fitted, warnings)
+        why = data_set.evaluator.why({**data_set.rows[row % len(data_set.rows)], **fitted})
+        raise SolveError(
+            f"measured data set {data_set.name}: point {row + 1} has no solution here"
+            + (f": {why}" if why else "")
+        )
+    low, high, lost = _band(data_set, fitted, computed, draws, progress)
+    said = tuple(Remark("warning", t, data_set.name) for t in (data_set.not_measured, lost) if t)
+    return Comparison(data_set, computed, low, high, judged, fitted, said)
 
 
-def values_of(data_set: DataSet, changes: Mapping[str, float]) -> Array:
+def values_of(data_set: DataSet, changes: Mapping[str, Any]) -> Array:
     """Return what is computed with changed parameters, a value per point; NaN without solution."""
-    if isinstance(data_set.target, Scene):
-        return _of_scene(data_set, data_set.target, changes)
-    return _of_part(data_set, data_set.target, changes)
-
-
-def _of_part(data_set: DataSet, part: PartFile, changes: Mapping[str, object]) -> Array:
-    model, found = find_model(part.spec.key), []
-    try:
-        params, _ = part.varied(changes)
-    except ParameterError:
-        return np.full(len(data_set.measured), np.nan)
-    for i in range(len(data_set.measured)):
-        point = _point(data_set, part, i).values
-        output = data_set.outputs[i]
-        if output in model.fits.units and model.fits.computed:
-            whole = {**part.starts, **point}
-            value = model.fits.computed(params, whole, part.fidelity).get(output, np.nan)
-        else:
-            result = model.solve(params, **point, fidelity=part.fidelity, throw=False)
-            failed = result.status.is_failure
-            value = np.nan if failed else float(getattr(result, output))
-        found.append(value)
-    return np.array(found)
-
-
-def _point(data_set: DataSet, part: PartFile, i: int) -> Point:
-    """Return the inputs of a point; those without a column from the part's box or by default."""
-    return point_of(part, {name: float(column[i]) for name, column in data_set.inputs.items()})
-
-
-def _not_measured(data_set: DataSet) -> str:
-    """Say which inputs have no column, and what was taken for them."""
-    if isinstance(data_set.target, Scene):
-        return ""
-    taken = _point(data_set, data_set.target, 0).taken
-    return f"inputs without a column in points.csv: {taken}" if taken else ""
-
-
-def _of_scene(data_set: DataSet, scene: Scene, changes: Mapping[str, object]) -> Array:
-    try:
-        own = varied_scene(scene, changes) if changes else scene
-        found = np.full(len(data_set.measured), np.nan)
-        for w in np.unique(data_set.inputs["speed"]):
-            rows = np.flatnonzero(data_set.inputs["speed"] == w)
-            torques = data_set.inputs["torque"][rows]
-            order = np.argsort(torques, kind="stable")
-            columns = efficiency_map(own, torques, [w], gear=data_set.gear).columns
-            found[rows[order]] = columns[data_set.output]
-        return found
-    except (ParameterError, SolveError):
-        if not changes:
-            raise
-        return np.full(len(data_set.measured), np.nan)
+    rows = [{**row, **changes} for row in data_set.rows]
+    return data_set.evaluator.evaluate(rows, data_set.figures, "shown").values.T.ravel()  # type: ignore[no-any-return]
 
 
 def _band(
@@ -205,18 +157,17 @@ def _band(
     computed: Array,
     draws: int,
     progress: Callable[[int, int], None] | None,
-) -> tuple[Array, Array, tuple[str, ...]]:
+) -> tuple[Array, Array, str]:
     """Return the ends of the band of scatter and reading error, and what is to be said of it.
 
     What was fitted scatters no more; the conditions of the points do not scatter.
     """
-    target = data_set.target
-    if isinstance(target, Scene):
-        scatter, known = scene_scatter(target), set(scene_places(target)) - {"oil_temperature"}
-    else:
-        scatter = target.scattered()
-        known = {s.place.name for s in scatter.sources} - {s.name for s in target.spec.inputs}
-    kept = [s for s in scatter.sources if s.place.name in known - {*fitted}]
+    scatter, known = data_set.evaluator.scattered(), data_set.evaluator.quantities
+    kept = [
+        s
+        for s in scatter.sources
+        if s.place.name in known and not known[s.place.name].is_input and s.place.name not in fitted
+    ]
     rng = np.random.default_rng(SEED)
     rows = [computed]
     if kept:
@@ -233,14 +184,13 @@ def _band(
         good = computed[None]
     noise = rng.standard_normal((NOISE, 1, len(computed))) * data_set.error
     low, high = np.quantile((good + noise).reshape(-1, len(computed)), BAND, axis=0)
-    words = [f"{lost} of {len(sample)} draws have no solution and are left out"] if lost else []
-    return low, high, tuple(words)
+    words = f"{lost} of {len(sample)} draws have no solution and are left out"
+    return low, high, words if lost else ""
 
 
 def _fitted(data_set: DataSet, names: Sequence[str], used: NDArray[np.bool_]) -> dict[str, float]:
     """Return the parameters that lie nearest to the measured values in least squares."""
-    target = data_set.target
-    places = scene_places(target) if isinstance(target, Scene) else target.places()
+    places = data_set.evaluator.quantities
     for name in names:
         if name not in places:
             raise ParameterError(

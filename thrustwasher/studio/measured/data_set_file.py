@@ -1,6 +1,5 @@
 """A data set's folder: ``rig.toml`` (source, conditions), ``points.csv``, part or scene."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -9,14 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import ParameterError, suggestion
-from ...model.part_file import PartFile, find_part, load_part, preset_part
+from ...model.part_file import preset_part
+from ...model.point import point_of
 from ...model.registry import find_model, spec_of
 from ...model.toml_tables import nothing_else, read_file
-from ...shift import load_scene
-from ...shift.scene.scene import Scene
-from ...shift.steady_points import COLUMNS, RANGES
+from ...settings import places
 from ...storage.tables.table import numbers
 from ...storage.tables.table_file import read_table
+from ..evaluators.evaluator import Row
+from ..evaluators.make import evaluator, gearbox, inputs_of, part_of
 
 ORIGINS = ("table", "figure", "text", "fit")
 TEXTS = ("title", "source", "measured", "conditions", "rights", "read", "reason")
@@ -37,8 +37,16 @@ class DataSet:
 
     folder: Path
     texts: dict[str, str]
-    target: PartFile | Scene
-    gear: str
+    target_name: str
+    """The model, or the scene and the gear."""
+    evaluator: Any
+    """What stands for it here: a part, or a gearbox."""
+    rows: tuple[Row, ...]
+    """What it is asked, a row for each line of points."""
+    figures: tuple[str, ...]
+    """And the figure of each measured column: points are all rows of one after those of another."""
+    not_measured: str
+    """Inputs that are not in the points, and what is taken for them."""
     vary: str
     """The input over which points are drawn and, for a fit, divided."""
     fit: tuple[str, ...]
@@ -63,13 +71,6 @@ class DataSet:
     def name(self) -> str:
         """Name of the folder."""
         return self.folder.name
-
-    @property
-    def target_name(self) -> str:
-        """The model, or the scene."""
-        if isinstance(self.target, PartFile):
-            return self.target.spec.name
-        return f"scene {self.target.name}, {self.gear} gear"
 
 
 def load_data_set(path: str | Path) -> DataSet:
@@ -97,20 +98,20 @@ def load_data_set(path: str | Path) -> DataSet:
     kind = str(table.get("kind", "not said"))
     if kind not in KINDS:
         raise ParameterError(f"{where}: kind = {kind!r}, allowed: {', '.join(KINDS)}")
-    target: PartFile | Scene
+    made: Any
     if "part" in table:
-        target = _part(folder, str(table["part"]))
-        inputs = {s.name: s.unit for s in (*target.spec.inputs, *_own_inputs(target))}
-        outputs = _outputs(target)
+        made = evaluator(_part(folder, str(table["part"])))
+        known = places(made.part.spec)  # what the model is asked by at a point too: a gear's power
+        outputs = {name: f.unit for name, f in made.measurable.items()}
     else:
-        named = str(table["scene"])
-        target = load_scene(folder / named if named.endswith(".toml") else named)
-        inputs = {name: unit for name, (unit, *_) in RANGES.items()}
-        none = (*inputs, "warnings")
-        outputs = {n: unit for n, (unit, _) in COLUMNS.items() if n not in none}
+        named, gear = str(table["scene"]), str(table.get("gear", "first"))
+        made = gearbox(folder / named if named.endswith(".toml") else named, gear)
+        known = made.quantities
+        outputs = {name: f.unit for name, f in made.figures.items()}
+    inputs = {name: q.unit for name, q in known.items() if q.is_input}
     columns, origin = _points(folder / "points.csv", inputs, outputs)
     found = [name for name in columns if name in outputs]
-    if not found or (len(found) > 1 and not isinstance(target, PartFile)):
+    if not found or (len(found) > 1 and "part" not in table):
         raise ParameterError(
             f"{where}: points.csv has the measured columns {', '.join(found) or 'none'}, allowed: "
             f"one of {', '.join(outputs)}"
@@ -128,46 +129,42 @@ def load_data_set(path: str | Path) -> DataSet:
             "allowed: at most as many points as the fit has coefficients"
         )
     several = len(found) > 1
+    given = {name: columns[name] for name in columns if name in inputs}
+    points = [dict(zip(given, x, strict=True)) for x in zip(*given.values(), strict=True)]
+    taken, target_name = "", made.name
+    if "part" in table:
+        taken, target_name = point_of(made.part, points[0]).taken, made.part.spec.name
+        points = [inputs_of(made.part, point) for point in points]
     return DataSet(
         folder=folder,
         texts={key: " ".join(table[key].split()) for key in TEXTS},
-        target=target,
-        gear=str(table.get("gear", "first")),
+        target_name=target_name,
+        evaluator=made,
+        rows=tuple(points),
+        figures=tuple(found),
+        not_measured=f"inputs without a column in points.csv: {taken}" if taken else "",
         vary=vary,
         fit=tuple(table.get("fit", ())),
         output=f"{len(found)} results" if several else found[0],
         unit="SI" if several else outputs[found[0]],
         outputs=tuple(name for name in found for _ in range(rows)),
         units=tuple(outputs[name] for name in found for _ in range(rows)),
-        inputs={name: np.tile(columns[name], len(found)) for name in columns if name in inputs},
+        inputs={name: np.tile(column, len(found)) for name, column in given.items()},
         measured=np.concatenate([columns[name] for name in found]),
         error=np.concatenate([columns.get(name + ERROR, np.zeros(rows)) for name in found]),
         origin=origin,
         kind=kind,
-        input_units=tuple(inputs[name] for name in columns if name in inputs),
+        input_units=tuple(inputs[name] for name in given),
     )
 
 
-def _part(folder: Path, named: str) -> PartFile:
+def _part(folder: Path, named: str) -> Any:
     """Return the part of a file in the folder, of "MODEL" or of "MODEL PRESET"."""
     if named.endswith(".toml"):
-        return load_part(folder / named)
+        return part_of(str(folder / named))
     model, _, preset = named.partition(" ")
     spec = spec_of(find_model(model).key)
-    return preset_part(spec, preset) if preset else find_part(spec.key)
-
-
-def _own_inputs(part: PartFile) -> Sequence[Any]:
-    """Return the inputs that the model is asked by at a point, such as a gear's power."""
-    return find_model(part.spec.key).inputs()
-
-
-def _outputs(part: PartFile) -> dict[str, str]:
-    """Return what a part can be compared by: fields of its result, and loads of its folds."""
-    model = find_model(part.spec.key)
-    units = {s.name: s.unit for s in part.spec.outputs if s.kind == "real"}
-    more = {name: unit for name, (unit, _) in model.command.extra.items()} if model.command else {}
-    return units | {"loss_factor": "1"} | more | dict(model.fits.units)
+    return preset_part(spec, preset) if preset else part_of(spec.key)
 
 
 def _points(

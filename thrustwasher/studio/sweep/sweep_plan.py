@@ -24,6 +24,7 @@ from ...model.spec import ModelSpec
 from ...settings import places
 from ..evaluators.evaluator import Rows
 from ..evaluators.lines import output_signals
+from ..evaluators.make import part_of
 from ..evaluators.part import PartEvaluator
 from .axes import MOST_POINTS, Axis, find_quantity, read_axis
 
@@ -78,7 +79,7 @@ def make_plan(
     fidelity: str | None,
 ) -> Plan:
     """Return the plan of a sweep; arguments as in ``run_sweep``."""
-    part = model if isinstance(model, PartFile) else find_part(spec_of(model).key)
+    part = part_of(spec_of(model).key if isinstance(model, str) else model)
     spec, params = spec_of(part.spec.key), part.params if params is None else params
     known = part.suggesting(places(spec))
     at = {part.flat_name(name): value for name, value in at.items()}

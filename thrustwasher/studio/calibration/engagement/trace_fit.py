@@ -16,13 +16,14 @@ from ....model.point import from_box, taken_text
 from ....numerics.jit import Array
 from ....settings import find_place, places
 from ....units import format_quantity, parse_quantity
+from ...evaluators.make import part_of
 from ...sweep.sweep_plan import Plan
-from ..fit import chosen_names, fitted
+from ..fit import Asked, chosen_names
 from ..identifiability import counted
 from ..signs import folded, odd_pressure, too_fast
 from ..traces.binned import Run, binned
 from ..traces.recording import SLOW, Traces, measured_part, pieces
-from ..traces.trace_problem import TraceProblem, size_text
+from ..traces.trace_problem import fit_traces, size_text
 from ..traces.trace_result import TraceCalibration
 from ..traces.traced import Traced
 from .pack_history import SLIDES, slip_by_torque, walk_pack
@@ -119,11 +120,11 @@ def calibrate_traces(
     >>> round(found.params.friction_scale, 6)
     0.9
     """
-    start, pack = _start(part)
+    start = part_of(part, SPEC.key)
     if torque_at not in PLACES:
         raise ParameterError(f"torque_at = {torque_at!r}, allowed: {' or '.join(PLACES)}")
     given = dict(zip(OPTIONS, (piston_area, inertia, drag_torque, inertia_between), strict=True))
-    rig, held = _held(pack, {n: x for n, x in given.items() if x not in (0.0, 0)}, at or {})
+    rig, held = _held(start.params, {n: x for n, x in given.items() if x not in (0.0, 0)}, at or {})
     if (torque_at == "hub") != (rig.inertia_between > 0.0):
         raise ParameterError(
             f"inertia_between = {rig.inertia_between:g} kg.m2 with torque_at = {torque_at!r}, "
@@ -166,29 +167,13 @@ def calibrate_traces(
             f"recordings: {counted(len(points.value), 'value')} for "
             f"{counted(len(names), 'parameter')}, allowed: as many values as parameters, or more"
         )
-    problem, first = TraceProblem.of(points, names, _bounds(rig, names, bounds or {}))
     size = f"{size_text(runs, points.n_engagements)}."
-    notes = (size, *remarks, *said, *_notes(rig, runs, torque_at))
+    notes = [size, *remarks, *said, *_notes(rig, runs, torque_at)]
     if by_torque:
-        notes = (*notes, "Slip: by the recorded torque, the drag and the inertia.")
-    problem = replace(problem, deviation=deviation, notes=notes)
-    if not errors:
-        problem = replace(problem, error_name="the scatter of neighbouring rows")
-    problem.check_first(first)
-    found, judged = fitted(problem, first, confidence, profile)
-    changes = {e.name: e.value for e in found["estimates"]}
-    return problem.result(replace(rig, **changes).pack(), found, first, judged)
-
-
-def _start(part: Any) -> tuple[PartFile, ClutchParams]:
-    """Return the part and its parameters before the fit."""
-    part = find_part(part) if isinstance(part, str) else part
-    if isinstance(part, ClutchParams):
-        return find_part(SPEC.key), part
-    if isinstance(part, PartFile) and part.spec.key == SPEC.key:
-        return part, part.params
-    kind = part.spec.key if isinstance(part, PartFile) else type(part).__name__
-    raise ParameterError(f"part: {kind}, allowed: a part or parameters of {SPEC.key}")
+        notes.append("Slip: by the recorded torque, the drag and the inertia.")
+    words = "their error" if errors else "the scatter of neighbouring rows"
+    asked = Asked(names, (), (), _bounds(rig, names, bounds or {}), confidence, profile)
+    return fit_traces(points, asked, names, deviation, words, notes)
 
 
 def _held(

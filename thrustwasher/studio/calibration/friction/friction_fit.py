@@ -13,18 +13,22 @@ is written out; its slope can be fitted too.
 """
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ....clutch.parameters import ClutchParams
 from ....numerics.jit import Array
 from ....storage.digests import finite
-from ..estimates import Calibration, Estimate
+from ..estimates import Calibration, Estimate, remarks
+from ..fit import Asked, fitted
 from ..identifiability import Information, Verdict
-from . import friction_law as law
-from .friction_law import FrictionProblem
+from ..least_squares import FitProblem
+from ..measured import Measured
+from ..model_fit import misses, values_of
+from .friction_law import WARMTH, LawPoints, end_frictions, friction_slopes, law_problem
 from .reach import hidden_fall, out_of_reach, rising
 
 SAME_LOAD = 1e-6  # relative spread of loads below which there is nothing to compare
@@ -51,6 +55,7 @@ class LawCalibration(Calibration):
     """Constants of the friction law; ``derived`` are the coefficients at both ends of its curve."""
 
     load_test: LoadTest
+    _law: LawPoints = field(repr=False)
 
     @property
     def end_frictions(self) -> tuple[Estimate, ...]:
@@ -65,11 +70,11 @@ class LawCalibration(Calibration):
         """
         speed = np.abs(np.atleast_1d(np.asarray(slip_speed, float)))
         values = self._problem.values(self._best)
-        rows = law.friction_slopes(values, speed, self._problem.names)
+        rows = friction_slopes(values, speed, self._problem.names)
         half = np.array([self._learned.half_width_of(row) for row in rows])
         if any(e.name == "stick_speed" and not e.identifiable for e in self.estimates):
-            half[speed < self._problem.speed.min()] = np.inf
-        return self._problem.curve_over(values, speed), half
+            half[speed < self._law.speed.min()] = np.inf
+        return self._law.over(values, speed), half
 
     def to_dict(self) -> dict[str, Any]:
         """Return what JSON can hold; None stands for infinite and for not known."""
@@ -81,71 +86,79 @@ class LawCalibration(Calibration):
             "load_test": asdict(self.load_test) | {"is_significant": self.load_test.is_significant},
         }
 
-    def remarks(self) -> list[str]:
-        """Return sentences on what the points were measured on, on load and temperature."""
-        lines = ["Law: asperities alone; the settled film's shear was taken off the points."]
-        if self.params.friction_data == "total":
-            lines = ["Points and law: total friction of a settled pack, shear of its oil included."]
-        lines.append(f"Load: {self.load_test.text}.")
-        warm, acts = self.params.reference_temperature, self.params.temperature_law()
-        slope = self.params.friction_temperature_slope if acts == "slope" else 0.0
-        if np.all(self._problem.warmer == 0.0):
-            if acts or self.params.shear_temperature_slope != 0.0:
-                lines.append(
-                    f"Temperature: the points count as measured at reference_temperature "
-                    f"({warm:g} K); friction changes away from it."
-                )
-        else:
-            how = (
-                f"by {100 * slope:.2g} % per kelvin of" if acts != "points" else "by its points at"
-            )
+    def _drawn_over(self, output: str) -> Mapping[str, tuple[str, Array]]:
+        """Return slip speed and load of the points."""
+        return {"slip speed": ("m/s", self._law.speed), "load": ("N", self._law.load)}
+
+
+def fit_law(points: Measured, asked: Asked) -> LawCalibration:
+    """Return constants of the law fitted to measured friction."""
+    law, problem, first = law_problem(points, asked)
+    profile = asked.profile is not False  # they are quick
+    found, judged = fitted(problem, first, asked.confidence, profile)
+    best, told = found["_best"], found["_learned"]
+    load_test = _load_test(law, problem, best, told)
+    params = replace(law.params, **values_of(found))
+    said = _warnings(law, problem, best, first, judged)
+    return LawCalibration(
+        params=params,
+        points=law.points,
+        derived=() if law.is_constant else _end_estimates(problem, best, told),
+        load_test=load_test,
+        remarks=remarks(said, _notes(law, params, load_test)),
+        _law=law,
+        **found,
+    )
+
+
+def _warnings(
+    law: LawPoints, problem: FitProblem, best: Array, first: Array, judged: list[Verdict]
+) -> list[str]:
+    """Return what is wrong with the fit as a whole, the gravest first: "headline: details"."""
+    scatter = 1.0 / problem.weight
+    if not problem.known_errors:  # that of a point next to its neighbours in speed
+        bends = np.diff(problem.measured[np.argsort(law.speed, kind="stable")], 2)
+        scatter[:] = float(np.sqrt(np.mean(bends**2) / 6.0)) if len(bends) else 0.0
+    grave, hidden = [rising(law, problem)], ""
+    if not law.is_constant and WARMTH not in problem.names:
+        grave = [out_of_reach(law, problem, scatter, side) for side in (1, -1)] + grave
+        hidden = hidden_fall(law, problem, best, first)
+    flat = 'friction changes with speed, take friction_law = "wang"' if law.is_constant else ""
+    far, poor = misses(law.points, problem, best, judged, scatter, flat)
+    grave = [text for text in grave if text] or [*far, *filter(None, [hidden])]
+    return [*law.points.plan.warnings, *grave, *poor]
+
+
+def _notes(law: LawPoints, params: ClutchParams, load_test: LoadTest) -> list[str]:
+    """Return sentences on what the points were measured on, on load and temperature."""
+    lines = ["Law: asperities alone; the settled film's shear was taken off the points."]
+    if params.friction_data == "total":
+        lines = ["Points and law: total friction of a settled pack, shear of its oil included."]
+    lines.append(f"Load: {load_test.text}.")
+    warm, acts = params.reference_temperature, params.temperature_law()
+    slope = params.friction_temperature_slope if acts == "slope" else 0.0
+    if np.all(law.warmer == 0.0):
+        if acts or params.shear_temperature_slope != 0.0:
             lines.append(
-                f"Temperature: friction changes {how} a point's "
-                f"oil_temperature; the law is that of reference_temperature ({warm:g} K)."
+                f"Temperature: the points count as measured at reference_temperature "
+                f"({warm:g} K); friction changes away from it."
             )
-        return lines
-
-
-@dataclass(frozen=True, kw_only=True)
-class FrictionFit(FrictionProblem):
-    """The law's fit with what is said of it."""
-
-    def result(
-        self, params: Any, found: Mapping[str, Any], first: Array, judged: list[Verdict]
-    ) -> LawCalibration:
-        """Return the calibration, with the ends of the curve and the test of load."""
-        best, told = found["_best"], found["_learned"]
-        return LawCalibration(
-            params=params,
-            points=self.points,
-            derived=() if self.is_constant else _end_estimates(self, best, told),
-            load_test=_load_test(self, best, told),
-            warnings=self.warnings(best, first, judged),
-            **found,
+    else:
+        how = f"by {100 * slope:.2g} % per kelvin of" if acts != "points" else "by its points at"
+        lines.append(
+            f"Temperature: friction changes {how} a point's "
+            f"oil_temperature; the law is that of reference_temperature ({warm:g} K)."
         )
-
-    def warnings(self, best: Array, first: Array, judged: list[Verdict]) -> tuple[str, ...]:
-        """Return what is wrong with the fit as a whole, the gravest first: "headline: details"."""
-        scatter = 1.0 / self.weight
-        if not self.known_errors:  # that of a point next to its neighbours in speed
-            bends = np.diff(self.measured[np.argsort(self.speed, kind="stable")], 2)
-            scatter[:] = float(np.sqrt(np.mean(bends**2) / 6.0)) if len(bends) else 0.0
-        grave, hidden = [rising(self)], ""
-        if not self.is_constant and law.WARMTH not in self.names:
-            grave = [out_of_reach(self, scatter, side) for side in (1, -1)] + grave
-            hidden = hidden_fall(self, best, first)
-        far, poor = self.misses(best, judged, scatter)
-        grave = [text for text in grave if text] or [*far, *filter(None, [hidden])]
-        return (*self.points.plan.warnings, *grave, *poor)
+    return lines
 
 
-def _end_estimates(problem: FrictionProblem, best: Array, told: Information) -> tuple[Any, ...]:
+def _end_estimates(problem: FitProblem, best: Array, told: Information) -> tuple[Any, ...]:
     """Return the coefficients at rest and at very high slip."""
     values, names = problem.values(best), ("friction_at_rest", "friction_at_speed")
     sharp = {**values, "stick_speed": 0.0, "kink_width": 0.0}
-    rows = law.friction_slopes(sharp, np.array([0.0, 1e9]), problem.names)
+    rows = friction_slopes(sharp, np.array([0.0, 1e9]), problem.names)
     found = []
-    for name, value, row in zip(names, law.end_frictions(values), rows, strict=True):
+    for name, value, row in zip(names, end_frictions(values), rows, strict=True):
         error, half = told.error_of(row), told.half_width_of(row)
         known = bool(half <= value)
         interval = (max(0.0, value - half), value + half) if known else (0.0, np.inf)
@@ -154,11 +167,11 @@ def _end_estimates(problem: FrictionProblem, best: Array, told: Information) -> 
     return tuple(found)
 
 
-def _load_test(problem: FrictionProblem, best: Array, told: Information) -> LoadTest:
+def _load_test(law: LawPoints, problem: FitProblem, best: Array, told: Information) -> LoadTest:
     """Return the test of a term linear in load next to the law's own constants."""
     from scipy.stats import norm, t
 
-    load, freedom = problem.load, told.freedom - 1
+    load, freedom = law.load, told.freedom - 1
     spread = float(np.ptp(load))
     if spread <= SAME_LOAD * float(load.max()):
         return LoadTest(None, None, "all points have one load: its influence cannot be tested")

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import product
 from typing import Any
 
@@ -21,10 +21,10 @@ from ....clutch.parameters import ClutchParams
 from ....clutch.solve import prepare
 from ....errors import ParameterError
 from ....numerics.jit import Array
-from ..fit import chosen_names
-from ..identifiability import Verdict
+from ..fit import Asked, chosen_names
+from ..least_squares import FitProblem, Search, Terms
 from ..measured import Measured
-from ..model_fit import ModelProblem
+from ..model_fit import problem_of
 
 SHAPE = ("plough_weight", "shear_floor", "stick_speed", "decay_speed")
 WANG_CONSTANTS = (*SHAPE, "hardness_ratio", "indentation")
@@ -137,94 +137,31 @@ def _decay(values: Mapping[str, float], speed: Array) -> tuple[Array, Array, Arr
     return decay, decay * active / length, decay * beyond / length**2
 
 
-@dataclass(frozen=True, kw_only=True)
-class FrictionProblem(ModelProblem):
-    """Measured friction and the constants of the friction law; ``base``: every number of it."""
+SEARCH = Search(rough=1e-7, fine=1e-14, evaluations=250, resolution=1e-9)
+TERMS = Terms("law", "friction", "point", "friction_error", TABLE)
 
-    rough, fine, resolution, evaluations = 1e-7, 1e-14, 1e-9, 250
-    law, subject, counted_as, error_name = "law", "friction", "point", "friction_error"
-    by_level, profiles, typical, instead = False, True, 1.0, TABLE
 
-    @classmethod
-    def asked(
-        cls, points: Measured, fit: Sequence[str] | None, given: set[str]
-    ) -> tuple[Measured, tuple[str, ...]]:
-        """Return the points of a pack with the law, without what is not the law's; the constants.
+@dataclass(frozen=True)
+class LawPoints:
+    """Points of a pack at which its law of friction is computed, from all its numbers by name."""
 
-        A table gives way to the law, ``friction_scale`` to 1: the law is that of the points.
-        """
-        if points.names != ("friction",) or len(points.plan.params) > 1:
-            raise ParameterError("friction: allowed: without other outputs, all points of one pack")
-        params = points.plan.params[0]
-        law_of = "wang" if params.friction_law == "table" else params.friction_law
-        own, usual = (CONSTANT_LAW,) * 2 if law_of == "constant" else (WANG_CONSTANTS, SHAPE)
-        acting, warm = (*own, WARMTH), "oil_temperature" in given
-        words = f"under friction_law {law_of!r}, which does not depend on load: {', '.join(acting)}"
-        names = chosen_names(usual if fit is None else fit, acting, words)
-        if WARMTH in names and not warm:
-            raise ParameterError(
-                f"oil_temperature is missing, required with {WARMTH}: the temperature each point "
-                "was measured at"
-            )
-        load, mu, mean = points.input("load"), points.value, points.value.mean()
-        most, shear = LARGEST_FRICTION, np.zeros(len(mu))
-        _refuse(points, "load", load, load == 0.0, "above 0 N")
-        _refuse(points, "friction", mu, np.abs(mu) > most, f"{-most:g} .. {most:g}")
-        if mean <= 0.0:
-            raise ParameterError(
-                f"friction is {mean:.3g} on average, allowed: above 0 (for either sign of speed)"
-            )
-        if params.friction_temperature == "points" and set(names) & {WARMTH, *CONSTANT_LAW}:
-            raise ParameterError(
-                f"fit = {', '.join(names)}: friction_temperature = points stands in place of "
-                f"{WARMTH} and constant_friction, allowed: friction_temperature = slope"
-            )
-        written = _temperature_law(params, WARMTH in names)
-        params = replace(params, friction_law=law_of, friction_scale=1.0, **written)
-        if params.friction_data == "boundary":
-            if not warm:
-                raise ParameterError(
-                    "oil_temperature is missing, required with friction_data = 'boundary': shear "
-                    "of the oil is taken off the measured friction"
-                )
-            oil = points.input("oil_temperature")
-            shear = settled_shear(params, points.input("speed"), load, oil)
-            cure = (
-                "twice the shear of the settled film or more with friction_data = 'boundary'; "
-                "leave the point out, or take friction_data = 'total'"
-            )
-            _refuse(points, "friction", mu, shear > 0.5 * mu, cure)
-        plan = replace(points.plan, params=(params,), inputs=points.plan.inputs.copy())
-        if not warm:  # then they count as measured where the law holds
-            place = [s.name for s in plan.spec.inputs].index("oil_temperature")
-            plan.inputs[:, place] = params.reference_temperature
-        return replace(points, plan=plan, value=mu - shear), names
+    points: Measured
 
-    @classmethod
-    def change_of(cls, points: Measured, name: str) -> float:
-        """Return the fastest slip for a speed, the mean for a coefficient, 1 for a ratio."""
-        if name in SPEEDS:
-            slip = np.abs(points.input("speed")) * points.plan.params[0].friction_radius
-            return float(slip.max()) or 1.0
-        if name == WARMTH:
-            return 1e-3
-        return float(points.value.mean()) if name in CONSTANT_LAW else 1.0
-
-    @classmethod
-    def held(cls, params: Any) -> dict[str, Any]:
-        """Return every number of the law."""
-        return law_values(params)
+    @property
+    def params(self) -> ClutchParams:
+        """The pack."""
+        params: ClutchParams = self.points.plan.params[0]
+        return params
 
     @property
     def is_constant(self) -> bool:
         """True for the constant law instead of Wang, Wei & Wu's."""
-        return bool(self.points.plan.params[0].friction_law == "constant")
+        return bool(self.params.friction_law == "constant")
 
     @cached_property
     def speed(self) -> Array:
         """Slip speed of the points [m/s], not negative."""
-        slip = np.abs(self.points.input("speed"))
-        return np.asarray(slip * self.points.plan.params[0].friction_radius)
+        return np.asarray(np.abs(self.points.input("speed")) * self.params.friction_radius)
 
     @cached_property
     def load(self) -> Array:
@@ -235,15 +172,14 @@ class FrictionProblem(ModelProblem):
     def warmer(self) -> Array:
         """Temperature of the points over the law's [K], as far as the slope acts."""
         warm = np.clip(self.points.input("oil_temperature"), *TEMPERATE)
-        return np.asarray(warm - self.points.plan.params[0].reference_temperature)
+        return np.asarray(warm - self.params.reference_temperature)
 
     @cached_property
     def by_points(self) -> Array | None:
         """Friction over that of the law [-] where points over temperature say it, else None."""
-        params = self.points.plan.params[0]
-        if params.friction_temperature != "points":
+        if self.params.friction_temperature != "points":
             return None
-        par, warm = prepare(params, "field"), self.points.input("oil_temperature").tolist()
+        par, warm = prepare(self.params, "field"), self.points.input("oil_temperature").tolist()
         return np.array([temperature_factor(par, t)[0] for t in warm])
 
     def warmed(self, values: Mapping[str, float]) -> Array:
@@ -252,98 +188,169 @@ class FrictionProblem(ModelProblem):
             return self.by_points
         return np.asarray(np.exp(values[WARMTH] * self.warmer))
 
-    def curve(self, guess: Array) -> Array:
-        """Return the coefficients [-] at the measured slip speeds and temperatures."""
-        return self.at_points(self.values(guess))
+    def friction(self, values: Mapping[str, float]) -> Array:
+        """Return the coefficients [-] of a law at the points."""
+        return np.asarray(self.over(values, self.speed) * self.warmed(values))
 
-    def at_points(self, values: Mapping[str, float]) -> Array:
-        """Return the coefficients [-] of a law at the measured points."""
-        return np.asarray(self.curve_over(values, self.speed) * self.warmed(values))
-
-    def curve_over(self, values: Mapping[str, float], speed: Array) -> Array:
+    def over(self, values: Mapping[str, float], speed: Array) -> Array:
         """Return the coefficients [-] of a law at slip speeds [m/s], at its temperature."""
         return friction_over(values, speed, self.is_constant)
 
-    def slopes_of_curve(self, guess: Array) -> Array:
-        """Return the derivatives of the curve, (points, constants)."""
-        values = self.values(guess)
-        slopes = friction_slopes(values, self.speed, self.names)
-        slopes = slopes * self.warmed(values)[:, None]
-        if WARMTH in self.names:
-            slopes[:, self.names.index(WARMTH)] = self.at_points(values) * self.warmer
+    def slopes(self, values: Mapping[str, float], names: Sequence[str]) -> Array:
+        """Return the derivatives of ``friction``, (points, names)."""
+        slopes = friction_slopes(values, self.speed, names) * self.warmed(values)[:, None]
+        if WARMTH in names:
+            slopes[:, list(names).index(WARMTH)] = self.friction(values) * self.warmer
         return np.asarray(slopes)
 
-    def starts(self, first: Array) -> list[Array]:
-        """Return the best points of a coarse search; the two weights follow by linear fits."""
-        if self.is_constant:
-            return []
-        grids = [self._candidates(i, float(first[i])) for i in range(len(self.names))]
-        linear = [i for i, name in enumerate(self.names) if name in LINEAR]
-        tried = []
-        for point in product(*grids):
-            guess = np.array(point)
-            if linear:
-                columns = self.slopes(guess)[:, linear]
-                guess[linear] += np.linalg.lstsq(columns, -self.misfit(guess), rcond=1e-10)[0]
-            guess = np.clip(guess, self.low, self.high)
-            tried.append((self.cost(guess), tuple(guess)))
-        return [np.array(point) for _, point in sorted(tried)[:N_STARTS]]
-
-    def missed_because(self, judged: list[Verdict]) -> str:
-        """Return what keeps the law from the points."""
-        if self.is_constant:
-            return 'friction changes with speed, take friction_law = "wang"'
-        return super().missed_because(judged)
-
-    def _candidates(self, index: int, first: float) -> list[float]:
-        """Return the values of one constant that the coarse search tries."""
-        name, low, high = self.names[index], self.low[index], self.high[index]
-        speeds = np.unique(self.speed)
-        values: Any = [first, *np.geomspace(max(low, 2.0), high, N_OTHER)]
-        if name in LINEAR:
-            return [0.5]
+    def matters(self, name: str) -> float:
+        """Return the fastest slip for a speed, the mean for a coefficient, 1 for a ratio."""
+        if name in SPEEDS:
+            return float(self.speed.max()) or 1.0
         if name == WARMTH:
-            return [first]
-        if name == "stick_speed":  # between neighbouring speeds the sum of squares is smooth
-            middles = 0.5 * (speeds[1:] + speeds[:-1])
-            ranks = np.linspace(0.0, 1.0, N_STICK)
-            values = [first, *(np.quantile(middles, ranks) if len(middles) else speeds)]
-        elif name == "decay_speed":
-            values = np.geomspace(0.03, 3.0, N_DECAY) * max(float(speeds[-1]), 1e-3)
-        elif name == "indentation":
-            values = [first, 0.03, 0.3]
-        return [float(v) for v in np.unique(np.clip(values, low, high))]
+            return 1e-3
+        return float(self.points.value.mean()) if name in CONSTANT_LAW else 1.0
 
-    def why_bound(self, best: Array, i: int, side: str) -> str:
-        """Return what would free the weight of the ploughing share."""
-        if self.names[i] != "plough_weight" or side != "lower":
-            return ""
-        return (
-            f" (friction at rest cannot be below the adhesive share alone, "
-            f"{shares(self.values(best))[1]:.4g}; a larger hardness_ratio lowers that)"
+
+def law_problem(points: Measured, asked: Asked) -> tuple[LawPoints, FitProblem, Array]:
+    """Return the points of a pack with the law, what is to be solved, and the guess before it."""
+    points, names = _with_law(points, asked)
+    law = LawPoints(points)
+    problem, first = problem_of(
+        points,
+        names,
+        asked.bounds,
+        changes={name: law.matters(name) for name in names},
+        typical=1.0,
+        computed=law.friction,
+        exact_slopes=law.slopes,
+        base=law_values(law.params),
+        terms=TERMS,
+        search=SEARCH,
+        starts=partial(_starts, law),
+        why_not=partial(_why_not, law),
+        why_bound=_why_bound,
+    )
+    return law, problem, first
+
+
+def _with_law(points: Measured, asked: Asked) -> tuple[Measured, tuple[str, ...]]:
+    """Return the points of a pack with the law, without what is not the law's; the constants.
+
+    A table gives way to the law, ``friction_scale`` to 1: the law is that of the points.
+    """
+    if points.names != ("friction",) or len(points.plan.params) > 1:
+        raise ParameterError("friction: allowed: without other outputs, all points of one pack")
+    params = points.plan.params[0]
+    law_of = "wang" if params.friction_law == "table" else params.friction_law
+    own, usual = (CONSTANT_LAW,) * 2 if law_of == "constant" else (WANG_CONSTANTS, SHAPE)
+    acting, warm = (*own, WARMTH), "oil_temperature" in {*asked.columns, *asked.at}
+    words = f"under friction_law {law_of!r}, which does not depend on load: {', '.join(acting)}"
+    names = chosen_names(usual if asked.fit is None else asked.fit, acting, words, asked.columns)
+    if WARMTH in names and not warm:
+        raise ParameterError(
+            f"oil_temperature is missing, required with {WARMTH}: the temperature each point "
+            "was measured at"
         )
+    load, mu, mean = points.input("load"), points.value, points.value.mean()
+    most, shear = LARGEST_FRICTION, np.zeros(len(mu))
+    _refuse(points, "load", load, load == 0.0, "above 0 N")
+    _refuse(points, "friction", mu, np.abs(mu) > most, f"{-most:g} .. {most:g}")
+    if mean <= 0.0:
+        raise ParameterError(
+            f"friction is {mean:.3g} on average, allowed: above 0 (for either sign of speed)"
+        )
+    if params.friction_temperature == "points" and set(names) & {WARMTH, *CONSTANT_LAW}:
+        raise ParameterError(
+            f"fit = {', '.join(names)}: friction_temperature = points stands in place of "
+            f"{WARMTH} and constant_friction, allowed: friction_temperature = slope"
+        )
+    written = _temperature_law(params, WARMTH in names)
+    params = replace(params, friction_law=law_of, friction_scale=1.0, **written)
+    if params.friction_data == "boundary":
+        if not warm:
+            raise ParameterError(
+                "oil_temperature is missing, required with friction_data = 'boundary': shear "
+                "of the oil is taken off the measured friction"
+            )
+        oil = points.input("oil_temperature")
+        shear = settled_shear(params, points.input("speed"), load, oil)
+        cure = (
+            "twice the shear of the settled film or more with friction_data = 'boundary'; "
+            "leave the point out, or take friction_data = 'total'"
+        )
+        _refuse(points, "friction", mu, shear > 0.5 * mu, cure)
+    plan = replace(points.plan, params=(params,), inputs=points.plan.inputs.copy())
+    if not warm:  # then they count as measured where the law holds
+        place = [s.name for s in plan.spec.inputs].index("oil_temperature")
+        plan.inputs[:, place] = params.reference_temperature
+    return replace(points, plan=plan, value=mu - shear), names
 
-    def why_not(self, best: Array, i: int) -> tuple[str, bool]:
-        """Return what the points' speeds leave out."""
-        name, fastest, slowest = self.names[i], self.speed.max(), self.speed.min()
-        if name == WARMTH:
-            told = float(np.ptp(self.warmer)) > 0.0
-            return ("" if told else "all points have one temperature"), False
-        stick = self.values(best)["stick_speed"]
-        if name in ("shear_floor", *SPEEDS) and fastest <= stick:
-            return (
-                f"all points lie below stick_speed ({stick:.4g} m/s; fastest slip {fastest:.4g} "
-                "m/s), where friction does not change with speed"
-            ), True
-        if fastest == slowest:
-            return f"all points have one slip speed ({fastest:.4g} m/s)", False
-        if name == "stick_speed" and slowest >= stick:
-            return f"all points lie above it (slowest slip {slowest:.4g} m/s)", False
-        return "", False
 
-    def drawn_over(self, output: str) -> dict[str, tuple[str, Array]]:
-        """Return slip speed and load of the points."""
-        return {"slip speed": ("m/s", self.speed), "load": ("N", self.load)}
+def _starts(law: LawPoints, problem: FitProblem, first: Array) -> list[Array]:
+    """Return the best points of a coarse search; the two weights follow by linear fits."""
+    if law.is_constant:
+        return []
+    grids = [_candidates(law, problem, i, float(first[i])) for i in range(len(first))]
+    linear = [i for i, name in enumerate(problem.names) if name in LINEAR]
+    tried = []
+    for point in product(*grids):
+        guess = np.array(point)
+        if linear:
+            columns = problem.slopes(guess)[:, linear]
+            guess[linear] += np.linalg.lstsq(columns, -problem.misfit(guess), rcond=1e-10)[0]
+        guess = np.clip(guess, problem.low, problem.high)
+        tried.append((problem.cost(guess), tuple(guess)))
+    return [np.array(point) for _, point in sorted(tried)[:N_STARTS]]
+
+
+def _candidates(law: LawPoints, problem: FitProblem, index: int, first: float) -> list[float]:
+    """Return the values of one constant that the coarse search tries."""
+    name, low, high = problem.names[index], problem.low[index], problem.high[index]
+    speeds = np.unique(law.speed)
+    values: Any = [first, *np.geomspace(max(low, 2.0), high, N_OTHER)]
+    if name in LINEAR:
+        return [0.5]
+    if name == WARMTH:
+        return [first]
+    if name == "stick_speed":  # between neighbouring speeds the sum of squares is smooth
+        middles = 0.5 * (speeds[1:] + speeds[:-1])
+        ranks = np.linspace(0.0, 1.0, N_STICK)
+        values = [first, *(np.quantile(middles, ranks) if len(middles) else speeds)]
+    elif name == "decay_speed":
+        values = np.geomspace(0.03, 3.0, N_DECAY) * max(float(speeds[-1]), 1e-3)
+    elif name == "indentation":
+        values = [first, 0.03, 0.3]
+    return [float(v) for v in np.unique(np.clip(values, low, high))]
+
+
+def _why_bound(problem: FitProblem, best: Array, i: int, side: str) -> str:
+    """Return what would free the weight of the ploughing share."""
+    if problem.names[i] != "plough_weight" or side != "lower":
+        return ""
+    return (
+        f" (friction at rest cannot be below the adhesive share alone, "
+        f"{shares(problem.values(best))[1]:.4g}; a larger hardness_ratio lowers that)"
+    )
+
+
+def _why_not(law: LawPoints, problem: FitProblem, best: Array, i: int) -> tuple[str, bool]:
+    """Return what the points' speeds leave out."""
+    name, fastest, slowest = problem.names[i], law.speed.max(), law.speed.min()
+    if name == WARMTH:
+        told = float(np.ptp(law.warmer)) > 0.0
+        return ("" if told else "all points have one temperature"), False
+    stick = problem.values(best)["stick_speed"]
+    if name in ("shear_floor", *SPEEDS) and fastest <= stick:
+        return (
+            f"all points lie below stick_speed ({stick:.4g} m/s; fastest slip {fastest:.4g} "
+            "m/s), where friction does not change with speed"
+        ), True
+    if fastest == slowest:
+        return f"all points have one slip speed ({fastest:.4g} m/s)", False
+    if name == "stick_speed" and slowest >= stick:
+        return f"all points lie above it (slowest slip {slowest:.4g} m/s)", False
+    return "", False
 
 
 def _temperature_law(params: ClutchParams, fits_slope: bool) -> dict[str, Any]:

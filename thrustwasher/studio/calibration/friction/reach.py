@@ -8,8 +8,9 @@ import numpy as np
 from ....clutch.parameters import ClutchParams
 from ....numerics.jit import Array
 from ..identifiability import listed
+from ..least_squares import FitProblem
 from ..model_fit import MATERIAL, SCATTERS
-from .friction_law import TABLE, FrictionProblem, end_frictions, friction_over
+from .friction_law import TABLE, LawPoints, end_frictions, friction_over
 
 RISE = 0.05  # of the mean friction: a smaller rise with speed is not worth one
 CHANCE = 1e-4  # probability below which a rise is not the scatter's; the place is searched for
@@ -24,7 +25,7 @@ LIMITS = {
 Reached = Callable[[Mapping[str, float]], bool]
 
 
-def rising(problem: FrictionProblem) -> str:
+def rising(law: LawPoints, problem: FitProblem) -> str:
     """Return a sentence if friction rises with speed in some range, clearly.
 
     The best curve that only falls is flat where the points rise; the flat piece that misses them
@@ -33,8 +34,8 @@ def rising(problem: FrictionProblem) -> str:
     from scipy.optimize import isotonic_regression
     from scipy.stats import linregress
 
-    order = np.lexsort((-problem.measured, problem.speed))  # one speed's points are no rise
-    speed, friction = problem.speed[order], problem.measured[order]
+    order = np.lexsort((-problem.measured, law.speed))  # one speed's points are no rise
+    speed, friction = law.speed[order], problem.measured[order]
     falling = isotonic_regression(friction, weights=problem.weight[order] ** 2, increasing=False)
     cost = (problem.weight[order] * (friction - falling.x)) ** 2
     worst = int(np.argmax(np.add.reduceat(cost, falling.blocks[:-1])))
@@ -46,26 +47,26 @@ def rising(problem: FrictionProblem) -> str:
     rise = float(trend.slope * np.ptp(speed))
     if rise < RISE * mean or not trend.pvalue < CHANCE:
         return ""
-    law = "the constant law cannot change" if problem.is_constant else "this law can only fall"
+    words = "the constant law cannot change" if law.is_constant else "this law can only fall"
     return (
         f"Friction rises with speed ({100 * rise / mean:.0f} % of its mean from {speed[0]:.4g} to "
-        f"{speed[-1]:.4g} m/s): {law}; {TABLE}."
+        f"{speed[-1]:.4g} m/s): {words}; {TABLE}."
     )
 
 
-def out_of_reach(problem: FrictionProblem, scatter: Array, side: int) -> str:
+def out_of_reach(law: LawPoints, problem: FitProblem, scatter: Array, side: int) -> str:
     """Return a sentence if points lie above (side 1) or below (-1) all the law can give, or "".
 
     ``scatter`` is the standard deviation of ``friction``, (points,).
     """
     measured = problem.measured
-    edge = problem.at_points(_corner(problem, side))
+    edge = law.friction(_corner(problem, side))
     beyond = side * (measured - edge) > np.maximum(SCATTERS * scatter, MATERIAL * measured.mean())
     if not beyond.any():
         return ""
 
     def reached(values: Mapping[str, float]) -> bool:
-        gap = side * (measured - problem.at_points(values))
+        gap = side * (measured - law.friction(values))
         return bool(np.all(gap <= 1e-12))
 
     count, total = int(np.count_nonzero(beyond)), len(beyond)
@@ -73,19 +74,19 @@ def out_of_reach(problem: FrictionProblem, scatter: Array, side: int) -> str:
     limits = f"at least {edge[beyond].min():.4g}, measured are down to {measured.min():.4g}"
     if side > 0:
         limits = f"at most {edge.max():.4g}, measured are up to {measured.max():.4g}"
-    stopped = _stopped(problem, side, problem.speed[beyond])
+    stopped = _stopped(problem, side, law.speed[beyond])
     cures = _cures(problem, side, reached)
     return f"The law cannot reach {these} (it gives {limits}): {stopped}. {cures}"
 
 
-def hidden_fall(problem: FrictionProblem, best: Array, first: Array) -> str:
+def hidden_fall(law: LawPoints, problem: FitProblem, best: Array, first: Array) -> str:
     """Return a sentence if the fit hides a fall it is forced to have below the slowest point.
 
     Points that all lie below the lowest possible friction at rest, and would be in the law's fall
     by the values before the fit, can be met by a fall that is over before the first of them.
     """
     lowest = end_frictions(_corner(problem, -1))[0]
-    highest, slowest = float(problem.measured.max()), float(problem.speed.min())
+    highest, slowest = float(problem.measured.max()), float(law.speed.min())
     left = [_fall_left(problem.values(guess), slowest) for guess in (first, best)]
     if highest >= lowest * (1.0 - MATERIAL) or left[0] < SEEN or left[1] > HIDDEN:
         return ""
@@ -99,7 +100,7 @@ def hidden_fall(problem: FrictionProblem, best: Array, first: Array) -> str:
     )
 
 
-def _corner(problem: FrictionProblem, side: int) -> dict[str, float]:
+def _corner(problem: FitProblem, side: int) -> dict[str, float]:
     """Return the law's numbers for its most (1) or minimum (-1) friction within the ranges."""
     ends = zip(problem.names, problem.low.tolist(), problem.high.tolist(), strict=True)
     base: dict[str, float] = dict(problem.base)
@@ -112,7 +113,7 @@ def _fall_left(values: Mapping[str, float], speed: float) -> float:
     return float(friction_over(unit, np.array([speed]))[0] / end_frictions(unit)[0])
 
 
-def _stopped(problem: FrictionProblem, side: int, speed: Array) -> str:
+def _stopped(problem: FitProblem, side: int, speed: Array) -> str:
     """Name the bounds without which the law would give more, or less, at slip speeds [m/s]."""
     corner, stopping = _corner(problem, side), []
     edge = friction_over(corner, speed)
@@ -124,7 +125,7 @@ def _stopped(problem: FrictionProblem, side: int, speed: Array) -> str:
     return " and ".join(stopping) or "none of the fitted constants acts on that"
 
 
-def _cures(problem: FrictionProblem, side: int, reached: Reached) -> str:
+def _cures(problem: FitProblem, side: int, reached: Reached) -> str:
     """Say which constants that are not fitted would help, and from which value on alone."""
     words, corner = [], _corner(problem, side)
     at_rest = end_frictions(corner)[0]

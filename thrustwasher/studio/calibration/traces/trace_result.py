@@ -7,6 +7,7 @@ import numpy as np
 
 from ....numerics.jit import Array
 from ....storage.digests import finite
+from ...evaluators.evaluator import texts
 from ..estimates import Calibration
 from ..measured import output_units
 from .patterns import Pattern
@@ -31,8 +32,11 @@ class TraceCalibration(Calibration):
     engagements: int  # how often the pack was pressed
     patterns: tuple[Pattern, ...]
     """Of each output: whether its residuals scatter, or hang together in time."""
-    notes: tuple[str, ...]
-    """What was read, and what torque can tell; sentences."""
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was read, and what torque can tell: the notes of ``remarks``, in words."""
+        return texts(self.remarks, "note")
 
     @property
     def time(self) -> Array:
@@ -52,10 +56,6 @@ class TraceCalibration(Calibration):
                 if len(values[0]):
                     found.append(HistoryOver(name, units[name], run.name, *values))
         return found
-
-    def remarks(self) -> list[str]:
-        """Return sentences on what was read and what the recordings tell."""
-        return list(self.notes)
 
     def to_dict(self) -> dict[str, Any]:
         """Return what JSON can hold; None stands for infinite and for not known."""

@@ -104,6 +104,14 @@ class Traced(Measured):
         """Return None: along a time history there are differences only."""
         return None
 
+    def drawn_over(self, output: str) -> dict[str, tuple[str, Array]]:
+        """Return the time of every value (n,), the recordings one after the other."""
+        parts, end = [], 0.0
+        for run in self.runs:
+            parts.append(run.time - run.time[0] + end)
+            end = float(parts[-1][-1]) + 0.05 * float(run.time[-1] - run.time[0])
+        return {"time": ("s", np.concatenate(parts)[self.row])}
+
     def parts(self, output: str, values: Array) -> list[Array]:
         """Return numbers of all values as those of one output, run by run in time."""
         mine, place = self.of(output), self.run_of

@@ -33,8 +33,8 @@ PLACES = {
             "sump",
         },
         "shift.checks.capacity": {"transmission"},
-        "shift.checks.holding": {"clutch", "transmission"},
-        "shift.checks.run_doubts": {"washer"},
+        "shift.checks.rule_data": {"clutch", "transmission", "washer"},
+        "shift.checks.run_doubts": {"clutch"},
         "shift.scene.profile_file": {"transmission"},
         "shift.scene.doubts": {"clutch", "gearmesh", "transmission"},
         "shift.scene.places": {"transmission"},
@@ -66,9 +66,6 @@ PLACES = {
         "train.train_file": {"gearmesh"},
     },
     "a gearbox is a shift's scene or a train": {"studio.commands.efficiency": {"train"}},
-    "the page has the ranges of packs and washers that a shift warns of": {
-        "studio.explore.scene_warnings": {"clutch", "washer", "transmission"},
-    },
     "its page writes profiles into the transmission's parameters": {
         "studio.explore.scene_data": {"transmission"},
     },

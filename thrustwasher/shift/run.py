@@ -10,8 +10,7 @@ import numpy as np
 from ..errors import ParameterError, SolveError
 from ..model.parameters import as_numbers
 from ..numerics.jit import Array
-from .checks.holding import doubts_of_packs, failed_because
-from .checks.run_doubts import doubts
+from .checks.run_doubts import doubts, failed_because
 from .cosim.loop import Recorder, Run, advance_in_python
 from .cosim.schedule import Correct
 from .cosim.system import ConnectedPart, Stepping, System, capable
@@ -159,11 +158,7 @@ def result_of(
         overhead=wall - sum(c.wall_time for c in cost),
         real_time_factor=(scene.stop_time - scene.start_time) / wall,
         messages=[*messages, *thrust_remarks(scene, signals)],
-        found=(
-            *found,
-            *doubts(scene, step, time, signals),
-            *doubts_of_packs(scene, time, signals, events, figures),
-        ),
+        found=(*found, *doubts(scene, step, time, signals, events, figures)),
         judder=judder,
         chatter=find_chatter(scene, time, signals, step),
     )

@@ -15,7 +15,7 @@ from ..errors import ParameterError, SolveError
 from ..shown import Card, Line, Tabled, Words, plain_dict
 from ..transmission.parameters import profile_points
 from ..units import format_quantity
-from .account.summary import warnings_of
+from .account.summary import warnings_of_result
 from .checks.guard import REMEDY, followed_washers
 from .checks.step_error import by_step, parts_of_a_step, recorded_parts
 from .checks.step_estimate import StepError, excess
@@ -67,7 +67,7 @@ class SequenceResult(Tabled):
     @property
     def warnings(self) -> tuple[str, ...]:
         """What must not be missed, a line each; of shifts alike, that of the first."""
-        return tuple(warnings_of(self))
+        return tuple(warnings_of_result(self))
 
     @property
     def step_error(self) -> StepError | None:

@@ -12,7 +12,7 @@ from ..errors import ParameterError
 from ..shown import Card, Line, Tabled, Words, plain_dict
 from ..storage.whole_files import whole_file
 from .account.shift_record import record_of
-from .account.summary import sentences, warnings_of
+from .account.summary import sentences, warnings_of_result
 from .checks.step_estimate import StepError
 from .key_figures.events_and_phases import Event, Phase
 from .key_figures.figure_list import KeyFigure
@@ -100,7 +100,7 @@ class ShiftResult(Tabled):
     @property
     def warnings(self) -> tuple[str, ...]:
         """What must not be missed, a line each, the most severe first."""
-        return tuple(warnings_of(self)) if self.said is None else self.said
+        return tuple(warnings_of_result(self)) if self.said is None else self.said
 
     def comparison(self) -> list[dict[str, Any]]:
         """Return the source's values for comparison with this run: one entry per key figure."""

@@ -1,17 +1,23 @@
-"""Texts of warnings of a shift, from ``warning_texts.toml``; the page of a scene has the same."""
+"""Warnings of a shift by the rules of ``warnings.toml``; the page of a scene has the same."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from ..model.toml_tables import table_beside
 from ..units import format_quantity
+from .expressions import Missing, Scope, Tree, parsed
 
-_TABLES: dict[str, dict[str, str]] = table_beside(__file__, "warning_texts.toml")
-KINDS = tuple(_TABLES)  # the most severe first
-TEXTS = {key: text for table in _TABLES.values() for key, text in table.items()}
-RANKS = {key: rank for rank, table in enumerate(_TABLES.values()) for key in table}
+_TABLES: dict[str, dict[str, Any]] = table_beside(__file__, "warnings.toml")
+KINDS = ("shift", "parts", "other")  # the most severe first
+LIMITS: dict[str, float] = _TABLES.pop("limits")
+TEXTS = {key: x["text"] for key, x in _TABLES.items() if isinstance(x.get("text"), str)}
 FIELD = re.compile(r"{(\w+)(?::([^}]*))?}")
 NUMBER = re.compile(r"(\.\d+)?[gf%]")  # a format of Python's; any other is a unit, and digits
+OF_RULE = ("of", "rank", "each", "sort", "when", "text")
 
 
 class Ranked(str):
@@ -26,9 +32,19 @@ class Ranked(str):
         made.rank = rank
         return made
 
-    def __add__(self, more: str) -> "Ranked":
-        """Return the text with more behind it, as severe as it was."""
-        return Ranked(str(self) + more, self.rank)
+
+class Rule(NamedTuple):
+    """When a warning is given and what it says; JSON types."""
+
+    key: str
+    of: tuple[str, ...]
+    rank: int
+    each: str
+    sort: str
+    when: Tree
+    text: list[tuple[Tree, str]]
+    """Pieces, each with the condition on which it is told; None: always."""
+    figures: dict[str, Tree]
 
 
 def rank_of(text: str) -> int:
@@ -41,20 +57,93 @@ def severest_first(warnings: Iterable[str]) -> list[str]:
     return sorted(warnings, key=rank_of)
 
 
-def warning(key: str, rank: int | None = None, /, **values: object) -> Ranked:
-    """Return the text of that key with values in SI units; ``rank``: not that of its table.
+def text_of(key: str, **values: object) -> str:
+    """Return the text of a rule that is one sentence, with values in SI units.
 
-    >>> warning("why_numerical", every=1.5)
-    'a lock-up every 1.5 steps, which is numerical: their number follows the step'
+    >>> text_of("hot_part", part="clutch", limit=470.0)
+    'clutch is hotter than 470 K'
     """
+    return _filled(TEXTS[key], values)
+
+
+@cache
+def figures() -> dict[str, Tree]:
+    """Return the figures that all rules know."""
+    return {name: parsed(text) for name, text in _TABLES["figures"].items()}
+
+
+@cache
+def rules() -> tuple[Rule, ...]:
+    """Return the rules in the order of their warnings."""
+    found = []
+    for key, table in _TABLES.items():
+        if "when" in table:
+            pieces = [table["text"]] if isinstance(table["text"], str) else table["text"]
+            told = [(None, p) if isinstance(p, str) else (parsed(p[0]), p[1]) for p in pieces]
+            own = {name: parsed(text) for name, text in table.items() if name not in OF_RULE}
+            of, rank = tuple(table.get("of", "run").split()), KINDS.index(table["rank"])
+            each, sort = table.get("each", ""), table.get("sort", "")
+            found.append(Rule(key, of, rank, each, sort, parsed(table["when"]), told, own))
+    return tuple(found)
+
+
+def scope_of(values: Mapping[str, Any], signals: Mapping[str, Any] | None = None) -> Scope:
+    """Return what expressions of rules know of a run."""
+    return Scope({**LIMITS, **values}, figures(), signals=signals)
+
+
+def warnings_of(of: str, run: Scope) -> Iterator[Ranked]:
+    """Yield the warnings of a run by the rules of "run", "record", "scene" or "failed"."""
+    with np.errstate(all="ignore"):  # what divides by nothing is not told
+        for rule in rules():
+            if of in rule.of:
+                yield from _of_rule(rule, run)
+
+
+def _of_rule(rule: Rule, run: Scope) -> list[Ranked]:
+    found = []
+    for row in run[rule.each] if rule.each else [{}]:
+        own = Scope(row, rule.figures, run)
+        try:
+            if own.evaluated(rule.when):
+                run.warned.add((rule.key, str(row.get("pack"))))
+                text = "".join(
+                    _told(piece, own) for holds, piece in rule.text if _holds(holds, own)
+                )
+                found.append(
+                    (own[rule.sort] if rule.sort else 0, Ranked(text, row.get("rank", rule.rank)))
+                )
+        except Missing:
+            continue
+    return [line for _, line in sorted(found, key=lambda one: one[0])]
+
+
+def _holds(condition: Tree, own: Scope) -> bool:
+    return condition is None or bool(own.evaluated(condition))
+
+
+def _told(piece: str, own: Scope) -> str:
+    text = own[piece[1:]] if piece.startswith("@") else piece
+    return _filled(text, own)
+
+
+def _filled(text: str, values: Any) -> str:
+    """Return a text with its values."""
 
     def filled(found: re.Match[str]) -> str:
         value, form = values[found[1]], found[2]
+        if isinstance(value, tuple):
+            return _quantity(*value)
         if not form:
             return str(value)
         if NUMBER.fullmatch(form):
             return format(value, form)
         unit, _, digits = form.partition(",")
-        return format_quantity(float(value), unit, digits=int(digits or 4))  # type: ignore[arg-type]
+        return format_quantity(float(value), unit, digits=int(digits or 4))
 
-    return Ranked(FIELD.sub(filled, TEXTS[key]), RANKS[key] if rank is None else rank)
+    return FIELD.sub(filled, text)
+
+
+def _quantity(value: float, unit: str, name: str = "", relative: bool = False) -> str:
+    words = format_quantity(float(value), unit, difference=relative)
+    return f"{name} = {words}" if name else words

@@ -35,8 +35,8 @@ const answers = runs.map(({ profiles = {}, washers, draw = null }) => {
     do step = steps.next();
     while (!step.done);
     const { figures, warnings } = step.value;
-    const told = warnings.map((parts) => parts.map((own) => textOf(about.warnings.texts, own, say)).join(""));
-    return { figures, warnings: told, keys: warnings.map(([[key]]) => key) };
+    const told = warnings.map(({ pieces }) => textOf(pieces, say));
+    return { figures, warnings: told, keys: warnings.map(({ key }) => key) };
   } catch (problem) {
     return { problem: problem.message };
   }

@@ -5,6 +5,7 @@ import functools
 import hashlib
 import json
 import re
+import textwrap
 
 import numpy as np
 import pytest
@@ -275,3 +276,45 @@ def test_what_only_a_run_outside_of_the_page_can_check_is_named():
     about = told("planetary")["warnings"]
     assert "the error of the communication step" in about["checked_outside"]
     assert load_scene("planetary").warnings == tuple(about["of_scene"])
+
+
+def random_scene(seed):
+    """Return a scene's file, most of whose runs are not what was meant, the same each time."""
+    rng = np.random.default_rng(seed)
+    start, stop = rng.uniform(-0.1, 0.15), rng.uniform(0.5, 1.4)
+    end, full = rng.uniform(0.3, 1.2), rng.uniform(1e5, 9e5)
+    gone, held = rng.uniform(0.15, 0.6), rng.uniform(1e5, 8e5)
+    return f"""
+        base = "planetary"
+        oil_temperature = {rng.uniform(270.0, 390.0)}
+        start_time = {start}
+        stop_time = {stop}
+        step = {rng.choice([1e-3, 7e-3])}
+        losses = false
+        [transmission]
+        washers = {rng.choice([0, 8])}
+        thrust_share = {rng.choice([0.0, 1.0])}
+        [brake]
+        friction_law = "{rng.choice(["table", "wang"])}"
+        starts_pressed = {str(rng.random() < 0.7).lower()}
+        [pressure.brake]
+        points = [[0.0, {held}], [{gone - 0.1}, {held}], [{gone}, 0.0]]
+        [pressure.clutch]
+        points = [[0.1, 0.0], [0.11, 4e4], [{end - 0.15}, 4e4], [{end}, {full}]]
+        [engine]
+        torque_scale = {rng.uniform(0.3, 1.1)}
+    """
+
+
+@node
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(12))
+def test_random_scenes_give_the_same_warnings_on_both_sides(seed, tmp_path):
+    path = tmp_path / "random.toml"
+    path.write_text(textwrap.dedent(random_scene(seed)), "utf-8")
+    try:
+        run = nominal(str(path))
+    except (ParameterError, SolveError):
+        pytest.skip("it does not run")
+    (found,) = page_runs(str(path), [{"washers": ""}])
+    assert found["warnings"] == at_once(run)

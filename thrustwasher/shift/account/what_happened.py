@@ -4,7 +4,7 @@ import math
 from functools import partial
 
 from ...units import format_quantity
-from ..warning_texts import warning
+from ..warning_texts import text_of
 from .shift_record import Record
 from .worst_moments import highest, of_meshes
 
@@ -179,7 +179,7 @@ def stress_words(r: Record, over: float = 0.0) -> str:
     """Return the maximum stress over endurance of the steels where it is above ``over``."""
     margins = {steel: r.figures.get(f"stress_margin_aisi{steel}") for steel in STEELS}
     return " and ".join(
-        warning("endures", times=1.0 - margin, steel=steel)
+        text_of("endures", times=1.0 - margin, steel=steel)
         for steel, margin in margins.items()
         if not r.rated_teeth and margin is not None and 1.0 - margin > over
     )

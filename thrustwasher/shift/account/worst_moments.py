@@ -8,11 +8,10 @@ import numpy as np
 
 from ...errors import ParameterError, SolveError
 from ...model.registry import models_with_points
+from ..checks.rule_data import LEAST_LOAD
 from ..key_figures.figure_list import FILM_SPEED
 from .shift_record import Part, Record
 
-TURNING = 1.0  # [rad/s] a washer slower than this needs no film
-LEAST_LOAD = 1.0  # [N] the washer in a run takes a smaller load as this
 WITH_FIELDS = ("field", "fine")  # levels that leave maps over the washer
 
 Find = Callable[[Record], float | None]
@@ -35,21 +34,10 @@ def highest(record: Record, name: str) -> Extreme | None:
 
 def worst_film(record: Record) -> Extreme | None:
     """Return the washer's minimum film ratio above FILM_SPEED; None without such a time."""
-    return _least(record, "film_ratio", FILM_SPEED, -np.inf)
-
-
-def least_margin(record: Record) -> Extreme | None:
-    """Return the minimum `stick_margin` of a washer that turns under load; None without any."""
-    return _least(record, "stick_margin", TURNING, LEAST_LOAD)
-
-
-def _least(record: Record, name: str, speed: float, load: float) -> Extreme | None:
-    """Return an output's minimum value where the washer is faster and carries more than this."""
-    found = [record.series(f"washer.{n}") for n in (name, "speed", "load")]
-    if any(values is None for values in found):
+    values, turns = (record.series(f"washer.{n}") for n in ("film_ratio", "speed"))
+    if values is None or turns is None:
         return None
-    values, turns, pressed = map(np.asarray, found)
-    where = np.flatnonzero((np.abs(turns) > speed) & (pressed > load))
+    where = np.flatnonzero(np.abs(turns) > FILM_SPEED)
     if not where.size:
         return None
     index = where[np.argmin(values[where])]

@@ -12,7 +12,7 @@ from ...numerics.jit import Array
 from ...transmission.kernels.shift_figures import held_from, standstill
 from ..scene.connections import PACKS
 from ..scene.scene import Scene
-from ..warning_texts import warning
+from ..warning_texts import text_of
 
 Signals = dict[str, Array]
 STANDSTILL = 1.0  # rad/s
@@ -72,7 +72,7 @@ def find_events(scene: Scene, time: Array, signals: Signals) -> list[Event]:
         hot = np.flatnonzero(signals[f"{part}.{signal.name}"] > limit)
         if len(hot):
             when = float(time[hot[0]])
-            found.append(Event(when, f"{part}_hot", warning("hot_part", part=part, limit=limit)))
+            found.append(Event(when, f"{part}_hot", text_of("hot_part", part=part, limit=limit)))
     return sorted([*found, *_of_pistons(scene, time, signals)], key=lambda e: e.time)
 
 

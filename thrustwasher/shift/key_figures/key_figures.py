@@ -10,6 +10,7 @@ from ...transmission.kernels import shift_figures as K
 from ..oscillation.judder import Judder, judder_figures
 from ..scene.connections import MESHES, PACKS, SPEED
 from ..scene.scene import Scene
+from ..warning_texts import scope_of
 from .comfort import comfort_figures, phase_figures
 from .events_and_phases import Event, Signals, lock_up, turning
 from .figure_list import FIGURES, FILM_SPEED, Found, KeyFigure, assemble
@@ -21,7 +22,6 @@ LOSSES = {  # figure -> source of loss
     "rolling_loss": "bearing",
     "seal_loss": "seal",
 }
-TIE_UP_SHARE = 0.1  # of the torque held before: less is a handover that overlaps a little
 
 
 def key_figures(
@@ -297,25 +297,14 @@ def tie_up_figures(scene: Scene, time: Array, signals: Signals) -> Found:
     It begins when the torque of the pack that lets go changes its sign, and ends when that pack is
     no longer pressed. The heat is what it takes up meanwhile.
     """
-    other, start = scene.releasing, scene.shift_start
-    torque = signals[f"transmission.{other}_reaction"]
-    held = float(np.interp(start, time, torque))
-    against = -np.sign(held) * torque
-    pressed = signals[f"transmission.{other}_load"] > 0.0
-    during = np.flatnonzero((time > start) & pressed & (against > 0.0))
-    if not len(during) or np.max(against[during]) <= TIE_UP_SHARE * abs(held):
+    names = {"time": time, "releasing": scene.releasing, "shift_start": scene.shift_start}
+    run = scope_of(names, signals)
+    if not run["ties"]:
         return {}
-    first = int(during[0])
-    begin = float(np.interp(0.0, against[first - 1 : first + 1], time[first - 1 : first + 1]))
-    free = np.flatnonzero((time > time[first]) & ~(pressed & (against > 0.0)))
-    last = int(free[0]) if len(free) else len(time) - 1
-    carried = np.copysign(carried_torque(other, signals), torque)
-    most = first + int(np.argmax(-np.sign(held) * carried[first : last + 1]))
-    heat = signals[f"transmission.{other}_heat"]
     return {
-        "tie_up_duration": (float(time[last]) - begin, begin),
-        "tie_up_torque": (float(carried[most]), float(time[most])),
-        "tie_up_heat": (float(heat[last] - heat[first - 1]), None),
+        "tie_up_duration": (float(run["tie_up_duration"]), float(run["tie_up_begin"])),
+        "tie_up_torque": (float(run["tie_up_torque"]), float(run["tie_up_time"])),
+        "tie_up_heat": (float(run["tie_up_heat"]), None),
     }
 
 

@@ -10,7 +10,7 @@ from ...gearmesh.parameters import GearMeshParams
 from ...gearmesh.plausibility import doubts_of_parameters
 from ...model.idle import idle_warnings
 from ...transmission.parameters import PROFILES, profile_points
-from ..warning_texts import warning
+from ..warning_texts import scope_of, warnings_of
 from .connections import MESHES
 from .scene import Part, Scene
 
@@ -26,10 +26,14 @@ def doubts(scene: Scene) -> Iterator[str]:
     yield from _of_bearings(scene, gearbox)
     yield from _of_meshes(scene)
     yield from idle_parameters(scene)
-    for name in PROFILES:
-        last = [t for t, _ in profile_points(gearbox, name)][-1:]
-        if last and last[0] > scene.stop_time:
-            yield warning("cut_off", profile=name, last=last[0], stop=scene.stop_time)
+    values = {"profiles": profile_rows(gearbox), "stop_time": scene.stop_time}
+    yield from warnings_of("scene", scope_of(values))
+
+
+def profile_rows(gearbox: Any) -> list[dict[str, Any]]:
+    """Return the profiles of a transmission's parameters with their last times [s]."""
+    last = {name: profile_points(gearbox, name)[-1:] for name in PROFILES}
+    return [{"profile": name, "last": points[0][0]} for name, points in last.items() if points]
 
 
 def idle_parameters(scene: Scene) -> Iterator[str]:

@@ -5,18 +5,22 @@ import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 from ...cli.common import _options, _output
 from ...cli.common._options import option_name
 from ...cli.common._table import read_columns
 from ...errors import ParameterError, SolveError
 from ...model.levels import level_named
-from ...model.part_file import PartFile
 from ...model.quantity import Quantity
 from ...model.registry import find_model, models_with_points
 from ...model.spec import ModelSpec
 from ...settings import places, split_settings
+
+if TYPE_CHECKING:
+    from ..sweep.run_plan import RunPlan
+    from ..sweep.sweep_plan import Plan
 
 VALUES = "NAME=VALUES, e.g. load=50:1850:50 or speed=136,545"
 HELP = "solve a model over ranges of inputs and parameters"
@@ -82,14 +86,16 @@ def run(arguments: argparse.Namespace) -> int:
     part = _options.with_oil(
         arguments, part, (*at, *(n.partition("[")[0].strip() for n in over), *(points or ()))
     )
-    return _sweep(
-        arguments, part, over, at, points, _progress(spec), lambda: _options.tell_oil(part)
-    )
+    from ..sweep.sweep_plan import make_plan
+
+    plan = partial(make_plan, part, over, at, points, None, arguments.fidelity)
+    return _sweep(arguments, plan, _progress(spec), lambda: _options.tell_oil(part))
 
 
 def _run_engagements(arguments: argparse.Namespace) -> int:
     """Sweep engagements of a wet pack."""
     from ..evaluators.make import engagements
+    from ..sweep.run_plan import make_run_plan
 
     part = _options.solvable(arguments.part or "clutch", arguments.preset)
     if arguments.fidelity is not None:
@@ -100,50 +106,46 @@ def _run_engagements(arguments: argparse.Namespace) -> int:
     over = split_settings(arguments.over, "--over", VALUES)
     points = _points(arguments, evaluator.quantities) if arguments.points else None
     show = _output.time_left("sweep engage:")
-    return _sweep(arguments, evaluator, over, at, points, show, lambda: _options.tell_oil(part))
+    plan = partial(make_run_plan, evaluator, over, at, points)
+    return _sweep(arguments, plan, show, lambda: _options.tell_oil(part))
 
 
 def _run_scene(arguments: argparse.Namespace) -> int:
     """Sweep gear shifts."""
     from ...shift import load_scene
-    from ..evaluators.make import evaluator
+    from ..evaluators.scene import scene_evaluator
+    from ..sweep.run_plan import make_run_plan
 
     unused = (*_options.inputs_of_all_models(), "preset", "fidelity")
     _options.refuse_unused(arguments, "a scene", unused)
-    found = evaluator(load_scene(arguments.model, arguments.oil))
+    found = scene_evaluator(load_scene(arguments.model, arguments.oil))
     at = split_settings(arguments.settings, "--set", VALUES)
     over = split_settings(arguments.over, "--over", VALUES)
     points = _points(arguments, found.quantities) if arguments.points else None
     show = _output.time_left(f"sweep {found.name}:")
-    return _sweep(arguments, found, over, at, points, show, lambda: None)
+    plan = partial(make_run_plan, found, over, at, points)
+    return _sweep(arguments, plan, show, lambda: None)
 
 
 def _sweep(
     arguments: argparse.Namespace,
-    target: Any,
-    over: dict[str, str],
-    at: dict[str, str],
-    points: dict[str, Any] | None,
+    plan: "Callable[[], Plan | RunPlan]",
     show: Callable[[int, int], None],
     tell: Callable[[], None],
 ) -> int:
     """Sweep, then write the table and say how it went."""
-    from ..sweep.run_sweep import journal_of, run_sweep
-    from ..sweep.sweep_table import write_csv
+    from ..sweep.run_sweep import journal_of, run_planned
+    from ..sweep.sweep_table import check_output, write_csv
 
     out = None
     if arguments.out:
-        out = _output.check_file(arguments.out, "--out", (".csv", ".parquet"))
+        out = check_output(_output.check_file(arguments.out, "--out", (".csv", ".parquet")))
     began = time.perf_counter()
     journal = journal_of(out) if out else None
     with _output.going_on(arguments, journal, show) as progress:
-        table = run_sweep(
-            target,
-            over,
-            at=at,
-            points=points,
-            fidelity=arguments.fidelity if isinstance(target, PartFile) else None,
-            out=out,
+        table = run_planned(
+            plan(),
+            out,
             workers=arguments.workers,
             cluster=arguments.cluster,
             progress=progress,

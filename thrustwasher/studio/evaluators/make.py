@@ -15,6 +15,12 @@ from ...settings import find_place, places
 if TYPE_CHECKING:
     from ...shift.scene.scene import Scene
 
+# kind -> where it scatters, and how
+EXAMPLES = {
+    "part": ("part file", 'load = "5 %"'),
+    "scene": ("scene", 'oil_temperature = "3 K"'),
+}
+
 
 def evaluator(
     target: "str | Path | PartFile | Scene | Callable[..., Any]",
@@ -36,7 +42,6 @@ def evaluator(
     Raises
     ------
     ParameterError : there is no such part or scene, or something is not allowed
-    SolveError : a scene's nominal run fails
     """
     if callable(target):
         if at:
@@ -67,29 +72,15 @@ def scattering(
 
     ``scatter``: instead of its own; what is wrong with it is said before a scene is run.
     """
-    if callable(target):
-        of_function = evaluator(target, at=at, table=scatter)
-        return of_function, of_function.scattered()
-    found: Any = part_or_scene(str(target)) if isinstance(target, str | Path) else target
-    if isinstance(found, PartFile):
-        drawn = found.scattered(scatter, inputs_of(found, at or {}))
-        _refuse_nothing(drawn, "part file", 'load = "5 %"')
-    elif not at:
-        from ...shift.scene.places import scene_scatter
-
-        drawn = scene_scatter(found, scatter)
-        _refuse_nothing(drawn, "scene", 'oil_temperature = "3 K"')
-    else:
-        drawn = Scatter()
-    return evaluator(found, at=at, reached=reached), drawn
-
-
-def _refuse_nothing(scatter: Scatter, what: str, example: str) -> None:
-    if not scatter.sources:
+    made = evaluator(target, at=at, reached=reached, table=scatter)
+    drawn = made.scattered(scatter)
+    if made.kind in EXAMPLES and not drawn.sources:
+        what, example = EXAMPLES[made.kind]
         raise ParameterError(
             f"nothing scatters: add [scatter] to the {what}, such as {example}; in Python "
-            "scatter = {name: law, ...}" + "".join(f" ({text})" for text in scatter.warnings)
+            "scatter = {name: law, ...}" + "".join(f" ({text})" for text in drawn.warnings)
         )
+    return made, drawn
 
 
 def engagements(

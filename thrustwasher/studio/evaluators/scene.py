@@ -17,7 +17,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import ExitStack, suppress
 from functools import cached_property, partial
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -83,8 +83,24 @@ class _Failed(Exception):
         self.code = code
 
 
+class _Nominal(NamedTuple):
+    """What is kept of the run of a scene as it is."""
+
+    scene: Scene
+    """With the levels that it ran with."""
+    played: dict[str, Any]
+    """Its washers as recorded."""
+    errors: dict[str, float]
+    """Numerical errors of figures, relative."""
+    figures: tuple[Figure, ...]
+    outcomes: tuple[str, ...]
+    series: tuple[str, ...]
+    values: Array
+    """Figures, outcomes, then signals over time."""
+
+
 class SceneEvaluator:
-    """A scene as what is evaluated; made by ``scene_evaluator``.
+    """A scene as what is evaluated; made by ``scene_evaluator``, run as it is when first asked.
 
     ``played`` are its washers as the nominal run has recorded them; {}: every run is a full one.
     """
@@ -93,24 +109,38 @@ class SceneEvaluator:
     reasons = REASONS
     remarks: tuple[Remark, ...] = ()
 
-    def __init__(self, scene: Scene, nominal: ShiftResult, errors: Mapping[str, float]) -> None:
-        self.scene, self.name = scene, scene.name
-        self._errors = dict(errors)
+    def __init__(self, scene: Scene) -> None:
+        self._given, self.name = scene, scene.name
         self._washers = tuple(n for n in DIRECT if n in scene.parts)
-        self._paths = _paths(scene)
         self._loop: Loop | None = None
         self._whole: Loop | None = None
-        self.played: dict[str, Any] = recorded_parts(scene, nominal.time, nominal.signals)
+        self._full = False
         self.shortcut: dict[str, float] = {}
         """Its largest error by figure, relative to the band."""
         self.time = np.linspace(scene.start_time, scene.stop_time, N_TIME)
-        self._real, self._outcomes = figures_of(nominal), outcomes_of(scene)
-        self._series = series_of(nominal)
-        self._nominal = self._read(scene, nominal.time, nominal.signals)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return what goes to workers: instances are made where they run."""
-        return self.__dict__ | {"_loop": None, "_whole": None}
+        """Return what goes to workers: its own run, while instances are made where they run."""
+        return self.__dict__ | {"_loop": None, "_whole": None, "_run": self._run}
+
+    @cached_property
+    def _run(self) -> _Nominal:
+        return _nominal_run(self._given, self._paths, self.time)
+
+    @cached_property
+    def _paths(self) -> dict[str, Path]:
+        return fmu_paths(sorted({p.spec.name for p in self._given.parts.values()}), "native")
+
+    @cached_property
+    def scene(self) -> Scene:
+        """The scene with the levels that it runs with."""
+        chosen = any(part.tolerance for part in self._given.parts.values())
+        return self._run.scene if chosen else _mapless(self._given)
+
+    @property
+    def played(self) -> dict[str, Any]:
+        """The washers as recorded; {}: runs are full."""
+        return {} if self._full else self._run.played
 
     @cached_property
     def quantities(self) -> dict[str, Quantity]:
@@ -120,13 +150,15 @@ class SceneEvaluator:
     @cached_property
     def figures(self) -> dict[str, Figure]:
         """Key figures of its own run, and outcomes."""
-        found = {f.name: f for f in self._real}
-        return found | {n: Figure(n, "1", "", kind="outcome") for n in self._outcomes}
+        found = {f.name: f for f in self._run.figures}
+        return found | {n: Figure(n, "1", "", kind="outcome") for n in self._run.outcomes}
 
     @property
     def costly(self) -> tuple[str, ...]:
         """The washers' figures; () where runs are full."""
-        return tuple(f.name for f in self._real if is_of_washers(f.name)) if self.played else ()
+        return (
+            tuple(f.name for f in self._run.figures if is_of_washers(f.name)) if self.played else ()
+        )
 
     @property
     def identity(self) -> dict[str, str]:
@@ -149,7 +181,7 @@ class SceneEvaluator:
             for s in part.spec.outputs
         }
         known["vehicle.acceleration"] = "m/s2"
-        return {name: known.get(name, "") for name in self._series}
+        return {name: known.get(name, "") for name in self._run.series}
 
     def touches(self, source: str) -> bool:
         """Tell if any figure but the costly ones depends on a quantity."""
@@ -170,11 +202,12 @@ class SceneEvaluator:
 
     def error(self) -> dict[str, float]:
         """Return the numerical error of figures for which it is known, relative."""
-        return {f.name: self._errors[f.name] for f in self._real if f.name in self._errors}
+        errors = self._run.errors
+        return {f.name: errors[f.name] for f in self._run.figures if f.name in errors}
 
     def nominal(self, figures: Sequence[str], signals: Sequence[str]) -> Answers:
         """Return the run with all values as they are, its washers solved in every step."""
-        return self._chosen(self._nominal[np.newaxis], np.zeros(1, np.int32), figures, signals)
+        return self._chosen(self._run.values[np.newaxis], np.zeros(1, np.int32), figures, signals)
 
     def evaluate(
         self,
@@ -188,7 +221,7 @@ class SceneEvaluator:
         A costly row runs twice, at last with its own washers' torque; later rows with the same
         washers run with that torque, others with that of the nominal run.
         """
-        answers = np.full((len(rows), len(self._nominal)), np.nan)
+        answers = np.full((len(rows), len(self._run.values)), np.nan)
         codes = np.zeros(len(rows), np.int32)
         asks = LOST in figures or any(is_of_washers(name) for name in figures)
         asks = asks or any(name in WASHER_SERIES for name in signals)
@@ -215,7 +248,7 @@ class SceneEvaluator:
 
     def scattered(self, table: Mapping[str, Any] | None = None, row: Row | None = None) -> Scatter:
         """Return how it scatters, at its values or at those of a row."""
-        scene = self.scene if row is None else varied_scene(self.scene, row)
+        scene = self._given if row is None else varied_scene(self.scene, row)
         return scene_scatter(scene, table)
 
     def under(self, scatter: Scatter, figures: Sequence[str]) -> "SceneEvaluator":
@@ -275,11 +308,11 @@ class SceneEvaluator:
 
     def all_answers(self, loop: Loop, rows: Sequence[Row]) -> Array:
         """Return what runs give (n, m), all figures first; NaN where one fails."""
-        found = np.full((len(rows), len(self._nominal)), np.nan)
+        found = np.full((len(rows), len(self._run.values)), np.nan)
         for i, row in enumerate(rows):
             with suppress(_Failed):
                 found[i] = self.answer(loop, row, True, {})
-        return found[:, : len(self._real)]
+        return found[:, : len(self._run.figures)]
 
     def _step_error(self, row: Row) -> StepError:
         """Return what the communication step errs by with other values, the washers in the loop.
@@ -296,9 +329,9 @@ class SceneEvaluator:
 
     def _learn(self, error: Array, band: Array, figures: Sequence[str]) -> None:
         """Take over what the shortcut errs by, and the band of each figure (m,)."""
-        sizes = np.abs(self._nominal[: len(self._real)])
+        sizes = np.abs(self._run.values[: len(self._run.figures)])
         shares = np.where(band > STILL * sizes, error / np.maximum(band, 1e-300), 0.0)
-        named = zip(self._real, shares, strict=True)
+        named = zip(self._run.figures, shares, strict=True)
         self.shortcut = {f.name: float(x) for f, x in named if f.name in figures}
         worst = sorted(self.shortcut.items(), key=lambda pair: -pair[1])
         shown = ", ".join(f"{name} {100.0 * share:.2g} %" for name, share in worst[:3])
@@ -307,7 +340,7 @@ class SceneEvaluator:
             f"{FULL_RUNS} full runs this errs by at most so much of the band: {shown}"
         )
         if worst[0][1] > SHARE:
-            self.played = {}
+            self._full = True
             text += f"; above {100.0 * SHARE:g} %, so that all runs are full ones"
             self.remarks = (Remark("warning", text),)
         else:
@@ -332,16 +365,9 @@ class SceneEvaluator:
                 signals = loop.run(scene, records[own])[1] | washer
         except (ParameterError, SolveError):
             raise _Failed(code) from None
-        return self._read(scene, time, signals, washers=costly or not loop.played)
-
-    def _read(self, scene: Scene, time: Array, signals: Signals, washers: bool = True) -> Array:
-        names = tuple(f.name for f in self._real)
-        row = values_of(scene, time, signals, names, self._outcomes)
-        series = series_values(scene, time, signals, self._series, self.time)
-        if not washers:
-            row[[n == LOST or is_of_washers(n) for n in (*names, *self._outcomes)]] = np.nan
-            series[[n in WASHER_SERIES for n in self._series]] = np.nan
-        return np.concatenate((row, series.ravel()))
+        known = self._run
+        names, solved = [f.name for f in known.figures], costly or not loop.played
+        return _row(scene, time, signals, names, known.outcomes, known.series, self.time, solved)
 
     def _chosen(
         self, answers: Array, codes: Any, figures: Sequence[str], signals: Sequence[str]
@@ -349,37 +375,72 @@ class SceneEvaluator:
         """Return the columns that were asked for."""
         names = list(self.figures)
         values = answers[:, [names.index(name) for name in figures]]
-        series = answers[:, len(names) :].reshape(len(answers), len(self._series), -1)
-        own = series[:, [self._series.index(name) for name in signals]] if signals else None
+        series = answers[:, len(names) :].reshape(len(answers), len(self._run.series), -1)
+        own = series[:, [self._run.series.index(name) for name in signals]] if signals else None
         return Answers(values, codes, own)
 
 
 def scene_evaluator(scene: Scene) -> SceneEvaluator:
-    """Return a scene of one shift as what is evaluated, after its nominal run.
+    """Return a scene of one shift as what is evaluated.
 
-    ParameterError: it has a sequence of shifts; SolveError: the nominal run fails.
+    ParameterError: it has a sequence of shifts. SolveError, when it is first asked: the run of the
+    scene as it is fails.
     """
     if scene.sequence is not None:
         raise ParameterError(f"scene {scene.name!r}: it has a [sequence], allowed: one shift")
+    return SceneEvaluator(scene)
+
+
+def _mapless(scene: Scene) -> Scene:
+    """Return a scene without maps, each of which is for one set of parameters."""
+    maps = {n: "field" for n in DIRECT if n in scene.parts and scene.parts[n].fidelity == "map"}
+    return with_levels(scene, maps)
+
+
+def _nominal_run(scene: Scene, paths: Mapping[str, Path], at: Array) -> _Nominal:
+    """Return the run of a scene as it is, its signals at the instants ``at`` (n_t,) [s].
+
+    SolveError: it fails.
+    """
     with ExitStack() as alive:
-        paths = _paths(scene)
 
         def make(name: str, part: Part) -> Instance:
             return alive.enter_context(_instance(paths, name, part))
 
         if any(part.tolerance for part in scene.parts.values()):
             scene = run_auto(scene, make, guard=False).scene
-        # A map is for one set of parameters.
-        maps = {n: "field" for n in DIRECT if n in scene.parts and scene.parts[n].fidelity == "map"}
-        scene = with_levels(scene, maps)
+        scene = _mapless(scene)
         instances = {name: make(name, part) for name, part in scene.parts.items()}
-        nominal = cosimulate(scene, instances)
+        run = cosimulate(scene, instances)
         errors = {}
         with suppress(ParameterError, SolveError):
-            found = step_error(nominal, reset(instances), cosimulate).errors()
+            found = step_error(run, reset(instances), cosimulate).errors()
             errors = {n: x for name, x in found.items() for n in STEP.get(name, (name,))}
-        errors |= _of_mesh(nominal)
-    return SceneEvaluator(scene, nominal, errors)
+        errors |= _of_mesh(run)
+    time, signals = run.time, run.signals
+    figures, outcomes, series = figures_of(run), outcomes_of(scene), series_of(run)
+    values = _row(scene, time, signals, [f.name for f in figures], outcomes, series, at, True)
+    played = recorded_parts(scene, time, signals)
+    return _Nominal(scene, played, errors, figures, outcomes, series, values)
+
+
+def _row(
+    scene: Scene,
+    time: Array,
+    signals: Signals,
+    figures: Sequence[str],
+    outcomes: Sequence[str],
+    series: Sequence[str],
+    at: Array,
+    washers: bool,
+) -> Array:
+    """Return figures, outcomes and signals of a run; NaN of washers that were not solved."""
+    row = values_of(scene, time, signals, figures, outcomes)
+    found = series_values(scene, time, signals, series, at)
+    if not washers:
+        row[[n == LOST or is_of_washers(n) for n in (*figures, *outcomes)]] = np.nan
+        found[[n in WASHER_SERIES for n in series]] = np.nan
+    return np.concatenate((row, found.ravel()))
 
 
 def _of_mesh(nominal: ShiftResult) -> dict[str, float]:
@@ -399,10 +460,6 @@ def _of_mesh(nominal: ShiftResult) -> dict[str, float]:
 def _start(scene: Scene, time: Array) -> int:
     """Return the point at which the shift begins."""
     return int(np.searchsorted(time, min(scene.shift_start, float(time[-1]))))
-
-
-def _paths(scene: Scene) -> dict[str, Path]:
-    return fmu_paths(sorted({p.spec.name for p in scene.parts.values()}), "native")
 
 
 def _instance(paths: Mapping[str, Path], name: str, part: Part) -> Instance:

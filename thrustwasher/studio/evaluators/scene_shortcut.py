@@ -24,7 +24,9 @@ FULL_RUNS = 16
 class Runs(Protocol):
     """What is compared: a scene with some parts played, and with all of them solved."""
 
-    played: dict[str, Any]
+    @property
+    def played(self) -> Mapping[str, Any]:
+        """Its washers as recorded."""
 
     @property
     def figures(self) -> Mapping[str, Figure]:

@@ -25,7 +25,7 @@ from ...shift.cosim.system import System
 from ...shift.key_figures.comfort import COMFORT
 from ...shift.key_figures.figure_list import FIGURES
 from ...shift.run import connected, laid_out
-from ...shift.scene.connections import COMMAND, DIRECT, wired
+from ...shift.scene.connections import COMMAND, DIRECT, PACKS, wired
 from ...shift.scene.places import COLUMNS, scene_scatter
 from ...shift.scene.scene import PRESSED, Part, Scene
 from ...shift.scene.scene_file import builtin_scenes, merged_tables
@@ -135,6 +135,7 @@ def scene_data(result: ShiftResult) -> dict[str, Any]:
         "statuses": {int(s): s.advice for s in Status},
         "first_failure": FIRST_FAILURE,
         "scatter": scene_draws(scene),
+        "springs": {pack: getattr(gearbox, f"{pack}_return_spring") for pack in PACKS},
         "file": _file(scene),
         "warnings": warning_data(scene, run.h),
     }

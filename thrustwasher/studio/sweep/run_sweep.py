@@ -13,7 +13,6 @@ from ...processes import refuse_import_by_worker
 from ...storage.journal import Journal
 from ..evaluators.evaluator import Evaluator
 from ..evaluators.evaluator import Rows as Points
-from ..evaluators.lines import check_level
 from ..evaluators.make import evaluator, is_at_points
 from ..jobs.rows import Rows
 from ..jobs.runner import Progress, Runner, Work, check_workers
@@ -87,10 +86,28 @@ def run_sweep(
     >>> table["friction_torque"].round(2).tolist(), table["status"].tolist()
     ([36.26, 68.8, 98.36], ['OK', 'OK', 'OK'])
     """
-    refuse_import_by_worker()
     check_workers(workers, cluster)
     target = None if out is None else check_output(out)
     plan = _plan(model, over or {}, at or {}, points, params, fidelity)
+    return run_planned(plan, target, workers=workers, cluster=cluster, progress=progress, keep=keep)
+
+
+def run_planned(
+    plan: Plan | RunPlan,
+    target: Path | None,
+    *,
+    workers: int | None = None,
+    cluster: Any = None,
+    progress: Progress | None = None,
+    keep: bool = True,
+) -> SweepTable:
+    """Return the outputs of the rows of a plan, and write them to a target if there is one.
+
+    Other arguments are those of ``run_sweep``.
+    """
+    refuse_import_by_worker()
+    check_workers(workers, cluster)
+    plan.check()
     n = plan.n_rows if keep or not target else 0
     kept = np.full((n, len(plan.figures)), np.nan), np.zeros((n, 1), np.int32)
     journal = Journal(journal_of(target), plan.identity) if target else None
@@ -123,10 +140,7 @@ def _plan(
 ) -> Plan | RunPlan:
     """Return what is evaluated, row by row."""
     if is_at_points(model):
-        plan = make_plan(model, over, at, points, params, fidelity)
-        if len(plan.params) == 1:
-            check_level(plan.spec, plan.fidelity, plan.params[0])
-        return plan
+        return make_plan(model, over, at, points, params, fidelity)
     if params is not None or fidelity is not None:
         raise ParameterError(
             "params, fidelity: allowed: of a part at points; others have their own"

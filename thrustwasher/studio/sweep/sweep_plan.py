@@ -23,7 +23,7 @@ from ...model.registry import find_model, spec_of
 from ...model.spec import ModelSpec
 from ...settings import places
 from ..evaluators.evaluator import Rows
-from ..evaluators.lines import output_signals
+from ..evaluators.lines import check_level, output_signals
 from ..evaluators.make import part_of
 from ..evaluators.part import PartEvaluator
 from .axes import MOST_POINTS, Axis, find_quantity, read_axis
@@ -68,6 +68,11 @@ class Plan:
         """What is asked of each row: outputs, real ones first, but the status."""
         real, whole = output_signals(self.spec)
         return tuple(s.name for s in (*real, *whole[:-1]))
+
+    def check(self) -> None:
+        """Refuse a level that its parameters do not have, where all rows have the same."""
+        if len(self.params) == 1:
+            check_level(self.spec, self.fidelity, self.params[0])
 
 
 def make_plan(

@@ -10,8 +10,9 @@ from scene_runs import NOMINAL, changed, instances, shift, slow_without_jit
 from thrustwasher.errors import SolveError
 from thrustwasher.shift import cosimulate, load_scene
 from thrustwasher.shift.checks.capacity import holding
-from thrustwasher.shift.checks.holding import _in_turn, _of_washers
+from thrustwasher.shift.checks.rule_data import NUMBERS
 from thrustwasher.shift.key_figures.events_and_phases import Event, lock_up
+from thrustwasher.shift.warning_texts import scope_of, warnings_of
 
 BARE = "losses = false\n[transmission]\nwashers = 0\n"
 
@@ -54,14 +55,23 @@ def test_figures_and_phases_follow_the_lock_up_that_holds(tmp_path):
     assert f["flare"] == 0.0  # an engine that turns backwards and only slows down
 
 
+def by_rules(signals=None, **values):
+    """Return the warnings of runs that all other rules have nothing to say of."""
+    rows = ("packs", "statuses", "laws", "boxes", "linings", "warm", "maps", "dry", "washers")
+    nothing = {name: [] for name in rows}
+    times = {"start_time": 0.0, "stop_time": 1.3, "shift_start": 0.1, "shift_end": 0.9}
+    steps = {"step": 1e-3, "scene_step": 1e-3, "until": 1.3, "time": np.linspace(0.0, 1.3, 1301)}
+    run = {"alone": True, "engaging": "clutch", "releasing": "brake", "lock_time": None}
+    own = {**NUMBERS, **nothing, **times, **steps, **run, "flare": None, "locks": []}
+    return [*warnings_of("run", scope_of(own | values, signals))]
+
+
 @pytest.mark.parametrize(("every", "words"), [(0.002, "numerical"), (0.02, "asks for more")])
 def test_sticking_and_slipping_in_turn_is_told_with_its_times(every, words):
-    time = np.linspace(0.0, 1.3, 1301)
-    turns = [(0.7 + i * every, "locked") for i in range(10)]
-    turns += [(t + 0.5 * every, "released") for t, _ in turns[:-1]]
-    [line] = _in_turn(load_scene("planetary"), time, events(*sorted(turns)))
+    locks = [0.7 + i * every for i in range(10)]
+    [line] = by_rules(locks=locks, lock_time=locks[-1])
     assert f"from 0.7 to {0.7 + 9 * every:.4g} s (10 lock-ups)" in line and words in line
-    assert not list(_in_turn(load_scene("planetary"), time, events(turns[0])))
+    assert not by_rules(locks=locks[:1], lock_time=locks[0])
 
 
 @slow_without_jit
@@ -178,12 +188,11 @@ def test_washers_without_a_tilting_couple_are_told():
     one = np.ones(3)
     signals = {
         "transmission.washer_load": one,
-        "washer.friction_torque": one,
         "transmission.washer_heat": 6.3 * one,
     }
-    [line] = _of_washers(signals)
+    [line] = by_rules(signals, washers=[{}])
     assert "1 N" in line and "6.3 J" in line
-    assert not list(_of_washers(signals | {"transmission.washer_load": 2.0 * one}))
+    assert not by_rules(signals | {"transmission.washer_load": 2.0 * one}, washers=[{}])
 
 
 def test_no_washers_means_no_washer_part(tmp_path):

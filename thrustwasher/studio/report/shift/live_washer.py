@@ -8,7 +8,8 @@ from ....model.parameters import as_numbers
 from ....native import shipped
 from ....numerics.banded import N_SIDES
 from ....shift.account.shift_record import Record
-from ....shift.account.worst_moments import LEAST_LOAD, level_with_fields
+from ....shift.account.worst_moments import level_with_fields
+from ....shift.checks.rule_data import LEAST_LOAD
 from ....washer.kernels import layout, newton, workspace
 from ....washer.kernels.constants import size_of_par
 from ....washer.kernels.workspace import size_of_state, size_of_work

@@ -91,3 +91,31 @@ export function figuresOf(kernel, about, profiles, shift, time, signals, changes
     ...comfortOf(kernel, about, shift, time, signal, lock, end < 0 ? NaN : time[end]),
   };
 }
+
+/** Return where the pressure of the pack that engages leaves the kiss point; null without pistons. */
+function kissEnd(about, profiles, { start, engaging }) {
+  const points = about.by_pressure ? (effective(about, profiles, `${engaging}_pressure`) ?? []) : [],
+    spring = about.springs[engaging];
+  let i = points.findIndex(([t, p]) => t >= start && p > spring);
+  if (i < 0) return null;
+  while (i + 1 < points.length && points[i + 1][1] <= points[i][1]) i += 1;
+  return points[i][0];
+}
+
+/** Return when the shift has handed over to a pack that does not hold: from then on it sticks and slips. */
+export function freeFrom({ about, profiles, shift, time, signals, changes, locks }) {
+  const { stop_time: stop } = about,
+    other = shift.engaging === "clutch" ? "brake" : "clutch",
+    start = Math.min(Math.max(shift.start, about.start_time), stop),
+    lock = Math.min(locks[0] ?? stop, stop);
+  const was = changes.filter((c) => c.time <= start && c.kind.startsWith(`${other}_`)).at(-1)?.kind,
+    handsOver = was ? was === `${other}_locked` : signals[`transmission.${other}_locked`][0] > 0.5;
+  if (!handsOver) return lock;
+  let opens = shift.start + shift.duration;
+  if (kissEnd(about, profiles, shift) !== null) {
+    const full = signals[`transmission.${other}_filled`],
+      i = full.findIndex((x, k) => k > 0 && full[k - 1] > 0.5 && !(x > 0.5));
+    opens = i < 0 ? lock : time[i];
+  }
+  return Math.min(Math.max(opens, lock), stop);
+}

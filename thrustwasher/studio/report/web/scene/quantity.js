@@ -44,22 +44,24 @@ export const writer =
     return name === "1" ? text : `${text} ${typeset(name)}`;
   };
 
+export const FIELD = /{(\w+)(?::([^}]*))?}/g;
+
 /**
- * Return a text with its values. A value may be {value, unit}, a quantity, or [key, values], a text of its own.
- * @param {Record<string, string>} texts
- * @param {[string, Record<string, any>]} warning
+ * Return a text of pieces [text, values] with its values. A value may be {value, unit}, a quantity.
+ * @param {[string, Record<string, any>][]} pieces
  * @param {(value: number, unit: string, digits?: number, relative?: boolean) => string} say
  * @returns {string}
  */
-export function textOf(texts, [key, values], say) {
-  return texts[key].replace(/{(\w+)(?::([^}]*))?}/g, (_, name, form) => {
-    const value = values[name];
-    if (Array.isArray(value)) return textOf(texts, /** @type {any} */ (value), say);
-    if (value?.unit)
-      return `${value.name ? `${value.name} = ` : ""}${say(value.value, value.unit, 4, value.relative)}`;
-    if (!form) return String(value);
-    if (/^(\.\d+)?[gf%]$/.test(form)) return number(value, form);
-    const [unit, digits] = form.split(",");
-    return say(value, unit, Number(digits ?? 4));
-  });
+export function textOf(pieces, say) {
+  const filled = (text, values) =>
+    text.replace(FIELD, (_, name, form) => {
+      const value = values[name];
+      if (value?.unit)
+        return `${value.name ? `${value.name} = ` : ""}${say(value.value, value.unit, 4, value.relative)}`;
+      if (!form) return String(value);
+      if (/^(\.\d+)?[gf%]$/.test(form)) return number(value, form);
+      const [unit, digits] = form.split(",");
+      return say(value, unit, Number(digits ?? 4));
+    });
+  return pieces.map(([text, values]) => filled(text, values)).join("");
 }

@@ -258,8 +258,8 @@ const sayQuantity = (value, unit, n = 4, relative = false) =>
 
 /** Show the warnings of the run whose figures are displayed, null: it failed; those of no other run stay. */
 function showWarnings(found, washers = "") {
-  const { checked_outside: outside, texts } = ABOUT.warnings,
-    all = (found ?? []).map((parts) => parts.map((one) => textOf(texts, one, sayQuantity)).join(""));
+  const { checked_outside: outside } = ABOUT.warnings,
+    all = (found ?? []).map(({ pieces }) => textOf(pieces, sayQuantity));
   const head = found
     ? `Warnings of this run: ${all.length || "none"}`
     : "The run failed; the line at the top says why";

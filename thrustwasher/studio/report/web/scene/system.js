@@ -3,7 +3,7 @@
 import { commandAt, shiftOf } from "./profile.js";
 import { changesOf, figuresOf, wantedUntil } from "./figures.js";
 import { number, textOf, writer } from "./quantity.js";
-import { cutOff, failedBecause, warningsOf, watched } from "./warnings.js";
+import { failedBecause, ofScene, warningsOf } from "./warnings.js";
 
 const SLICES = 25; // steps between two looks for messages
 
@@ -199,7 +199,7 @@ export class Model {
     }
     const kept = new Set(this.kept.map(([name]) => name));
     this.taken = []; // inputs
-    for (const name of watched(about).filter((own) => !kept.has(own))) {
+    for (const name of about.warnings.watched.filter((own) => !kept.has(own))) {
       const [part, key] = name.split("."),
         find = (list) => list.findIndex(([own]) => own === key),
         output = find(about.parts[part].outputs);
@@ -242,10 +242,10 @@ export class Model {
 
   /** Return what failed and what may have made it fail, as Python's message has it. */
   whyFailed(problem, profiles, run, n) {
-    const { warnings: w, units } = this.about,
-      text = (parts) => parts.map((own) => textOf(w.texts, own, writer(units))).join("");
-    const reasons = [...failedBecause(run, n).map(text), ...w.of_scene];
-    reasons.push(...cutOff(this.about, profiles).map(text));
+    const { about } = this,
+      text = ({ pieces }) => textOf(pieces, writer(about.units)),
+      reasons = [...failedBecause(run, n).map(text), ...about.warnings.of_scene];
+    reasons.push(...ofScene(about, profiles).map(text));
     return [problem.message.replace(/\.$/, ""), ...reasons].join("; ");
   }
 

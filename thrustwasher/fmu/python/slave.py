@@ -84,8 +84,7 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
     version = digest = guid = ""
     log_categories = LOG_CATEGORIES
     start_time = 0.0
-    _failure = _told = ""  # the newest, as it is and as it is logged
-    _waiting: tuple[Any, ...] = ()  # messages of a step that failed
+    _failure = ""  # the newest
 
     def __init__(self, **kwargs: object) -> None:
         super().__init__(**kwargs)
@@ -131,22 +130,12 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
             self.tell(text, Fmi2Status.warning, "logStatusWarning")
 
     def do_step(self, current_time: float, step_size: float) -> bool:
-        """Advance; raises after a failure, with everything as it was: the host hears Fatal.
-
-        pythonfmu sends the queue while the exception is set, and from Python 3.13 on a logger in
-        Python fails then. So the exception alone carries the failure, and the rest of the queue
-        waits for the next step.
-        """
-        queue = self._get_log_queue()
-        queue.extend(self._waiting)
-        self._waiting = ()
+        """Advance; raises after a failure, with everything as it was: the host hears Fatal."""
         if self._advance(current_time, step_size):
             return True
-        self._waiting = tuple(message for message in queue if message.msg != self._told)
-        queue.clear()
-        for dropped in (type(self), self, queue):
+        for dropped in (type(self), self, self._get_log_queue()):
             ctypes.pythonapi.Py_IncRef(ctypes.py_object(dropped))
-        raise Refused(self._told)
+        raise Refused(self._failure)
 
     @_safe
     def _advance(self, current_time: float, step_size: float) -> bool:
@@ -196,14 +185,15 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
             return str(problem)
 
     def tell(self, text: str, status: object, category: str | None = None) -> None:
-        """Queue a message."""
-        self.log(_plain(text), status, category)
+        """Queue a message; FMI gives # and % in texts a meaning, so they are not used."""
+        text = text.replace("#", "no. ").replace("%", " percent")
+        # a file's name may hold what is no UTF-8, and pythonfmu does not survive such a text
+        self.log(text.encode("utf-8", "replace").decode("utf-8"), status, category)
 
     def report(self, problem: BaseException) -> None:
         """Log a failure in one sentence; a defect also with its traceback."""
         self._failure = str(problem) or type(problem).__name__
-        self._told = _plain(self._failure)
-        self.log(self._told, Fmi2Status.error, "logStatusError")
+        self.tell(self._failure, Fmi2Status.error, "logStatusError")
         if not isinstance(problem, ParameterError | SolveError):
             core = getattr(self, "core", None)
             if core is not None:
@@ -212,15 +202,6 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
             self.tell(story, Fmi2Status.ok, "logAll")
         elif isinstance(problem, ParameterError):
             self.core.latch = Status.BAD_INPUT
-
-
-def _plain(text: str) -> str:
-    """Return a text without # and %, to which FMI gives a meaning, and without broken UTF-8.
-
-    A file's name may hold what is no UTF-8, and pythonfmu does not survive such a text.
-    """
-    text = text.replace("#", "no. ").replace("%", " percent")
-    return text.encode("utf-8", "replace").decode("utf-8")
 
 
 def _settle_library(folder: str | None, model: str) -> None:

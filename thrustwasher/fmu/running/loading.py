@@ -231,6 +231,7 @@ def _begin2(fmu: Any, messages: Messages) -> None:
         def log(
             _: object, _name: bytes, status: int, category: bytes, text: bytes, more: int
         ) -> None:
+            ctypes.pythonapi.PyErr_Clear()  # a Python FMU's: from 3.13 on nothing works with it
             sent = ctypes.string_at(more) if text == b"%s" and more else text
             _keep(messages, status, category, sent)
 

@@ -175,7 +175,7 @@ EXCHANGE = Exchange(
     ),
     parameters=(
         *BRISTLE,
-        largest_capacity("at rest, least pitting_safety 3", 10.0),
+        largest_capacity("at rest and pitting_safety 3", 10.0),
     ),
 )
 

@@ -531,7 +531,7 @@ def told_of(coupling: Coupling, mem: Array, advice: int) -> int:
     """Return the status of a pack that could hold: why it does not, else ``advice``."""
     if coupling[0] == M.GIVEN and mem[M.REFUSED] > 0.0:
         return REFUTED
-    if held_over(mem) > 0.0 and not knows(coupling, mem):
+    if held_over(mem) > 0.0 and not (mem[M.EVERY] > 0.0 and knows(coupling, mem)):
         return CHATTER
     if is_deaf(coupling, mem):
         since = mem[M.COUNT] - mem[M.TOLD]

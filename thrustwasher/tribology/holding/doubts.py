@@ -18,6 +18,7 @@ from .plant import evidence, excludes, learn
 
 MISSED, ANSWERED = 0.4, 1.0  # of the capacity squared: what one step says at most
 ENOUGH, BY_NOISE = 0.5, 60.0  # of the same: it is refuted; more for the noise over C H/J squared
+LITTLE = 1e-3  # of the capacity: a smaller change says nothing
 FADES = 0.9  # of what was missed, at each step of a hold
 SETTLES = 20.0  # steps of a hold that show how large its slip usually is
 SMALL, TINY = 1e-3, 1e-3  # of the largest slip, of C H/J: a slip that is none
@@ -31,14 +32,17 @@ ALIKE = 3.0  # standard deviations: two inertias that differ by less are one
 @kernel
 def is_missed(mem: Array, slip: float) -> bool:
     """Tell if the slip leaves large changes of the torque without the answer that was proved."""
-    age, made = int(mem[M.AGE]), mem[M.CAPACITY] / mem[M.INERTIA]
-    if mem[M.COUNT] < 5.0 or not made > 0.0:
-        return False
-    change = (mem[M.TORQUE + age] - mem[M.TORQUE + age + 1]) / mem[M.INERTIA]
-    turn = (slip - mem[M.SLIP]) / mem[M.STEP] - (mem[M.SLIP] - mem[M.SLIP + 1]) / mem[M.STEP + 1]
-    more = change * (2.0 * turn + change) / (made * made)  # e^2 - v^2
+    at = M.TORQUE + int(mem[M.AGE])
     if mem[M.HELD] > 0.0:
         mem[M.MISSED] *= FADES
+    change = mem[np.uintp(at)] - mem[np.uintp(at + 1)]
+    if mem[M.COUNT] < 5.0 or not abs(change) > LITTLE * mem[M.CAPACITY]:
+        return False
+    made, change = mem[M.CAPACITY] / mem[M.INERTIA], change / mem[M.INERTIA]
+    if not made > 0.0:
+        return False
+    turn = (slip - mem[M.SLIP]) / mem[M.STEP] - (mem[M.SLIP] - mem[M.SLIP + 1]) / mem[M.STEP + 1]
+    more = change * (2.0 * turn + change) / (made * made)  # e^2 - v^2
     mem[M.MISSED] = max(0.0, mem[M.MISSED] + min(MISSED, max(-ANSWERED, more)))
     loud = mem[M.NOISE] / (made * mem[M.STEP])
     return mem[M.MISSED] > ENOUGH + BY_NOISE * loud * loud

@@ -192,6 +192,7 @@ def notice(coupling: Coupling, mem: Array, slip: float) -> None:
     if mode == M.IDENTIFIED and mem[M.KNOWN] > 0.0 and mem[M.EVERY] == 0.0:
         if hear(mem, slip):
             refuse(coupling, mem)
+            ask_anew(mem)
     else:
         learn(mem, slip, 1.0 / coupling[1] if given else 0.0, age if given else 0)
     if given:
@@ -234,7 +235,7 @@ def refuse(coupling: Coupling, mem: Array) -> None:
         mem[M.KNOWN] = mem[M.DOUBT] = mem[M.HELD] = 0.0
     else:
         forget(mem)
-        ask_anew(mem)
+        mem[M.TURN] = 0.0
     mem[M.HEAT_AGE] = 0.0
     for k in range(N_AGES + 2):
         mem[np.uintp(M.WORK + k)] = 0.0
@@ -392,6 +393,18 @@ def _of_unknown(
 
 
 @kernel
+def _doubt(coupling: Coupling, mem: Array, much: bool) -> None:
+    """Doubt what is known where a slip that is held left its reach, or its torque drives."""
+    if not much:
+        return
+    mem[M.DOUBT] += ESCAPED
+    if mem[M.DOUBT] > 6.0 + 2.0 * age_of(coupling, mem):
+        refuse(coupling, mem)
+        if coupling[0] == M.IDENTIFIED:
+            ask_anew(mem)
+
+
+@kernel
 def decide(
     coupling: Coupling, mem: Array, slip: float, h: float, capacity: float
 ) -> tuple[bool, float, float, float]:
@@ -420,14 +433,12 @@ def decide(
         number, slope, mem[M.OUTSIDE] = _wanted(coupling, mem, slip, h, gain)
         slides = abs(slip) > _reach(coupling, mem, slip, made)
         drives = not slides and number * slip < 0.0 and abs(number) > capacity
-        escapes = slides and mem[M.HELD] > 0.0
-        if drives and mem[M.HELD] == 0.0 and coupling[0] == M.IDENTIFIED:
-            mem[M.DOUBT] += ESCAPED
-        elif (escapes or drives) and is_unproved(coupling, mem):
-            mem[M.DOUBT] += ESCAPED
-            number = 0.0 if drives else number
-        if mem[M.DOUBT] > 6.0 + 2.0 * age_of(coupling, mem):
-            refuse(coupling, mem)
+        if drives and coupling[0] == M.IDENTIFIED:
+            _doubt(coupling, mem, mem[M.HELD] == 0.0)
+        elif (slides and mem[M.HELD] > 0.0) or drives:
+            unproved = is_unproved(coupling, mem)
+            _doubt(coupling, mem, unproved)
+            number = 0.0 if drives and unproved else number
         if mem[M.STUCK] > 0.0 and coupling[0] == M.IDENTIFIED:
             most = EASILY * abs(inertia_of(coupling, mem) * mem[M.OUTSIDE])
             if slides or abs(number) > most:

@@ -216,6 +216,59 @@ def long_hold(fmu: str, seed: int, holding: str, step: float) -> list[Verdict]:
     return [Verdict(not why, told(unit), "; ".join(why), "", {"error": error, "slip": most})]
 
 
+def changed(factors: tuple[float, float]) -> Run:
+    """Return the row of a driveline whose second inertia changes while the pack holds.
+
+    The torque to hold stays, in every second run it jumps.
+
+    Right: 200 steps later it is at rest and locked, and has given back to the shafts at most three
+    times (1 + d) of what the capacity makes of its own slip in a step.
+    """
+
+    def one(fmu: str, seed: int, holding: str, step: float) -> list[Verdict]:
+        d = drawn(f"changed {factors}", seed, step)
+        plant, h, age = two_shafts(d.j1, d.j2, d.base + d.first, d.base), d.step, seed % 3
+        j2 = d.j2 * spread(d.rng, factors)
+        inertia = d.j1 * j2 / (d.j1 + j2)
+        held = d.held if seed % 2 else d.rng.uniform(-0.5, 0.7) * d.capacity
+        push = (d.push[0], j2 * (held / inertia - d.push[0] / d.j1))
+        unit = Unit(fmu, INPUTS, OUTPUTS, **PACK, holding=HOLDING[holding])
+        unit.start(load=d.strength(0.0) / LEVER, speed=d.first)
+        waiting, rows = [unit.real[0]] * age, []
+        first = d.lock + 80
+        for k in range(first + 260):
+            if k == first:
+                plant = two_shafts(d.j1, j2, *plant.state)
+            slip = plant.slip[0]
+            unit.set(d.strength(k * h) / LEVER, slip)
+            unit.step(k * h, h)
+            waiting.append(unit.real[0])
+            acted = waiting.pop(0)
+            plant.advance(push if k >= first else d.push, [acted], h)
+            mean = 0.5 * (slip + plant.slip[0])
+            rows.append((slip, acted * mean * h, unit.locked, *unit.real))
+        table = np.array(rows, float)[first:]
+        slip, work, locked, bound = (table[:, i] for i in (0, 1, 2, 3 + unit.at["slip_bound"]))
+        made = d.capacity * h / inertia
+        why, broken = [], []
+        if np.abs(slip[-60:]).max() > 0.02 * made:
+            why.append(f"slip {np.abs(slip[-60:]).max() / made:.2g} of that of a step")
+        if not locked[-1]:
+            why.append("not locked")
+        drove = -work[work < 0.0].sum() / (d.capacity * made * h)
+        if drove > 3.0 * (1 + age):
+            why.append(f"drives, by {drove:.3g} of a step")
+        lies = (locked > 0.0) & (np.abs(slip) > np.minimum(bound * (1 + 1e-9), made + d.first))
+        if lies.any():
+            broken.append(f"locked at slip in {int(lies.sum())} steps")
+        if (np.diff(table[:, 3 + unit.at["energy"]]) < 0.0).any():
+            broken.append("energy falls")
+        numbers = {"drove": float(drove), "slip": float(np.abs(slip).max() / made)}
+        return [Verdict(not why, told(unit), "; ".join(why), "; ".join(broken), numbers)]
+
+    return one
+
+
 REST: dict[str, Run] = {
     "washer next to a locked pack": washer_beside,
     "train at rest": at_rest(("GearTrain",), False),
@@ -225,5 +278,7 @@ REST: dict[str, Run] = {
     "train and losses at rest": at_rest(("GearTrain", "DrivelineLosses"), False),
     "a pack slips next to a locked one": slipping_beside,
     "state restored": restored,
+    "shaft 3 .. 1000 times heavier in the hold": changed((3.0, 1e3)),
+    "shaft 3 .. 1000 times lighter in the hold": changed((1e-3, 1.0 / 3.0)),
 }
 SLOW: dict[str, Run] = {"a million held steps": long_hold}

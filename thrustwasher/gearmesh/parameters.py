@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields
+from functools import cache
 from typing import Any
 
 from ..model.parameters import check_ranges, check_rules, choice, count, flag, quantity
@@ -556,6 +557,7 @@ class GearMeshParams:
         return made
 
 
+@cache
 def default_of(name: str) -> Any:
     """Return the default of a parameter."""
     return next(f.default for f in fields(GearMeshParams) if f.name == name)

@@ -2,8 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, fields
-from functools import cache
+from dataclasses import dataclass
 from typing import Any
 
 from ..model.parameters import check_ranges, check_rules, choice, count, flag, quantity
@@ -557,10 +556,9 @@ class GearMeshParams:
         return made
 
 
-@cache
 def default_of(name: str) -> Any:
     """Return the default of a parameter."""
-    return next(f.default for f in fields(GearMeshParams) if f.name == name)
+    return GearMeshParams.__dataclass_fields__[name].default
 
 
 def centre_distance(params: GearMeshParams) -> float:

@@ -282,7 +282,11 @@ def _of_oil(part: PartFile, params: Sequence[object], inputs: Array) -> Iterator
 
 
 def _doubt(
-    spec: ModelSpec, fidelity: str, params: Sequence[object], part_of: Array, inputs: Array
+    spec: ModelSpec,
+    fidelity: str,
+    params: Sequence[object],
+    part_of: NDArray[np.integer[Any]],
+    inputs: Array,
 ) -> Iterator[str]:
     """Yield what the model says of all rows; of several parts what it says of the first of them.
 

@@ -1,14 +1,16 @@
 """What a washer solve costs: warm, cold, curve; where its time goes; what a newcomer waits for.
 
-python -m lab.benchmarks.speed [--start]
+python -m lab.benchmarks.speed [--start | --python]
 
 ``--start``: only whole processes by the wall clock, everything compiled and the FMUs built, and
-what Python adds to a solve. One thread; medians over repeats, minima in brackets. Run it on an idle
-machine.
+what Python adds to a solve. ``--python``: only calls from Python and sweeps, processor time. One
+thread; medians over repeats, minima in brackets. Run it on an idle machine, two versions in turn:
+``PYTHONPATH=FOLDER python lab/benchmarks/speed.py --python`` measures the one in that folder.
 """
 
 from __future__ import annotations
 
+import itertools
 import statistics
 import subprocess
 import sys
@@ -16,11 +18,22 @@ import tempfile
 import time
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 
 from lab.benchmarks.printed import median_and_least, table_head, table_row
-from thrustwasher import WasherParams, WasherResult, load_curve, solve_washer
+from thrustwasher import (
+    ClutchParams,
+    GearMeshParams,
+    WasherParams,
+    WasherResult,
+    load_curve,
+    run_sweep,
+    solve_clutch,
+    solve_gearmesh,
+    solve_washer,
+)
 from thrustwasher.washer import solve
 from thrustwasher.washer.kernel_arguments import constants
 from thrustwasher.washer.kernels import gap, heat, layout, newton
@@ -142,6 +155,75 @@ def starts() -> None:
         table_row(name, median_and_least(seconds, 1e6, ".3g") + " us")
 
 
+def python_calls() -> None:
+    """Print what one call costs; the torque is read, once with all warnings."""
+    pack, mesh, small = ClutchParams(), GearMeshParams(), itertools.count(1)
+    washer = partial(solve_washer, PARAMS, load=300.0, speed=953.0, tilt=0.002, fidelity="map")
+    clutch = partial(solve_clutch, load=3000.0, speed=10.0)
+    gears = partial(solve_gearmesh, power=7500.0, speed=180.0)
+
+    def new_pack() -> ClutchParams:
+        return ClutchParams(friction_scale=1.0 - 1e-7 * next(small))
+
+    def new_mesh() -> GearMeshParams:
+        return GearMeshParams(face_width=0.02 - 1e-9 * next(small))
+
+    calls: dict[str, Callable[[], object]] = {
+        "ClutchParams()": new_pack,
+        "GearMeshParams()": new_mesh,
+        "solve_clutch": lambda: clutch(pack).friction_torque,
+        "solve_clutch, warnings too": lambda: clutch(pack).warnings,
+        "solve_clutch, a new pack": lambda: clutch(new_pack()).friction_torque,
+        "solve_gearmesh": lambda: gears(mesh).friction_torque,
+        "solve_gearmesh, warnings too": lambda: gears(mesh).warnings,
+        "solve_gearmesh, new gears": lambda: gears(new_mesh()).friction_torque,
+        "solve_washer, map": lambda: washer().friction_torque,
+    }
+    table_head("call", "us of processor time")
+    for name, call in calls.items():
+        table_row(name, median_and_least(processor_time(call, 300), 1e6, ".3g"))
+
+
+def processor_time(work: Callable[[], object], n: int) -> tuple[float, float]:
+    """Return median and minimum of five, of a call that is made ``n`` times each."""
+    work()
+    seconds = []
+    for _ in range(5):
+        start = time.process_time()
+        for _ in range(n):
+            work()
+        seconds.append((time.process_time() - start) / n)
+    return statistics.median(seconds), min(seconds)
+
+
+def sweeps() -> None:
+    """Print what a point of a sweep over two inputs costs, on a grid of 1e5, in this process."""
+    grids = {
+        "clutch closed": ("clutch", {"load": "1 kN:9 kN:n{}", "speed": "1:200:n{}"}),
+        "gearmesh field": ("gearmesh", {"power": "1000:9000:n{}", "speed": "50:500:n{}"}),
+        "washer map": ("washer", {"load": "100:900:n{}", "speed": "300:1300:n{}"}),
+    }
+    table_head("sweep", "us of processor time a point")
+    with tempfile.TemporaryDirectory() as folder:
+        for (name, (model, over)), ending in itertools.product(
+            grids.items(), ("", ".csv", ".parquet")
+        ):
+
+            def run(n: int) -> None:
+                run_sweep(
+                    model,  # noqa: B023 (called in this turn)
+                    {key: text.format(n) for key, text in over.items()},  # noqa: B023
+                    fidelity=name.split()[1],  # noqa: B023
+                    out=Path(folder) / f"table{ending}" if ending else None,  # noqa: B023
+                    workers=1,
+                    keep=not ending,  # noqa: B023
+                )
+
+            run(3)
+            seconds = processor_time(partial(run, 316), 1)
+            table_row(f"{name} {ending}", median_and_least(seconds, 1e6 / 316**2, ".3g"))
+
+
 def profile() -> None:
     """Print microseconds of the parts of one warm iteration at 545 rad/s, 300 N."""
     par = constants(PARAMS, (10, 32))
@@ -166,6 +248,10 @@ def profile() -> None:
 
 
 if __name__ == "__main__":
+    if "--python" in sys.argv:
+        python_calls()
+        sweeps()
+        sys.exit()
     if "--start" not in sys.argv:
         solves()
         curve()

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 from ..model.parameters import check_ranges, check_rules, choice, count, flag, quantity
@@ -559,7 +559,7 @@ class GearMeshParams:
 
 def default_of(name: str) -> Any:
     """Return the default of a parameter."""
-    return next(f.default for f in fields(GearMeshParams) if f.name == name)
+    return GearMeshParams.__dataclass_fields__[name].default
 
 
 def centre_distance(params: GearMeshParams) -> float:

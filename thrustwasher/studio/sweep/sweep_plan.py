@@ -244,11 +244,13 @@ def _assemble(
         shown[name] = rows[name]
         units[name] = next(p.unit for p in order if p.name == name)
     level = level_named(spec, fidelity)
+    one = len(params) == 1  # as of most sweeps, whose rows may be many
+    part_of = np.zeros(n, np.int8) if one else np.repeat(params_of, np.diff(starts))
     warnings = (
         *_idle(params, fidelity, spec.key),
         *_of_oil(part, params, inputs),
         *_outside(part, inputs),
-        *_doubt(spec, level, params, np.repeat(params_of, np.diff(starts)), inputs),
+        *_doubt(spec, level, params, part_of, inputs),
     )
     rows_and_lines = inputs, shown, units, starts, params, params_of
     taken = taken_text(box, default, spec.inputs)
@@ -286,7 +288,11 @@ def _of_oil(part: PartFile, params: Sequence[object], inputs: Array) -> Iterator
 
 
 def _doubt(
-    spec: ModelSpec, fidelity: str, params: Sequence[object], part_of: Array, inputs: Array
+    spec: ModelSpec,
+    fidelity: str,
+    params: Sequence[object],
+    part_of: NDArray[np.integer[Any]],
+    inputs: Array,
 ) -> Iterator[str]:
     """Yield what the model says of all rows; of several parts what it says of the first of them.
 
@@ -296,8 +302,9 @@ def _doubt(
     for k, part in enumerate(params):
         if part is None or doubt is None:
             continue
+        own = sound & (part_of == k)
         try:
-            text = doubt(part, fidelity, inputs[sound & (part_of == k)])
+            text = doubt(part, fidelity, inputs if own.all() else inputs[own])
         except ParameterError as problem:
             if len(params) == 1:
                 raise

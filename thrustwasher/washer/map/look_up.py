@@ -300,10 +300,10 @@ def outside_text(params: WasherParams, points: Array, what: str, most: float = 0
     ``points`` (n, 4): load [N], speed [rad/s], tilt [rad] and oil temperature [K].
     """
     box = WasherMap(params).box
-    there = np.abs(points)
-    outside = there[:, 2] <= LEAST_TILT
+    outside = np.abs(points[:, 2]) <= LEAST_TILT
     for i, (low, high) in enumerate(box.values()):
-        outside |= (there[:, i] < low * (1.0 - 1e-9)) | (there[:, i] > high * (1.0 + 1e-9))
+        there = np.abs(points[:, i])
+        outside |= (there < low * (1.0 - 1e-9)) | (there > high * (1.0 + 1e-9))
     if np.mean(outside) <= most:
         return ""
     return OF_BOX.format(

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from scipy.stats import binomtest
 
-from thrustwasher import GearMeshParams, ParameterError, solve_gearmesh
+from thrustwasher import GearMeshParams, ParameterError, SolveError, solve_gearmesh
 from thrustwasher.cli import main
+from thrustwasher.studio.evaluators.make import gearbox
 from thrustwasher.studio.measured.collection_page import collection_page
 from thrustwasher.studio.measured.comparison import compare
 from thrustwasher.studio.measured.data_set_file import load_data_set
@@ -155,6 +156,27 @@ def test_a_report_has_several_results_of_a_point(tmp_path):
     found = compare(made, draws=8)
     assert found.deviations == pytest.approx([0.0, 1.0 / 1.1 - 1.0], rel=1e-9, abs=1e-12)
     assert found.to_dict()["points"] == 2 and "2 results" in made.output
+
+
+def in_a_gear(tmp_path, points):
+    """Return a measured data set of the planetary gearbox in first gear."""
+    data_set(tmp_path, points, "torque, speed, oil_temperature, efficiency, origin", extra="")
+    rig = (tmp_path / "rig.toml").read_text("utf-8")
+    (tmp_path / "rig.toml").write_text(rig.replace('part = "part.toml"', 'scene = "planetary"'))
+    return load_data_set(tmp_path)
+
+
+def test_a_gearbox_is_compared_point_by_point_and_a_point_without_a_solution_says_why(tmp_path):
+    at = [{"torque": x, "speed": 200.0, "oil_temperature": t} for x, t in ((90, 330), (50, 360))]
+    (ninety,), (fifty,) = gearbox("planetary").evaluate(at, ["efficiency"]).values.tolist()
+    points = [f"90, 200, 330, {ninety!r}, table", f"50, 200, 360, {fifty!r}, table"]
+    found = compare(in_a_gear(tmp_path, points), draws=2)
+    assert found.deviations.tolist() == [0.0, 0.0] and found.data_set.target_name.endswith("gear")
+    made = in_a_gear(tmp_path, [points[0], "9e4, 200, 330, 0.9, table"])
+    with pytest.raises(SolveError, match="point 2 has no solution here: torque = 90000"):
+        compare(made, draws=2)
+    with pytest.raises(ParameterError, match="torque = 900000"):
+        in_a_gear(tmp_path, ["9e5, 200, 330, 0.9, table"])
 
 
 @pytest.mark.parametrize("name", ["wind-stage-3", "gearpie-c14", "gearpie-c40"])

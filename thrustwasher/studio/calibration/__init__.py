@@ -1,8 +1,9 @@
 """Parameters fitted to measurements, and what these tell of them: one method for all models.
 
-A law of a model's own, which has outputs that no solution at a point has, is a ``ModelProblem`` of
-its own here (the clutch's law of friction); other such outputs the model's record computes (the
-washer's folds).
+A fit is a ``FitProblem``: what rows of an evaluator give, over the constants, less what was
+measured. A law of a model's own, which has outputs that no solution at a point has, is computed
+here (the clutch's law of friction); other such outputs the model's record computes (the washer's
+folds).
 
 ===================  ===========================================================================
 ``least_squares``    what is fitted to what; several starts, bounds, profiles of one constant

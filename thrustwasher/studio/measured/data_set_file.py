@@ -130,11 +130,14 @@ def load_data_set(path: str | Path) -> DataSet:
         )
     several = len(found) > 1
     given = {name: columns[name] for name in columns if name in inputs}
-    points = [dict(zip(given, x, strict=True)) for x in zip(*given.values(), strict=True)]
+    lines = zip(*(column.tolist() for column in given.values()), strict=True)
+    points = [dict(zip(given, line, strict=True)) for line in lines]
     taken, target_name = "", made.name
     if "part" in table:
         taken, target_name = point_of(made.part, points[0]).taken, made.part.spec.name
         points = [inputs_of(made.part, point) for point in points]
+    else:
+        points = [{name: known[name].check(x) for name, x in point.items()} for point in points]
     return DataSet(
         folder=folder,
         texts={key: " ".join(table[key].split()) for key in TEXTS},

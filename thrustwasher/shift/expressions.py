@@ -103,6 +103,7 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "count": lambda x: int(np.count_nonzero(x)),
     "any": lambda x: bool(np.any(x)),
     "all": lambda x: bool(np.all(x)),
+    "when": lambda x, value: _place(x == value),
     "first": _place,
     "last": lambda x: _place(x, last=True),
     "ever": np.logical_or.accumulate,

@@ -147,17 +147,18 @@ def write_files(result: "ScatterResult", target: Any, at: Any, folder: Path) -> 
 
     Files of an earlier study of which this one has none go.
     """
-    from ..evaluators.make import file_of
+    from ..evaluators.make import evaluator
     from ..report.html import render
     from ..report.scatter import scatter_page
     from ..report.scatter.study_page import MOST_FIGURES, main_figures
     from ..scatter.result import SERIES
 
     files: dict[str, dict[float, str]] = {}
+    made = evaluator(target, at=at)
     with _output.whole_folder(folder) as draft:
         for name in main_figures(result, MOST_FIGURES):
             for level, values in result.nearest.get(name, {}).items():
-                text = file_of(target, at, values)
+                text = made.file(values, draw=True)
                 file = f"{name}-{100.0 * level:02.0f}.toml"
                 (draft / file).write_text(f"{NEAREST}{file}\n{text}", encoding="utf-8")
                 files.setdefault(name, {})[level] = file

@@ -147,15 +147,6 @@ def is_at_points(target: object) -> bool:
     return target not in builtin_scenes()
 
 
-def file_of(target: Any, at: Mapping[str, object] | None, row: Mapping[str, Any]) -> str:
-    """Return a draw of a part or scene as the text of a file that runs; no scene is run."""
-    if isinstance(target, PartFile):
-        return evaluator(target, at=at).file(row, draw=True)  # type: ignore[no-any-return]
-    from ...shift.scene.variation import scene_text
-
-    return scene_text(target, row)
-
-
 def inputs_of(part: PartFile, at: Mapping[str, object]) -> dict[str, float]:
     """Return the values [SI] of the model's inputs: those given, others at box or default."""
     known = {n: p for n, p in places(part.spec).items() if p.is_input}

@@ -243,8 +243,8 @@ class SceneEvaluator:
         """Return nothing: lock-up and peaks move with every step."""
 
     def file(self, row: Row, *, draw: bool = False) -> str:
-        """Return a file with the scene as its base and the row's values."""
-        return scene_text(self.scene, row, *(() if draw else (HEAD,)))
+        """Return a file with the scene as its base and the row's values; a draw needs no run."""
+        return scene_text(self._given, row) if draw else scene_text(self.scene, row, HEAD)
 
     def scattered(self, table: Mapping[str, Any] | None = None, row: Row | None = None) -> Scatter:
         """Return how it scatters, at its values or at those of a row."""

@@ -28,7 +28,7 @@ from ...shift.run import connected, laid_out
 from ...shift.scene.connections import COMMAND, DIRECT, PACKS, wired
 from ...shift.scene.places import COLUMNS, scene_scatter
 from ...shift.scene.scene import PRESSED, Part, Scene
-from ...shift.scene.scene_file import builtin_scenes, merged_tables
+from ...shift.scene.scene_file import builtin_scenes
 from ...shift.scene.variation import scene_text, varied_scene
 from ...shift.shift_result import ShiftResult
 from ...transmission.parameters import POINTS, PROFILES, profile_points
@@ -252,7 +252,7 @@ def _file(scene: Scene) -> dict[str, Any]:
         import tomllib
 
         return dict(tomllib.loads(scene_text(scene, {})))
-    tables = dict(merged_tables(scene.source))
+    tables = dict(scene.table)
     for name, own in tables.items():
         if isinstance(own, dict) and isinstance(own.get("part"), str):
             tables[name] = own | {"part": Path(own["part"]).resolve().as_posix()}

@@ -9,16 +9,14 @@ export class Missing extends Error {}
 /** @type {(x: any) => boolean} */
 const isArray = (x) => ArrayBuffer.isView(x) || Array.isArray(x);
 /** @type {(apply: (...own: any[]) => any) => (...given: any[]) => any} */
-const each =
-  (apply) =>
-  (...given) => {
-    const n = given.find(isArray)?.length;
-    if (n === undefined) return apply(...given);
-    const [a, b, c] = given.map((x) => (isArray(x) ? (i) => x[i] : () => x)),
-      found = new Float64Array(n);
-    for (let i = 0; i < n; i += 1) found[i] = Number(apply(a(i), b?.(i), c?.(i)));
-    return found;
-  };
+const each = (apply) => (a, b, c) => {
+  const [inA, inB, inC] = [isArray(a), isArray(b), isArray(c)],
+    n = inA ? a.length : inB ? b.length : inC ? c.length : -1;
+  if (n < 0) return apply(a, b, c);
+  const found = new Float64Array(n);
+  for (let i = 0; i < n; i += 1) found[i] = Number(apply(inA ? a[i] : a, inB ? b[i] : b, inC ? c[i] : c));
+  return found;
+};
 const place = (found, from, way) => {
   for (let i = from; i >= 0 && i < found.length; i += way) if (found[i]) return i;
   return null;
@@ -61,6 +59,7 @@ const FUNCTIONS = {
   count: (x) => x.filter(Boolean).length,
   any: (x) => x.some(Boolean),
   all: (x) => x.every(Boolean),
+  when: (x, value) => (x.includes(value) ? x.indexOf(value) : null),
   first: (x) => place(x, 0, 1),
   last: (x) => place(x, x.length - 1, -1),
   ever: (x) => {

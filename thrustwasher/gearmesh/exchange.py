@@ -18,10 +18,7 @@ EXCHANGE = Exchange(
     kernel="thrustwasher.gearmesh.kernels.exchange",
     states=(
         output(
-            "body_temperature",
-            "K",
-            300.0,
-            "temperature of the bodies as a state, where it is one; 0 in co-simulation",
+            "body_temperature", "K", 300.0, "temperature of the bodies as a state, where it is one"
         ),
         bend_state("bend", "of the bristle that holds the mesh at rest"),
         output("oil_energy", "J", 1e3, "heat that has gone into the oil since the start"),

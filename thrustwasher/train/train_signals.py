@@ -147,12 +147,7 @@ EXCHANGE = Exchange(
     kernel="thrustwasher.train.kernels.exchange",
     states=(
         *(
-            output(
-                name,
-                "K",
-                300.0,
-                f"mesh {i}: temperature of the bodies as a state; 0 in co-simulation",
-            )
+            output(name, "K", 300.0, f"mesh {i}: temperature of the bodies as a state")
             for i, name in zip(MESHES, _BODIES, strict=True)
         ),
         bend_state("bend", "of the bristle that holds the input shaft at rest"),

@@ -184,7 +184,8 @@ W_AGAIN = W_PAR + NPAR
 W_MEMORY = W_AGAIN + W_PAR + NSTATE  # of the driveline, while a step is made
 W_TOLD = W_MEMORY + N_MEMORY  # numbers in what the mesh says of its speed
 W_STATE = W_TOLD + N_FIGURES  # scratch of model exchange: memory, inputs
-NWORK = W_STATE + NSTATE + NINP
+W_STATES = W_STATE + NSTATE + NINP  # the states of model exchange after a step: body, bend, energy
+NWORK = W_STATES + 3
 NOUT = 35
 IO_REGIME, IO_STATUS, NIOUT = range(3)
 

@@ -19,7 +19,7 @@ from .mesh_point import LEAST_LINE_LOAD
 from .operating_point import point_changes, solve_point
 
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
-NOUT, NIOUT, W_TOLD = L.NOUT, L.NIOUT, L.W_TOLD
+NOUT, NIOUT, W_TOLD, W_STATES = L.NOUT, L.NIOUT, L.W_TOLD, L.W_STATES
 SHARE_STEP = 1e-5  # of the load, for the slope of the shares
 
 
@@ -100,6 +100,7 @@ def step(
     status = step_over(par, inp, width, state, work, out, iout, dt)
     if status >= 10:
         return status
+    work[L.W_STATES] = work[L.F_BULK]
     if dt > 0.0:
         keep(way, mem, speed, dt, out[L.F_TORQUE], capacity_of(work))
         copy(mem, state[L.S_MEMORY : L.S_MEMORY + M.N_MEMORY])

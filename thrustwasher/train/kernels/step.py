@@ -27,7 +27,7 @@ from .chain import shaft_loss, solve_chain
 from .tooth_forces import centres, induced_of
 
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
-NOUT, NIOUT, W_TOLD = L.NOUT, L.NIOUT, L.W_TOLD
+NOUT, NIOUT, W_TOLD, W_STATES = L.NOUT, L.NIOUT, L.W_TOLD, L.W_STATES
 HOLDS_NOT = 3.0  # the number of `holding = off`
 K_Z = (3.1, 4.4, 5.1, 6.0)  # of the types of bearings: SKF's constant of starvation
 COLDEST, HOTTEST = 253.15, 423.15  # K, between which the laws are meant
@@ -305,6 +305,9 @@ def step(
     out[L.O_EFFICIENCY] = efficiency(inp[L.I_TORQUE] * inp[L.I_SPEED], left * speed)
     out[L.O_HEAT] += rest
     out[L.O_ENERGY] = state[L.S_ENERGY] + out[L.O_HEAT] * dt
+    for i in range(L.MESHES):
+        bulk = out[np.uintp(L.O_MESH + i * L.M_ROW + L.M_BULK)]
+        work[np.uintp(L.W_STATES + i)] = bulk if i < meshes else oil
     if status == OK:
         status = fill_advice(par, oil, work, iout)
     if not are_finite(out):

@@ -69,7 +69,7 @@ def test_a_host_that_prescribes_the_slip_after_a_lock_finds_friction(age, size, 
     power, slid = np.array(torques) * slips, 205.0 * np.abs(slips)
     assert np.count_nonzero(power < 0.0) <= 2 * (1 + age) + 2
     assert -power[power < 0.0].sum() < 0.005 * slid.sum()
-    assert power.sum() == pytest.approx(slid.sum(), rel=0.025)
+    assert power.sum() == pytest.approx(slid.sum(), rel=0.05)
     assert (np.diff(heats) >= 0.0).all()
     assert unit.inertia == 0.0 and unit.told & {Status.UNANSWERED, Status.CHATTER}
 

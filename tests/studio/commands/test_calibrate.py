@@ -108,7 +108,7 @@ def test_points_out_of_reach_are_a_warning_and_no_error(words, tmp_path, capsys)
         ("speed,load,friction\n1,2,0,1\n", "line 2: has 4 cells, the head names 3"),
         ("a,speed,load,friction,,\n\n0,1,2,0,1\n", "line 3: has 5 cells, the head names 4"),
         ("speed [kg],load,friction\n1,2,0.1\n", "kg"),
-        ("speed,load,friction,speed\n1,2,0.1,1\n", "two columns speed"),
+        ("speed,load,friction,speed\n1,2,0.1,3\n", "two columns speed"),
         ("speed,load,friction\n1,0,0.1\n", "load: point 1 is 0"),
         ("speed,load,friction\n1,2,\0\n", "not text"),
         ("\xff\xfes", "begins as UTF-16 text and is none"),

@@ -1,6 +1,6 @@
 """A data set's folder: ``rig.toml`` (source, conditions), ``points.csv``, part or scene."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,9 @@ from ...model.toml_tables import nothing_else, read_file
 from ...shift import load_scene
 from ...shift.scene.scene import Scene
 from ...shift.steady_points import COLUMNS, RANGES
-from ...storage.tables.table import numbers
+from ...storage.tables.column_names import renamed
+from ...storage.tables.heads import USUAL, Wanted
+from ...storage.tables.table import Table, numbers
 from ...storage.tables.table_file import read_table
 
 ORIGINS = ("table", "figure", "text", "fit")
@@ -72,12 +74,16 @@ class DataSet:
         return f"scene {self.target.name}, {self.gear} gear"
 
 
-def load_data_set(path: str | Path) -> DataSet:
+def load_data_set(
+    path: str | Path, columns: Mapping[str, str] | None = None, wanted: Wanted = USUAL
+) -> DataSet:
     """Return the measured data set of a folder.
 
     Parameters
     ----------
     path : of the folder with ``rig.toml``, ``points.csv`` and the part or scene that it names
+    columns : columns of ``points.csv`` by the names that count, as ``--column`` takes them
+    wanted : where the table stands in ``points.csv``
 
     Raises
     ------
@@ -108,8 +114,9 @@ def load_data_set(path: str | Path) -> DataSet:
         inputs = {name: unit for name, (unit, *_) in RANGES.items()}
         none = (*inputs, "warnings")
         outputs = {n: unit for n, (unit, _) in COLUMNS.items() if n not in none}
-    columns, origin = _points(folder / "points.csv", inputs, outputs)
-    found = [name for name in columns if name in outputs]
+    points = _points(folder / "points.csv", columns or {}, wanted)
+    known, origin = _columns(points, inputs, outputs)
+    found = [name for name in known if name in outputs]
     if not found or (len(found) > 1 and not isinstance(target, PartFile)):
         raise ParameterError(
             f"{where}: points.csv has the measured columns {', '.join(found) or 'none'}, allowed: "
@@ -117,8 +124,8 @@ def load_data_set(path: str | Path) -> DataSet:
         )
     rows = len(origin)
     origin = origin * len(found)  # a point for every measured column of a line
-    vary = str(table.get("vary", next((n for n in columns if n in inputs), "")))
-    if vary not in columns or vary not in inputs:
+    vary = str(table.get("vary", next((n for n in known if n in inputs), "")))
+    if vary not in known or vary not in inputs:
         raise ParameterError(f"{where}: vary = {vary!r}, allowed: an input that is a column")
     most = table.get("coefficients", 0)
     fitted = origin.count("fit")
@@ -139,12 +146,12 @@ def load_data_set(path: str | Path) -> DataSet:
         unit="SI" if several else outputs[found[0]],
         outputs=tuple(name for name in found for _ in range(rows)),
         units=tuple(outputs[name] for name in found for _ in range(rows)),
-        inputs={name: np.tile(columns[name], len(found)) for name in columns if name in inputs},
-        measured=np.concatenate([columns[name] for name in found]),
-        error=np.concatenate([columns.get(name + ERROR, np.zeros(rows)) for name in found]),
+        inputs={name: np.tile(known[name], len(found)) for name in known if name in inputs},
+        measured=np.concatenate([known[name] for name in found]),
+        error=np.concatenate([known.get(name + ERROR, np.zeros(rows)) for name in found]),
         origin=origin,
         kind=kind,
-        input_units=tuple(inputs[name] for name in columns if name in inputs),
+        input_units=tuple(inputs[name] for name in known if name in inputs),
     )
 
 
@@ -170,14 +177,18 @@ def _outputs(part: PartFile) -> dict[str, str]:
     return units | {"loss_factor": "1"} | more | dict(model.fits.units)
 
 
-def _points(
-    path: Path, inputs: dict[str, str], outputs: dict[str, str]
-) -> tuple[dict[str, NDArray[np.float64]], tuple[str, ...]]:
-    """Return the columns [SI] and the origin of every point."""
+def _points(path: Path, names: Mapping[str, str], wanted: Wanted) -> Table:
+    """Return the table of the points."""
     if not path.is_file():
         raise ParameterError(f"{path}: cannot be read, a CSV file is required")
-    table = read_table(path)
-    table = table.of_columns([column.plain for column in table.columns])
+    return renamed(read_table(path, wanted), names)
+
+
+def _columns(
+    table: Table, inputs: dict[str, str], outputs: dict[str, str]
+) -> tuple[dict[str, NDArray[np.float64]], tuple[str, ...]]:
+    """Return the columns [SI] and the origin of every point."""
+    path = table.path
     units = {**inputs, **outputs, **{n + ERROR: u for n, u in outputs.items()}}
     columns: dict[str, NDArray[np.float64]] = {}
     origin: tuple[str, ...] = ()
@@ -185,6 +196,8 @@ def _points(
         name, difference = column.name, column.name.endswith(ERROR)
         if name == "origin":
             origin = tuple(column.cells)
+            continue
+        if name in table.used or name.startswith("_"):
             continue
         if name not in units:
             hint = suggestion(name, units, "did you mean {}? ")

@@ -11,6 +11,7 @@ from ....clutch.parameters import DRUM, LOAD, OIL, SPEED
 from ....errors import ParameterError
 from ....model.part_file import PartFile
 from ....units import format_quantity
+from ..measured import SLIDING, with_speed
 from ..traces.recording import Recording, recording
 from .traced_pack import TracedPack
 
@@ -19,12 +20,14 @@ COLUMNS = {
     "load": "N",
     "pressure": "Pa",
     "speed": "rad/s",
+    "sliding_speed": "m/s",
     "oil_temperature": "K",
     "drum_speed": "rad/s",
     "friction_torque": "N.m",
     "temperature": "K",
 }
 MEASURED = ("friction_torque", "temperature")
+NEEDED = (("load", "pressure"), ("speed", SLIDING), MEASURED)
 SIGNALS = {"load": LOAD, "speed": SPEED, "oil_temperature": OIL, "drum_speed": DRUM}
 UNDER_ZERO = 0.02  # of the largest load: a reading this far below 0 is an offset
 
@@ -33,13 +36,15 @@ def read_recordings(recordings: Any, rig: TracedPack) -> tuple[list[Recording], 
     """Return the recordings, files read, with ``load`` for ``pressure``; what was not plain."""
     found, said = [], []
     for name, given in _named(recordings):
-        columns = given
+        of_file = {name: given}
         if not isinstance(given, Mapping):
             from ..traces.trace_file import read_trace
 
-            columns, _, remarks = read_trace(given, COLUMNS, MEASURED)
+            of_file, _, remarks = read_trace(given, COLUMNS, MEASURED, NEEDED)
             said += [f"{name}: read with {', '.join(remarks)}."] if remarks else []
-        found.append(_with_load(recording(name, columns, COLUMNS, MEASURED), rig))
+        for own, columns in of_file.items():
+            slip = with_speed(columns, rig.friction_radius, own)
+            found.append(_with_load(recording(own, slip, COLUMNS, MEASURED), rig))
     if not found:
         raise ParameterError("recordings: none, allowed: one or more")
     return found, said

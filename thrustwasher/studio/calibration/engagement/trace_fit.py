@@ -26,7 +26,7 @@ from ..traces.trace_problem import TraceProblem, size_text
 from ..traces.trace_result import TraceCalibration
 from ..traces.traced import Traced
 from .pack_history import SLIDES, slip_by_torque, walk_pack
-from .recorded import COLUMNS, MEASURED, completed, read_recordings
+from .recorded import COLUMNS, MEASURED, NEEDED, completed, read_recordings
 from .slip_scatter import slip_scatter
 from .traced_pack import OF_RIG, TRACED, TracedPack, traced_pack
 
@@ -434,4 +434,6 @@ def _notes(rig: TracedPack, runs: tuple[Run, ...], torque_at: str) -> Iterator[s
     )
 
 
-TRACES = Traces(columns=COLUMNS, measured=MEASURED, spec=TRACED, fit=calibrate_traces)
+TRACES = Traces(
+    columns=COLUMNS, measured=MEASURED, needed=NEEDED, spec=TRACED, fit=calibrate_traces
+)

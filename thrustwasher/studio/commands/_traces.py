@@ -21,12 +21,15 @@ OPTIONS = {
     "--drag-torque TORQUE": "torque in addition to the pack's that slows the slip, with --inertia",
     "--torque-at PLACE": "where torque was recorded: pack or hub, default pack",
     "--inertia-between J": "inertia between the faces and the hub's sensor",
+    "--torque-offset TORQUE": "of recordings: torque that the sensor shows in addition to the true "
+    "one; or in --fit torque_offset",
 }
 UNITS = {
     "piston_area": "m2",
     "inertia": "kg.m2",
     "drag_torque": "N.m",
     "inertia_between": "kg.m2",
+    "torque_offset": "N.m",
 }
 
 

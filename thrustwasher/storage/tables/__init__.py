@@ -13,5 +13,6 @@
 ``table``           columns with names, units and cells
 ``column_names``    columns renamed, summed and subtracted
 ``known_columns``   columns that count, and what unknown ones probably hold
+``given``           a table as Python's users hand it over: path, DataFrame, MDF
 ==================  ============================================================================
 """

@@ -8,11 +8,12 @@ from ...errors import ParameterError
 from ...model.parameters import written_out
 from ...model.part_file import PartFile, find_part
 from ...model.registry import find_model, models_with_points
+from ...storage.tables.given import columns_given, is_table
 from .engagement.trace_fit import TRACES
 from .fit import fitted
 from .friction.friction_fit import FrictionFit
 from .least_squares import best_fit
-from .measured import measured
+from .measured import column_units, measured
 from .model_fit import ModelProblem
 from .row_groups import grouped
 from .traces.recording import Traces
@@ -26,7 +27,7 @@ PASSES = 2  # of a fit to means, each with the curvature at the one before
 
 def calibrate(
     part: object,
-    data: Mapping[str, object] | None = None,
+    data: Any = None,
     *,
     fit: Sequence[str] | None = None,
     errors: Mapping[str, float | str] | None = None,
@@ -46,7 +47,8 @@ def calibrate(
     ----------
     part : parameters, a part (``load_part``), or the key of a model with its defaults; the first
         guess, and what is not fitted
-    data : columns of one length by name [SI], also as keywords: inputs and parameters of the
+    data : a path, a ``pandas.DataFrame`` (units in ``attrs["units"]``) or an ``asammdf.MDF``; or
+        columns of one length by name [SI], also as keywords: inputs and parameters of the
         points (one number is that of all), measured outputs (None where not measured),
         ``<output>_error``: their standard deviation. Points with the same number in a column
         ``line`` are walked as a sweep does. A washer's folds are ``film_loss_load`` and
@@ -89,6 +91,12 @@ def calibrate(
     """
     start, params = _start(part)
     spec = start.spec
+    if is_table(data):
+        data = columns_given(data, column_units(spec))
+    elif not isinstance(data, Mapping | None):
+        raise ParameterError(
+            f"data: {type(data).__name__}, allowed: columns by name, a path, a DataFrame, an MDF"
+        )
     data, at = {**(data or {}), **columns}, at or {}
     own = find_model(spec.key).fits
     is_law = not own.computed and not own.units.keys().isdisjoint(data)

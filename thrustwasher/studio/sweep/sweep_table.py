@@ -1,5 +1,6 @@
 """The rows of a sweep as columns, and as a file."""
 
+import json
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
@@ -257,7 +258,10 @@ def _texts(column: NDArray[Any]) -> Sequence[str]:
 
 
 def _batch(table: SweepTable) -> Any:
-    """Return a table of pyarrow with units in the columns' metadata; failed numbers are null."""
+    """Return a table of pyarrow; failed numbers are null.
+
+    Units are in the columns' metadata, and where pandas keeps ``attrs`` in a Parquet file.
+    """
     pa, _ = _pyarrow()
     fields, arrays = [], []
     bad = np.isin(table["status"], list(table.failures))
@@ -273,7 +277,9 @@ def _batch(table: SweepTable) -> Any:
         unit = table.units.get(title, "")
         fields.append(pa.field(title, array.type, metadata={"unit": unit} if unit else None))
         arrays.append(array)
-    return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
+    attributes = {"units": {n: unit for n, unit in table.units.items() if n in table.columns}}
+    schema = pa.schema(fields, metadata={"PANDAS_ATTRS": json.dumps(attributes)})
+    return pa.Table.from_arrays(arrays, schema=schema)
 
 
 def _pyarrow() -> tuple[Any, Any]:

@@ -75,8 +75,9 @@ def calibrate_traces(
     ----------
     part : ``ClutchParams``, a part (``load_part``) or ``"clutch"``; the first guess, and what is
         not fitted
-    recordings : columns [SI] of one recording by their names, a path of a file, a sequence of
-        these, or columns by the names of the recordings. ``time`` [s]; ``load`` [N] or
+    recordings : columns [SI] of one recording by their names, a path of a file, a DataFrame (units
+        in ``attrs["units"]``, time as a column or the index), an ``asammdf.MDF``, a sequence of
+        these, or these by the names of the recordings. ``time`` [s]; ``load`` [N] or
         ``pressure`` [Pa]; ``speed``: slip [rad/s]; ``oil_temperature`` [K] and ``drum_speed``
         [rad/s] where they are recorded; measured ``friction_torque`` [N m] and ``temperature`` [K]
         of the interface (None: not measured). Where time goes back or leaps by more than 20 usual

@@ -98,6 +98,9 @@ class SweepTable(Tabled):
         others = [name for name in self.columns if name not in own]
         return [name for name in others if len(set(self.columns[name].tolist())) > 1]
 
+    def _axes(self) -> list[str]:
+        return self.axes()
+
     def _columns(self) -> dict[str, NDArray[Any]]:
         return self.columns
 

@@ -33,7 +33,8 @@ def dataset_of(
     n = len(next(iter(arrays.values()), ()))
     values = [_in_order(arrays[name]) for name in axes]
     shape = tuple(map(len, values))
-    dims, order = ("row",), np.arange(n)
+    dims: tuple[str, ...] = ("row",)
+    order = np.arange(n)
     if axes and int(np.prod(shape)) == n:
         places = [_places(arrays[name], own) for name, own in zip(axes, values, strict=True)]
         flat = np.ravel_multi_index(places, shape)

@@ -15,6 +15,10 @@ class ParameterError(ValueError):
     """An argument or parameter is outside the range the model holds for."""
 
 
+class UnknownParameter(ParameterError, TypeError):
+    """A parameter of this name is none; to Python it is a wrong keyword as well."""
+
+
 class SolveError(RuntimeError):
     """No solution was found; the message says what was tried and what to change."""
 

@@ -10,6 +10,7 @@ from .units import format_quantity
 
 FACE_LOADS = {  # name -> unit, meaning
     "face_pressure": ("Pa", "load over the area of a face"),
+    "face_pressure_max": ("Pa", "at the bore of a face that has worn evenly, p r = const"),
     "sliding_speed": ("m/s", "sliding speed, at the radius of even pressure or effective_radius"),
     "pressure_velocity": ("W/m2", "face pressure times sliding speed"),
     "power_per_area": ("W/m2", "friction power over the area of all faces"),
@@ -24,6 +25,8 @@ class Face(NamedTuple):
     area: Any  # [m2] of one; a number, or an array for many parts
     count: Any
     radius: Any  # [m] at which they slide
+    peak: Any = 1.0
+    """Pressure at the bore over the mean, once the face has worn evenly (p r = const)."""
 
 
 Faces = Callable[[Any], Face]  # of parameters
@@ -32,6 +35,14 @@ Faces = Callable[[Any], Face]  # of parameters
 def even_radius(inner: float, outer: float) -> float:
     """Return the radius [m] that friction under even pressure acts at."""
     return 2.0 * (outer**3 - inner**3) / (3.0 * (outer**2 - inner**2))
+
+
+def worn_peak(inner: float, outer: float) -> float:
+    """Return the pressure at the bore over the mean where wear is even, p r = const.
+
+    Source: classical design of plate clutches by uniform wear, F = 2 pi p_max r_i (r_o - r_i).
+    """
+    return 0.5 * (outer + inner) / inner
 
 
 def face_loads(face: Face, load: Any, speed: Any, power: Any) -> dict[str, Any]:
@@ -47,6 +58,7 @@ def face_loads(face: Face, load: Any, speed: Any, power: Any) -> dict[str, Any]:
     pressure, sliding = load / face.area, abs(speed) * face.radius
     return {
         "face_pressure": pressure,
+        "face_pressure_max": pressure * face.peak,
         "sliding_speed": sliding,
         "pressure_velocity": pressure * sliding,
         "power_per_area": power / (face.area * face.count),
@@ -70,6 +82,11 @@ class OnFaces:
     def face_pressure(self) -> float:
         """[Pa] load over the area of a face."""
         return self._face_load("face_pressure")
+
+    @property
+    def face_pressure_max(self) -> float:
+        """[Pa] at the bore of a face that has worn evenly, p r = const; new it has the mean."""
+        return self._face_load("face_pressure_max")
 
     @property
     def sliding_speed(self) -> float:

@@ -10,11 +10,13 @@ from enum import Enum
 from html import escape
 from typing import Any, NamedTuple
 
+from .datasets import dataset_of
 from .errors import EnvironmentProblem
 from .plugins import called
 from .units import format_quantity, format_time
 
 HOUR = 3600.0  # s
+LONGEST_TEXT = 1200  # characters of a table's short text, before its last line
 MOST_WORDS = 5  # different texts of a column that are listed
 
 
@@ -86,6 +88,46 @@ class Tabled(Shown):
     def _words(self) -> Mapping[str, Words]:
         """Return unit and meaning of columns, as far as they have any."""
         return {}
+
+    def _axes(self) -> Sequence[str]:
+        """Return the names of the columns that were varied, in the order asked."""
+        return ()
+
+    def __init_subclass__(cls, **more: Any) -> None:
+        """Keep the short text of a table: that of a dataclass would be all of its arrays."""
+        super().__init_subclass__(**more)
+        if "__repr__" not in cls.__dict__:
+            cls.__repr__ = Tabled.__repr__  # type: ignore[method-assign]
+
+    def __repr__(self) -> str:
+        """Return size, columns with their ranges, and what failed, in under 1500 characters."""
+        columns, words = self._columns(), self._words()
+        n = len(next(iter(columns.values()), ()))
+        found = [f"{type(self).__name__}: {n} rows, {len(columns)} columns"]
+        if failed := getattr(self, "failures", None):
+            found.append(f"  failed: {', '.join(f'{k} {name}' for name, k in failed.items())}")
+        lines = [f"  {line.name}  {line.value}" for line in column_lines(columns, words)]
+        for i, line in enumerate(lines):
+            if sum(map(len, found)) + len(line) > LONGEST_TEXT:
+                return "\n".join([*found, f"  and {len(lines) - i} more columns"])
+            found.append(line)
+        return "\n".join(found)
+
+    def to_xarray(self) -> Any:
+        """Return the columns as an ``xarray.Dataset``, on the grid of what was varied.
+
+        Where that is no grid they are over ``row``. Units [SI] and meanings are attributes; the
+        status is a number with its meanings.
+
+        Raises
+        ------
+        EnvironmentProblem : there is no xarray; the message says how to get it
+        """
+        columns, words = self._columns(), self._words()
+        attributes = {
+            name: (words[name].unit, words[name].help) for name in columns if name in words
+        }
+        return dataset_of(columns, attributes, self._axes(), type(self).__name__)
 
     def to_pandas(self) -> Any:
         """Return the columns as a ``pandas.DataFrame``; units [SI] are in ``attrs["units"]``.

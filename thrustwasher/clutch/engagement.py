@@ -50,6 +50,7 @@ class Engagement(OverTime):
     oil_heat: Array  # [W] heat that reached the oil, mean since the point before; 0 at the first
     stored_heat: Array
     face_pressure: Array
+    face_pressure_max: Array
     sliding_speed: Array
     pressure_velocity: Array
     power_per_area: Array

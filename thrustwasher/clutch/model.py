@@ -106,7 +106,9 @@ class Clutch(Model):
     def fits(self) -> Fits:
         """The coefficient of friction, which a law of its own follows."""
         return Fits(
-            units={"friction": "1"}, sliding_radius=lambda params: float(params.friction_radius)
+            units={"friction": "1"},
+            sliding_radius=lambda params: float(params.friction_radius),
+            at_mean=True,
         )
 
 

@@ -7,7 +7,7 @@ from operator import attrgetter
 from typing import Any, Self
 
 from ..errors import ParameterError
-from ..face_load import Face, even_radius
+from ..face_load import Face, even_radius, worn_peak
 from ..model.parameters import check_ranges, check_rules, choice, count, flag, other_names, quantity
 from ..model.part_file import preset_params
 from ..model.spec import Rule
@@ -443,7 +443,8 @@ class ClutchParams:
     @property
     def face(self) -> Face:
         """The friction faces."""
-        return Face(self.lining_area / self.faces, self.faces, self.friction_radius)
+        area, peak = self.lining_area / self.faces, worn_peak(self.inner_radius, self.outer_radius)
+        return Face(area, self.faces, self.friction_radius, peak)
 
     @classmethod
     def with_table(

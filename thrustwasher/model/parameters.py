@@ -11,7 +11,7 @@ from operator import attrgetter, contains, le
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
-from ..errors import ParameterError
+from ..errors import ParameterError, UnknownParameter, suggestion
 from ..units import into_range, meant
 from .spec import ModelSpec, Rule, derived
 from .unread import condition_words
@@ -94,6 +94,28 @@ def allowed(meta: Any) -> str:
 def extended(params: type[T], name: str, more: Mapping[str, object]) -> type[T]:
     """Return a parameter dataclass of this name with more fields, behind its own."""
     return derived(params, name, [(n, float, f) for n, f in more.items()])
+
+
+def naming_unknown(params: type[T]) -> type[T]:
+    """Let a wrong name of a field raise UnknownParameter with the nearest one."""
+    plain = params.__init__
+
+    @wraps(plain)
+    def init(self: object, *args: object, **given: object) -> None:
+        try:
+            plain(self, *args, **given)
+        except TypeError:
+            known = [f.name for f in fields(params)]  # type: ignore[arg-type]
+            known += [*other_names_of(params), *earlier_of(params)]
+            for name in given:
+                if name not in known:
+                    hint = suggestion(name, known, "; did you mean {}?")
+                    text = f"{params.__name__} has no parameter {name!r}{hint}"
+                    raise UnknownParameter(text) from None
+            raise
+
+    params.__init__ = init  # type: ignore[method-assign]
+    return params
 
 
 def other_names(params: type[T]) -> type[T]:

@@ -105,6 +105,8 @@ class Fits:
     where there are none."""
     sliding_radius: Callable[[Any], float] | None = None
     """From parameters to the radius [m] at which the speed slides."""
+    at_mean: bool = False
+    """That radius is a mean: a measured sliding speed [m/s] over it is a speed."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,7 +11,7 @@ from typing import Any, get_args, get_origin, get_type_hints
 
 from ..errors import ParameterError, refuse_pipe, suggestion, within
 from ..units import has_unit, parse_quantity
-from .parameters import allowed, check_number, check_value
+from .parameters import allowed, check_number, check_value, naming_unknown
 from .spec import ModelSpec, Rule
 
 # What XML 1.0 has no place for, as it is and as TOML's texts may spell it.
@@ -126,7 +126,8 @@ def spec_beside(
             if kind == "outputs":
                 signal["depends"] = [*table["inputs"]]
             signals[kind].append(signal | rest)
-    spec: ModelSpec = from_plain(ModelSpec, table | signals | {"params": params})
+    own = {"params": naming_unknown(params)}
+    spec: ModelSpec = from_plain(ModelSpec, table | signals | own)
     return replace(spec, rules=rules, **more)
 
 

@@ -72,6 +72,10 @@ class EfficiencyMap(Tabled):
         found = of_whole_map(places, self.doubts)
         return (*found, *self.scene.warnings, *remarks(self.scene), *(() if lost else (none,)))
 
+    def _axes(self) -> list[str]:
+        names = ("torque", "speed", "oil_temperature")
+        return [n for n in names if n in self.columns and len(set(self.columns[n].tolist())) > 1]
+
     def to_dict(self) -> dict[str, Any]:
         """Return scene, gear, columns, balance and warnings as JSON can hold them, SI units."""
         names = ("gear", "columns", "flow", "doubts", "balance", "warnings")

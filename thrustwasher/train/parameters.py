@@ -17,6 +17,7 @@ from ..model.parameters import (
     choice,
     count,
     extended,
+    naming_unknown,
     other_names,
     quantity,
     read_with,
@@ -264,7 +265,7 @@ for _i in range(1, L.MESHES + 1):
 for _i in range(1, L.SHAFTS + 1):
     _there = (("meshes", ">=", _i - 1),)  # the shaft behind that mesh
     _MORE |= read_with(_there, _of_shaft(_i)) if _i > 2 else _of_shaft(_i)
-TrainParams: Any = other_names(extended(_TrainParams, "TrainParams", _MORE))
+TrainParams: Any = naming_unknown(other_names(extended(_TrainParams, "TrainParams", _MORE)))
 
 
 def _rules(i: int) -> tuple[Rule, ...]:

@@ -59,6 +59,10 @@ class TrainMap(Tabled):
         oil = format_quantity(float(self.columns["oil_temperature"][0]), "K")
         return f"{self.scene.title}, oil {oil}"
 
+    def _axes(self) -> list[str]:
+        names = ("torque", "speed", "oil_temperature")
+        return [n for n in names if n in self.columns and len(set(self.columns[n].tolist())) > 1]
+
     def to_dict(self) -> dict[str, Any]:
         """Return columns, flow, doubts, balance and warnings as JSON can hold them, SI units."""
         names = ("columns", "flow", "doubts", "balance", "warnings")

@@ -57,6 +57,7 @@ class WasherHistory(OverTime):
     stored_heat: Array
     oil_energy: Array
     face_pressure: Array
+    face_pressure_max: Array
     sliding_speed: Array
     pressure_velocity: Array
     power_per_area: Array

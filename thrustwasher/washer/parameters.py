@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..errors import ParameterError
-from ..face_load import Face, even_radius
+from ..face_load import Face, even_radius, worn_peak
 from ..model.parameters import (
     check_number,
     check_ranges,
@@ -184,7 +184,7 @@ def face_of(inner_radius: float, outer_radius: float) -> float:
 def washer_face(params: Any) -> Face:
     """Return the face between carrier and washer."""
     radii = params.inner_radius, params.outer_radius
-    return Face(face_of(*radii), 1, even_radius(*radii))
+    return Face(face_of(*radii), 1, even_radius(*radii), worn_peak(*radii))
 
 
 def _over_pressure(given: dict[str, Any]) -> dict[str, Any]:

@@ -187,6 +187,14 @@ def test_of_a_pack_each_face_bears_the_whole_load_and_heat_is_shared():
         assert {*FACE_LOADS} <= {*found.to_dict()}
 
 
+def test_a_plate_that_has_worn_evenly_bears_its_permissible_pressure_at_the_bore():
+    """A face of 75 mm x 150 mm at 0.3 MPa: F = 2 pi p r_i (r_o - r_i) = 2650.7 N."""
+    plate = ClutchParams(inner_radius=0.0375, outer_radius=0.075, friction_law="constant")
+    found = solve_clutch(plate, load=2650.7188, speed=1.0, fidelity="closed")
+    assert found.face_pressure_max == pytest.approx(0.3e6, rel=1e-7)
+    assert found.face_pressure == pytest.approx(0.2e6, rel=1e-7)
+
+
 def test_over_time_they_are_columns_with_the_energy():
     time = np.linspace(0.0, 0.3, 31)
     found = engage_clutch(

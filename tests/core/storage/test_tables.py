@@ -5,6 +5,7 @@ import pytest
 
 from tests.needed import package
 from thrustwasher.errors import ParameterError
+from thrustwasher.storage.tables.column_names import renamed
 from thrustwasher.storage.tables.table import MANY, numbers
 from thrustwasher.storage.tables.table_file import read_table
 
@@ -91,14 +92,14 @@ def test_long_columns_are_the_same_numbers_as_short_ones(tmp_path):
 def test_columns_are_renamed_by_the_channel_that_holds_them(tmp_path):
     (tmp_path / "rig.csv").write_text("N_SLIP,F_AX [kN],mue\n3000,3,0.11\n")
     table = read_table(tmp_path / "rig.csv")
-    named = table.renamed({"speed [rpm]": "N_SLIP", "load": "F_AX", "friction": "mue"})
+    named = renamed(table, {"speed [rpm]": "N_SLIP", "load": "F_AX", "friction": "mue"})
     assert [(c.name, c.unit) for c in named.columns] == [
         ("speed", "rpm"),
         ("load", "kN"),
         ("friction", ""),
     ]
     with pytest.raises(ParameterError, match="did you mean N_SLIP"):
-        table.renamed({"speed": "N_SLP"})
+        renamed(table, {"speed": "N_SLP"})
 
 
 def test_spreadsheets_are_read(tmp_path):
@@ -244,9 +245,9 @@ def test_a_name_in_two_groups_is_refused_by_the_groups_or_chosen_by_one(tmp_path
     with pytest.raises(ParameterError, match="speed is in the groups 'fast', 'slow'; name one"):
         cells(table)
     with pytest.raises(ParameterError, match="speed is in the groups 'fast', 'slow'"):
-        table.renamed({"speed": "speed"})
+        renamed(table, {"speed": "speed"})
     for group, value in (("fast", 150.0), ("slow", 75.0)):
-        found, _ = cells(table.renamed({"speed": f"{group}:speed"}))
+        found, _ = cells(renamed(table, {"speed": f"{group}:speed"}))
         assert set(found["speed"]) == {value}
     assert len(table.of_columns(("time", "load", "note"))) == 101
 
@@ -256,7 +257,7 @@ def test_groups_without_names_are_named_by_their_numbers(tmp_path):
     table = written(tmp_path / "rig.mf4", *groups)
     with pytest.raises(ParameterError, match="groups '0', '1'"):
         cells(table)
-    assert cells(table.renamed({"speed": "1:speed"}))[0]["speed"][0] == 1.0
+    assert cells(renamed(table, {"speed": "1:speed"}))[0]["speed"][0] == 1.0
 
 
 def test_channels_without_a_common_time_or_a_number_are_refused_by_name(tmp_path):
@@ -273,4 +274,4 @@ def test_channels_without_a_common_time_or_a_number_are_refused_by_name(tmp_path
 def test_equal_names_in_a_text_file_are_refused_where_one_is_named(tmp_path):
     (tmp_path / "rig.csv").write_text("N,N,load\n1,2,3\n")
     with pytest.raises(ParameterError, match="has two columns n"):
-        read_table(tmp_path / "rig.csv").renamed({"speed": "N"})
+        renamed(read_table(tmp_path / "rig.csv"), {"speed": "N"})

@@ -419,6 +419,22 @@ def test_a_zero_offset_of_the_torque_is_a_hint_and_stops_nothing():
     assert not [text for text in sound.warnings if "zero offset" in text]
 
 
+@pytest.mark.slow
+def test_an_offset_of_the_torque_is_fitted_with_its_interval_or_held():
+    """Fitted it is found within 1 N m; held, the others are those of a recording without one."""
+    data = recorded()
+    shown = data | {"friction_torque": data["friction_torque"] - 4.0}
+    found = calibrate_traces(PACK, shown, fit=(*TRUTH, "torque_offset"))
+    own = {e.name: e for e in found.estimates}
+    low, high = own["torque_offset"].interval
+    assert low < -4.0 < high and high - low < 2.0 and own["torque_offset"].identifiable
+    assert values(found)["friction_scale"] == pytest.approx(TRUTH["friction_scale"], rel=0.01)
+    held = calibrate_traces(PACK, shown, fit=tuple(TRUTH), torque_offset="-4 N.m")
+    sound = calibrate_traces(PACK, data, fit=tuple(TRUTH))
+    assert values(held) == pytest.approx(values(sound), rel=1e-4)
+    assert type(found.params) is ClutchParams
+
+
 def test_a_pressed_pack_may_have_torque_on_the_wrong_side_as_its_error_says():
     data = recorded()
     row = int(np.argmax(data["load"] > 500.0))  # pressed, its torque still small

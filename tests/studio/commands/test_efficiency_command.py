@@ -27,6 +27,35 @@ def test_the_map_goes_to_a_file_a_picture_and_json(tmp_path, capsys):
     assert plot.stat().st_size > 10_000
 
 
+@slow_without_jit
+def test_a_loss_map_of_vecto_has_what_the_table_has_and_is_read_again(tmp_path, capsys):
+    from thrustwasher.storage.tables.table import numbers
+    from thrustwasher.storage.tables.table_file import read_table
+
+    over = ["--over", "torque=-50:150:100", "--over", "speed=1000rpm,1500rpm"]
+    for name in ("map.csv", "map.vtlm"):
+        assert main(["efficiency", "ev-reducer", *over, "--out", str(tmp_path / name)]) == 0
+    table, whole = read_table(tmp_path / "map.vtlm"), read_table(tmp_path / "map.csv")
+    assert [c.name for c in table.columns] == ["Input Speed", "Input Torque", "Torque Loss"]
+    rows = sorted(
+        zip(
+            *(
+                numbers(next(c for c in whole.columns if c.name == n), whole, u)
+                for n, u in (("speed", "rad/s"), ("torque", "N.m"), ("loss", "W"))
+            ),
+            strict=True,
+        )
+    )
+    units = ("rad/s", "N.m", "N.m")
+    found = [numbers(c, table, u) for c, u in zip(table.columns, units, strict=True)]
+    for (speed, torque, loss), *row in zip(rows, *found, strict=True):
+        assert row == pytest.approx([speed, torque, loss / speed], rel=1e-8)
+    capsys.readouterr()
+    rest = ["--over", "speed=0,100", "--out", str(tmp_path / "rest.vtlm")]
+    assert main(["efficiency", "ev-reducer", "--over", "torque=50", *rest]) == 2
+    assert "speeds above 0 rad/s" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [

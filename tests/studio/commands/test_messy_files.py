@@ -91,6 +91,16 @@ READ = {
         (),
         "groups of thousands",
     ),
+    "the head again": (
+        text(rows=[*ROWS[:5], HEAD, *ROWS[5:]]),
+        (),
+        "2 tables of one head (lines 1, 7), decimal commas",
+    ),
+    "text above": (
+        b"Rig 3;Mueller\nTested on;01.02.2024\n[Data]\n" + text(),
+        (),
+        "the head of line 4, 3 lines above passed over (Rig 3;Mueller), decimal commas",
+    ),
     "a mark, remarks, empty lines": (
         b"\xef\xbb\xbf# rig 3\n\n" + text(comma=False).replace(b"\n", b"\r\n;;\r\n"),
         (),
@@ -103,12 +113,18 @@ REFUSED = {
     "two decimal signs": (text(rows=changed(3, 2, "0.1191")), "one decimal sign is required"),
     "commas between all": (text(sep=","), "separate the cells by semicolons"),
     "a name twice": (text(["speed", "load", "load"]), "has two columns load"),
-    "the head again": (text(rows=[*ROWS[:5], HEAD, *ROWS[5:]]), "line 7"),
+    "another head": (
+        text(rows=[*ROWS[:5], ["speed [rpm]", "load [N]", "torque [Nm]"], *ROWS[5:]]),
+        "different heads, name those to read: --table 1 (line 1): speed [rpm], load [N], friction",
+    ),
     "a missing value": (text(rows=changed(4, 2, "")), "line 6: friction is missing"),
     "a missing value in words": (text(rows=changed(4, 2, "n/a")), "line 6: friction = 'n/a'"),
     "a unit of something else": (text(["speed [rpm]", "load [bar]", "friction"]), "column load"),
     "a sign against the others": (text(rows=changed(7, 2, -0.11)), "point 8 is -0.11"),
-    "no such channel": (text(GERMAN), "column speed is missing"),
+    "no such channel": (
+        text(GERMAN),
+        '--column "speed=Drehzahl" --column "load=Anpresskraft" --column "friction=Reibwert"',
+    ),
 }
 
 
@@ -190,3 +206,46 @@ def test_a_trace_in_psi_and_ms_of_a_german_spreadsheet_is_read(tmp_path, capsys)
     same = calibrate_traces("clutch", exact, fit=["friction_scale"], piston_area=6e-3)
     assert found == pytest.approx(0.9, rel=1e-4) == same.params.friction_scale
     assert all(a < b for a, b in pairwise(time))
+
+
+def test_friction_over_sliding_speed_in_metres_per_second_gives_the_same_constants(
+    tmp_path, capsys, fitted
+):
+    from thrustwasher import ClutchParams
+
+    radius = ClutchParams().friction_radius
+    rows = [[v * np.pi / 30.0 * radius * 1e3, f, mu] for v, f, mu in ROWS]
+    lines = [",".join(map(repr, row)) for row in rows]
+    (tmp_path / "rig.csv").write_text("\n".join(["sliding_speed [mm/s],load,friction", *lines]))
+    found, _ = calibrated(tmp_path / "rig.csv", capsys)
+    assert found["decay_speed"] == pytest.approx(fitted["decay_speed"], rel=1e-4)
+    (tmp_path / "two.csv").write_text("sliding_speed,speed,load,friction\n1,2,3,0.1\n2,4,3,0.1\n")
+    assert main(["calibrate", str(tmp_path / "two.csv")]) == 2
+    assert "has speed and sliding_speed, allowed: one of both" in capsys.readouterr().err
+
+
+def test_steps_of_a_rig_in_one_file_are_recordings_each(tmp_path, capsys):
+    """Time goes on from step to step: by time alone they would be one recording."""
+    from thrustwasher import ClutchParams, engage_clutch
+
+    time = np.linspace(0.0, 0.5, 51)
+    way = {"load": 5e3 * np.clip(time / 0.1, 0.0, 1.0), "speed": 150.0 * (1.0 - time / 0.5)}
+    torque = engage_clutch(ClutchParams(friction_scale=0.9), time=time, **way).friction_torque
+    lines = ["Rig 3;steps"]
+    for step in range(2):
+        lines += [f"Step {step + 1};started", "time [s];load [N];v [m/s];n_slip [rad/s];M [Nm]"]
+        for t, *rest in zip(time + 0.51 * step, *way.values(), torque, strict=True):
+            lines.append(";".join(map(repr, map(float, [t, rest[0], 1.0, *rest[1:]]))))
+    (tmp_path / "rig.txt").write_text("\n".join(lines))
+    words = ["calibrate", "clutch", str(tmp_path / "rig.txt"), "--fit", "friction_scale", "--json"]
+    assert main(words) == 2
+    copied = '--column "speed=n_slip" --column "friction_torque=M"'
+    assert copied in capsys.readouterr().err
+    named = [*words, "--column", "speed=n_slip", "--column", "friction_torque=M"]
+    assert main(named) == 0
+    out, err = capsys.readouterr()
+    found = json.loads(out)
+    assert found["recordings"] == 2 and "2 tables of one head (lines 3, 56)" in err
+    assert found["fitted"]["friction_scale"] == pytest.approx(0.9, rel=1e-3)
+    assert main([*named, "--table", "2"]) == 0
+    assert json.loads(capsys.readouterr().out)["recordings"] == 1

@@ -118,11 +118,14 @@ class Targets(NamedTuple):
         note(f"wrote {self.plot}")
 
 
-def targets(arguments: argparse.Namespace) -> Targets:
-    """Return the files that ``add_targets`` lets one ask for, checked before any work is done."""
+def targets(arguments: argparse.Namespace, suffixes: tuple[str, ...] = (".csv",)) -> Targets:
+    """Return the files that ``add_targets`` lets one ask for, checked before any work is done.
+
+    ``suffixes``: endings of tables.
+    """
     out, plot = getattr(arguments, "out", None), getattr(arguments, "plot", None)
     return Targets(
-        check_file(out, "--out", (".csv",)) if out else None,
+        check_file(out, "--out", suffixes) if out else None,
         _check_plot(plot) if plot else None,
     )
 

@@ -3,14 +3,23 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ...errors import ParameterError, suggestion
-from ...units import parse_quantity
+from ...errors import ParameterError
 from ._output import note
 
 if TYPE_CHECKING:
-    from ...storage.tables.table import Column, Table
+    from ...storage.tables.heads import Wanted
+    from ...storage.tables.table import Table
 
 SHOWN = 12  # names of columns that do not count
+COLUMN = (
+    "column of the file that holds NAME, e.g. speed=N_SLIP or 'speed [rpm]=N_SLIP'; a sum or "
+    "difference, 'speed=n_in - n_out'; may be repeated"
+)
+OPTIONS = {
+    "--skip N": "lines above the head of the table, if it is not found as meant",
+    "--table N": "of a file with several tables: the number of one, or of several, 1,3",
+    "--sheet NAME": "of a workbook: the sheet; of a .mat file: the struct",
+}
 
 
 def read_columns(
@@ -20,7 +29,9 @@ def read_columns(
     *,
     strict: bool = False,
     names: Sequence[str] = (),
+    needed: Sequence[Sequence[str]] = (),
     known: "Table | None" = None,
+    wanted: "Wanted | None" = None,
 ) -> dict[str, list[Any]]:
     """Return the columns, each a list of numbers in SI units.
 
@@ -28,29 +39,61 @@ def read_columns(
     line of units below; without it they are SI. What a file may look like ``read_table`` says;
     what is unusual about it is printed. Other columns are passed over, with
     a line, unless their name is nearly one of these. ``units`` holds the SI unit of every
-    column by its name, ``optional`` the names that may be missing. ``strict``: other columns are
+    column by its name, ``optional`` the names that may be missing, ``needed``
+    groups of them of which one is required each. ``strict``: other columns are
     refused unless their names begin with _, and a cell may be empty: None. ``names``: texts
     NAME=CHANNEL of ``--column``. ``known``: the table, where it was read before and renamed. Errors
     name line and column.
     """
+    from ...storage.tables.known_columns import known_columns
     from ...storage.tables.table import numbers
-    from ...storage.tables.table_file import read_table
 
-    table = read_table(path).renamed(renaming(names)) if known is None else known
+    table = named_table(path, names, wanted) if known is None else known
     table = table.of_columns(units)
-    found, passed = _find(table, units, optional, strict)
+    needed = needed or [(name,) for name in units if name not in optional]
+    found, passed = known_columns(table, units, needed, strict=strict)
     columns: dict[str, list[Any]] = {}
     for name, column in found.items():
         columns[name] = numbers(column, table, units[name], name=name)
         if not strict and None in columns[name]:
             line = table.lines[columns[name].index(None)]
             raise ParameterError(f"{path}, line {line}: {name} is missing")
-    if table.remarks:
-        note(f"{path}: read with {', '.join(table.remarks)}")
+    tell(path, table.remarks, passed)
+    return columns
+
+
+def tell(path: str, remarks: Sequence[str], passed: Sequence[str]) -> None:
+    """Say what was not plain about a file, and which columns do not count."""
+    if remarks:
+        note(f"{path}: read with {', '.join(remarks)}")
     if passed:
         more = f" and {len(passed) - SHOWN} more" if len(passed) > SHOWN else ""
         note(f"{path}: passed over, as no column that counts: {', '.join(passed[:SHOWN])}{more}")
-    return columns
+
+
+def named_table(path: str, names: Sequence[str] = (), wanted: "Wanted | None" = None) -> "Table":
+    """Return the table of a file with columns renamed by texts NAME=COLUMN."""
+    from ...storage.tables.column_names import renamed
+    from ...storage.tables.heads import USUAL
+    from ...storage.tables.table_file import read_table
+
+    return renamed(read_table(path, wanted or USUAL), renaming(names))
+
+
+def wanted_of(arguments: Any) -> "Wanted":
+    """Return where the table stands in a file, as ``OPTIONS`` say it."""
+    from ...storage.tables.heads import Wanted
+
+    skip = arguments.skip
+    tables: tuple[int, ...] = ()
+    if skip is not None and not (skip.isdecimal() and len(skip) < 9):
+        raise ParameterError(f"--skip {skip}: allowed: a number of lines, 0 or more")
+    if arguments.table is not None:
+        words = [word.strip() for word in arguments.table.split(",")]
+        if not all(word.isdecimal() and len(word) < 9 for word in words):
+            raise ParameterError(f"--table {arguments.table}: allowed: numbers, e.g. 2 or 1,3")
+        tables = tuple(map(int, words))
+    return Wanted(None if skip is None else int(skip), tables, arguments.sheet or "")
 
 
 def renaming(names: Sequence[str]) -> dict[str, str]:
@@ -60,45 +103,3 @@ def renaming(names: Sequence[str]) -> dict[str, str]:
         if not name.strip() or not channel.strip():
             raise ParameterError(f"--column {text}: allowed: NAME=CHANNEL, e.g. speed=N_SLIP")
     return {name.strip(): channel.strip() for name, _, channel in pairs}
-
-
-def _find(
-    table: "Table", units: Mapping[str, str], optional: tuple[str, ...], strict: bool
-) -> tuple[dict[str, "Column"], list[str]]:
-    """Return every column by its name, and those passed over."""
-    from ...storage.tables.table import time_hint
-
-    path = table.path
-    found: dict[str, Column] = {}
-    passed = []
-    for column in table.columns:
-        name = column.plain
-        if name not in units:
-            hint = suggestion(
-                name,
-                set(units) - {*found},
-                "did you mean {}? ",
-                likeness=0.6 if strict else 0.75,
-                by_words=strict,  # else a column of its own may share a word with any
-            )
-            if column.name and not column.name.startswith("_"):
-                over_time = time_hint([column]) if strict else ""
-                if over_time or ((strict or hint) and not table.binary):
-                    hint = over_time or hint
-                    raise ParameterError(
-                        f"{path}: column {column.name!r} is not known; {hint}begin its "
-                        "name with _ to pass it over"
-                    )
-                passed.append(column.name)
-            continue
-        if name in found:
-            raise ParameterError(f"{path}: has two columns {name}")
-        parse_quantity(f"1 {column.unit}", units[name], f"{path}: unit of column {name}")
-        found[name] = column
-    missing = [name for name in units if name not in found and name not in optional]
-    if missing:
-        names = ", ".join(column.name for column in table.columns[:SHOWN])
-        raise ParameterError(
-            f"{path}: column {missing[0]} is missing; required: {', '.join(units)}; found: {names}"
-        )
-    return found, passed

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ...errors import ParameterError, within
 from ...model.toml_tables import quantity
+from ...storage.tables.column_names import renamed
 from ...storage.tables.table import Table, numbers
 from ...storage.tables.table_file import read_table
 from ...transmission.parameters import POINTS, PROFILES
@@ -164,7 +165,7 @@ def _columns(place: _Place) -> tuple[Array, Array, Table, list[str]]:
         raise ParameterError(f'columns = {names!r}, allowed: a table {{ name = "channel" }}')
     if not Path(place.given).exists():
         raise ParameterError(f"points = {place.given!r}: there is no such file")
-    table = read_table(place.given).renamed(names)
+    table = renamed(read_table(place.given), names)
     over, *wanted = place.columns
     known = {c.plain for c in table.columns}
     what = next((name for name in wanted if name in known), wanted[0])

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import ParameterError
+from .column_names import Sum, added
 from .table import LONGEST, Column, Table, plain_unit, several_text
 
 INSTALL = 'pip install "thrustwasher[data]"'
@@ -59,6 +60,8 @@ class MeasuringTable(Table):
         all of ``names`` but ``may_lack`` are known: from their latest start to their earliest end.
         ``remarks`` say what is left out.
         """
+        if sums := [c for c in self.columns if isinstance(c, Sum) and c.plain in names]:
+            return self._with_sums(sums, names, may_lack)
         wanted = [c for c in self.columns if isinstance(c, Channel) and c.plain in names]
         for channel in wanted:
             same = [c for c in wanted if c.plain == channel.plain]
@@ -107,7 +110,36 @@ class MeasuringTable(Table):
             else c
             for c in self.columns
         ]
-        return Table(self.path, columns, (rows + 1).tolist(), remarks, binary=True)
+        lines = (rows + 1).tolist()
+        given, used = self.given, self.used
+        return Table(self.path, columns, lines, remarks, binary=True, given=given, used=used)
+
+    def _with_sums(
+        self, sums: list[Sum], names: Collection[str], may_lack: Collection[str]
+    ) -> Table:
+        """Return the channels that count with sums of some, at common times."""
+        columns = [c for c in self.columns if c not in sums]
+        own = {}
+        for total in sums:
+            for k, (_, channel) in enumerate(total.terms):
+                own[total.name, k] = replace(channel, name=f"{total.plain}#{k}")
+        lacking = {c.plain for (name, _), c in own.items() if name.lower() in may_lack}
+        table = replace(self, columns=[*columns, *own.values()]).of_columns(
+            {*names, *(c.plain for c in own.values())}, {*may_lack, *lacking}
+        )
+        read = {c.plain: c for c in table.columns}
+        made = []
+        for total in sums:
+            terms = [
+                (sign, replace(read[own[total.name, k].plain], name=channel.name))
+                for k, (sign, channel) in enumerate(total.terms)
+            ]
+            try:
+                made.append(added(table, total.name, total.unit, terms))
+            except ParameterError as error:
+                raise ParameterError(f"{self.path}: --column {total.name}: {error}") from None
+        kept = [c for c in table.columns if c.plain not in {x.plain for x in own.values()}]
+        return replace(table, columns=[*kept, *made])
 
     def _resampled(self, signal: _Signal, time: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return a signal at times of another group."""

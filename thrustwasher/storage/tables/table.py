@@ -1,17 +1,16 @@
 """A table as it stands in a file: names, units and cells of its columns."""
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import ParameterError, suggestion
+from ...errors import ParameterError
 from ...units import UNITS, parse_quantity, unit_size
 
 LONGEST = 2_000_000  # rows; a larger file is none of measured points
-TIMES = ("timestamp", "timestamps", "t", "zeit", "seconds")  # plain names that loggers give to it
 MANY = 2_000  # rows from which a column is converted as a whole, rounded once in long double
 
 
@@ -44,48 +43,32 @@ class Table:
     """What was not plain, such as "decimal commas"."""
     binary: bool = False
     """From a format with many channels, of which those without a known name do not count."""
+    parts: tuple[int, ...] = ()
+    """Rows of each table in a file that has several of one head, each a recording of its own."""
+    name: str = ""
+    """Of one of several tables in a file."""
+    given: Mapping[str, str] = field(default_factory=dict)
+    """Which column was said to hold a name."""
+    used: tuple[str, ...] = ()
+    """Names of columns that sums and differences are made of."""
 
     def __len__(self) -> int:
         """Return the number of rows."""
         return len(self.lines)
 
-    def renamed(self, names: Mapping[str, str]) -> "Table":
-        """Return the table with columns renamed: name, or name and [unit], by channel.
-
-        A channel in a group of a measuring file is named by itself or as "group:channel".
-
-        Raises
-        ------
-        ParameterError : there is no such channel, several have this name, or a name is given twice
-        """
-        known: dict[str, list[int]] = {}
-        for i, column in enumerate(self.columns):
-            for key in [column.name, *([f"{column.group}:{column.name}"] if column.group else [])]:
-                known.setdefault(key, []).append(i)
-        given = [name.partition("[")[0].strip() for name in names]
-        twice = [name for name in given if given.count(name) > 1]
-        if twice:
-            raise ParameterError(f"--column {twice[0]}: is given twice")
-        new = {}
-        for name, channel in names.items():
-            if channel not in known:
-                hint = suggestion(channel, known, "did you mean {}? ")
-                shown = list(dict.fromkeys(column.name for column in self.columns))
-                more = ", .." if len(shown) > 20 else ""
-                raise ParameterError(
-                    f"{self.path}: --column {name}={channel}: there is no column {channel!r}; "
-                    f"{hint}found: {', '.join(shown[:20])}{more}"
-                )
-            same = [self.columns[i] for i in known[channel]]
-            if len(same) > 1:
-                raise ParameterError(several_text(self.path, split_head(name)[0], same))
-            new[known[channel][0]] = split_head(name)
-        columns = [
-            replace(c, name=new[i][0], unit=new[i][1] or c.unit) if i in new else c
-            for i, c in enumerate(self.columns)
-            if i in new or c.name not in given
-        ]
-        return replace(self, columns=columns)
+    def each(self) -> "list[Table]":
+        """Return the tables of a file with several, each by itself."""
+        if not self.parts:
+            return [self]
+        found, start = [], 0
+        for k, size in enumerate(self.parts, 1):
+            rows = slice(start, start + size)
+            columns = [replace(c, cells=c.cells[rows]) for c in self.columns]
+            name = f"table {k} (from line {self.lines[start]})"
+            own = replace(self, columns=columns, lines=self.lines[rows], parts=(), name=name)
+            found.append(own)
+            start += size
+        return found
 
     def of_columns(self, names: Collection[str], may_lack: Collection[str] = ()) -> "Table":
         """Return the table with cells of the columns that count; those of a text file stand.
@@ -115,12 +98,14 @@ def several_text(path: str, name: str, same: Collection[Column]) -> str:
     return f"{path}: has two columns {next(iter(same)).plain}{where}"
 
 
-def time_hint(columns: Collection[Column]) -> str:
-    """Return how a column that is time by another name is named; "" where there is none."""
+def without_twins(columns: Sequence[Column]) -> list[Column]:
+    """Return columns without those that repeat another with its name, unit and all its numbers."""
+    found: list[Column] = []
     for column in columns:
-        if column.plain in TIMES:
-            return f'if {column.name} is the time of a recording: --column "time={column.name}"; '
-    return ""
+        same = (c for c in found if (c.name, c.unit) == (column.name, column.unit))
+        if not column.name or all(c.cells != column.cells for c in same):
+            found.append(column)
+    return found
 
 
 def split_head(head: str) -> tuple[str, str]:

@@ -3,23 +3,21 @@
 import csv
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 
 from ...errors import ParameterError
-from .table import LONGEST, Column, Table, is_unit, plain_unit, split_head
+from .decimal_signs import pointed, signs, ungrouped
+from .heads import USUAL, Place, Wanted, chosen, is_number, passed_over, places
+from .table import LONGEST, Column, Table, plain_unit, split_head, without_twins
 
 SEPARATORS = ";\t,"
-# spaces and apostrophes that group the digits of large numbers
-_SPACES = dict.fromkeys(map(ord, " \u00a0\u2007\u2009\u202f'\u2019"), None)
-_WITH_COMMA = re.compile(r"[+-]?(\d{1,3}(\.\d{3})+|\d*),\d+([eE][+-]?\d+)?")
-_WITH_POINT = re.compile(r"[+-]?\d*\.\d+([eE][+-]?\d+)?")
-_GROUPS_AND_POINT = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+\.\d*")
-_GROUPS = re.compile(r"[+-]?[1-9]\d{0,2}([ \u00a0\u2007\u2009\u202f'\u2019]\d{3})+([.,]\d*)?")
-_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+")
+LONGEST_CELL = 5  # lines that a quoted cell may have
 COMMAS = "; if these are decimal commas they shift the columns: separate the cells by semicolons"
 
 
-def read_text_table(path: Path) -> Table:
+def read_text_table(path: Path, wanted: Wanted = USUAL) -> Table:
     """Return the table of a text file; errors name file and line."""
     text, remarks = _decoded(path)
     lines = _lines(path, text)
@@ -29,31 +27,85 @@ def read_text_table(path: Path) -> Table:
         del lines[0]
     if not lines:
         raise ParameterError(f"{path}: is empty, a line of column names is required first")
-    separator = separator or max(SEPARATORS, key=lines[0][1].count)
-    heads = [split_head(cell) for cell in _cells(lines[0][1], separator)]
-    rows = [(number, _cells(line, separator)) for number, line in lines[1:]]
-    names, units = [name for name, _ in heads], [unit for _, unit in heads]
-    if rows and not any(units) and _is_units(rows[0][1]):
-        number, cells = rows.pop(0)
-        units = [plain_unit(cell) for cell in cells] + [""] * (len(names) - len(cells))
-        remarks.append(f"units from line {number}")
-    for number, cells in rows:
-        if len(cells) > len(names):
-            said = f"{path}, line {number}: has {len(cells)} cells, the head names {len(names)}"
-            raise ParameterError(said + (COMMAS if separator == "," else ""))
-    if not rows:
-        raise ParameterError(f"{path}: has column names but no line of numbers")
-    commas, groups = _signs(path, rows, names)
-    remarks += ["decimal commas"] * commas + ["groups of thousands"] * groups
-    columns = []
-    for i, (name, unit) in enumerate(zip(names, units, strict=True)):
-        cells = [row[i] if i < len(row) else "" for _, row in rows]
-        if commas:
-            cells = [_pointed(cell) for cell in cells]
-        elif groups:
-            cells = [_ungrouped(cell) for cell in cells]
-        columns.append(Column(name, unit, cells))
-    return Table(str(path), columns, [number for number, _ in rows], remarks)
+    return _Text(path, lines, separator).table(wanted, remarks)
+
+
+@dataclass(frozen=True)
+class _Text:
+    """Lines that count, with their numbers in the file."""
+
+    path: Path
+    lines: list[tuple[int, str]]
+    separator: str
+    """As the file names it; "": each head has its own."""
+
+    def cells(self, i: int, head: int) -> list[str]:
+        """Return the cells of a line, parted as those of another."""
+        return _cells(self.lines[i][1], self.separator_of(head))
+
+    def separator_of(self, head: int) -> str:
+        """Return what parts the cells of a line and of those below it."""
+        return self.separator or max(SEPARATORS, key=self.lines[head][1].count)
+
+    def table(self, wanted: Wanted, remarks: list[str]) -> Table:
+        """Return the columns of the tables that are read."""
+        numbers = [number for number, _ in self.lines]
+        found = places(numbers, self.cells, wanted) or [self._first()]
+        names = [[" ".join(cell.split()) for cell in self.cells(p.head, p.head)] for p in found]
+        picked = chosen(str(self.path), found, names, numbers, wanted)
+        remarks += passed_over(found, picked, numbers, lambda i: self.lines[i][1])
+        place, heads = found[picked[0]], [split_head(name) for name in names[picked[0]]]
+        head = [name for name, _ in heads]
+        units = [unit for _, unit in heads]
+        if place.units >= 0 and not any(units):
+            cells = self.cells(place.units, place.head)
+            units = [plain_unit(cell) for cell in cells] + [""] * (len(head) - len(cells))
+            remarks.append(f"units from line {numbers[place.units]}")
+        parts = [
+            [
+                (numbers[i], self.cells(i, found[k].head))
+                for i in range(found[k].first, found[k].end)
+            ]
+            for k in picked
+        ]
+        rows = list(chain.from_iterable(parts))
+        self._check(rows, head, self.separator_of(place.head))
+        commas, groups = signs(self.path, rows, head)
+        remarks += ["decimal commas"] * commas + ["groups of thousands"] * groups
+        columns = []
+        for i, (name, unit) in enumerate(zip(head, units, strict=False)):
+            cells = [row[i] if i < len(row) else "" for _, row in rows]
+            if commas:
+                cells = [pointed(cell) for cell in cells]
+            elif groups:
+                cells = [ungrouped(cell) for cell in cells]
+            columns.append(Column(name, unit, cells))
+        lengths = tuple(map(len, parts)) if len(parts) > 1 else ()
+        columns = without_twins(columns)
+        return Table(str(self.path), columns, [n for n, _ in rows], remarks, parts=lengths)
+
+    def _first(self) -> Place:
+        """Return the place of a table whose head is no head as it should be: for the messages."""
+        n = len(self.lines)
+        near = (
+            i
+            for i in range(n - 1)
+            if not any(map(is_number, self.cells(i, i)))
+            and any(map(is_number, self.cells(i + 1, i)))
+        )
+        head = next(near, 0)
+        return Place(head, -1, head + 1, n)
+
+    def _check(
+        self, rows: Sequence[tuple[int, list[str]]], head: Sequence[str], separator: str
+    ) -> None:
+        """Raise ParameterError for a table without rows, or with rows longer than the head."""
+        for number, cells in rows:
+            if len(cells) > len(head):
+                said = f"{self.path}, line {number}: has {len(cells)} cells, the head names "
+                raise ParameterError(f"{said}{len(head)}{COMMAS if separator == ',' else ''}")
+        if not any(any(map(is_number, cells)) for _, cells in rows):
+            raise ParameterError(f"{self.path}: has column names but no line of numbers")
 
 
 def _decoded(path: Path) -> tuple[str, list[str]]:
@@ -78,14 +130,32 @@ def _decoded(path: Path) -> tuple[str, list[str]]:
 
 
 def _lines(path: Path, text: str) -> list[tuple[int, str]]:
-    """Return the lines that count, with their numbers in the file."""
+    """Return the lines that count, with their numbers in the file; a quoted cell may have some."""
+    whole = re.split(r"\r\n|\n|\r", text)
+    if '"' in text:
+        whole = _with_long_cells(whole)
     found = [
         (number, line)
-        for number, line in enumerate(re.split(r"\r\n|\n|\r", text), 1)
+        for number, line in enumerate(whole, 1)
         if line.strip(" \t,;") and not line.lstrip().startswith("#")
     ]
     if len(found) > LONGEST:
         raise ParameterError(f"{path}: has more than {LONGEST} lines")
+    return found
+
+
+def _with_long_cells(lines: list[str]) -> list[str]:
+    """Return lines where those of a cell with line ends are one, empty ones behind it."""
+    found, i = list(lines), 0
+    while i < len(lines):
+        if lines[i].count('"') % 2:
+            for k in range(i + 1, min(i + LONGEST_CELL, len(lines))):
+                if lines[k].count('"') % 2:
+                    found[i] = " ".join(lines[i : k + 1])
+                    found[i + 1 : k + 1] = [""] * (k - i)
+                    i = k
+                    break
+        i += 1
     return found
 
 
@@ -99,80 +169,3 @@ def _cells(line: str, separator: str) -> list[str]:
     while cells and not cells[-1]:
         cells.pop()
     return cells
-
-
-def _is_units(cells: Sequence[str]) -> bool:
-    """Tell if a line has units and no number; a pure number's unit may be left out."""
-    named = [cell for cell in cells if plain_unit(cell)]
-    return bool(named) and all(is_unit(cell) for cell in cells) and "1" not in named
-
-
-def _signs(
-    path: Path, rows: Sequence[tuple[int, list[str]]], names: Sequence[str]
-) -> tuple[bool, bool]:
-    """Tell if the decimal sign is a comma, and if groups of thousands are parted.
-
-    A file has one decimal sign: "1,200" has a group next to "0.5", "1.200" one next to "0,5". A
-    file that can be read in two ways is refused.
-    """
-    first: dict[str, tuple[int, str, str]] = {}
-    for number, cells in rows:
-        for name, cell in zip(names, cells, strict=False):
-            if not name.startswith("_") and not cell.isdigit():
-                for kind in _kinds(cell):
-                    first.setdefault(kind, (number, name, cell))
-    comma = first.get("comma") or first.get("comma or group")
-    point = first.get("point") or first.get("point or group")
-    is_told = ("comma" in first) != ("point" in first)
-    if comma and point and not is_told:
-        raise ParameterError(
-            f"{path}: line {comma[0]} has {comma[1]} = {comma[2]!r} and line {point[0]} "
-            f"{point[1]} = {point[2]!r}, one decimal sign is required"
-        )
-    if comma and not is_told:
-        raise ParameterError(
-            f"{path}, line {comma[0]}: {comma[1]} = {comma[2]!r} may have a decimal comma or "
-            "groups of thousands; write the numbers with a decimal point, or with digits enough "
-            "to tell"
-        )
-    commas = "comma" in first
-    return commas, "group" in first or ("point or group" if commas else "comma or group") in first
-
-
-def _kinds(cell: str) -> tuple[str, ...]:
-    """Return what a number's signs may be: decimal "comma" or "point", and "group"."""
-    plain = _plain(cell)
-    parted = ("group",) if plain != cell else ()
-    if _GROUPS_AND_POINT.fullmatch(plain):
-        return "point", "group"
-    if _WITH_COMMA.fullmatch(plain):
-        return (*parted, "comma or group" if _THOUSANDS.fullmatch(plain) else "comma")
-    if _WITH_POINT.fullmatch(plain):
-        is_group = _THOUSANDS.fullmatch(plain.replace(".", ","))
-        return (*parted, "point or group" if is_group else "point")
-    if _THOUSANDS.fullmatch(plain.replace(".", ",")):  # more than one point
-        return "point or group", "group"
-    return parted
-
-
-def _plain(cell: str) -> str:
-    """Return a cell without the spaces or apostrophes that part its thousands."""
-    if cell.isascii() and " " not in cell and "'" not in cell:
-        return cell
-    return cell.translate(_SPACES) if _GROUPS.fullmatch(cell) else cell
-
-
-def _ungrouped(cell: str) -> str:
-    """Return a cell with a decimal point without what parts its thousands."""
-    plain = _plain(cell)
-    if _GROUPS_AND_POINT.fullmatch(plain) or _THOUSANDS.fullmatch(plain):
-        return plain.replace(",", "")
-    return plain
-
-
-def _pointed(cell: str) -> str:
-    """Return a cell with a decimal point for its comma."""
-    plain = _plain(cell)
-    if _WITH_COMMA.fullmatch(plain) or _THOUSANDS.fullmatch(plain.replace(".", ",")):
-        return plain.replace(".", "").replace(",", ".")
-    return plain

@@ -20,6 +20,7 @@ from ..sweep.sweep_plan import Plan, make_plan
 from .signs import folded, odd_pressure, too_fast
 
 FRICTIONS = {"friction": False, "friction_torque": True}  # outputs, and if they have a sign
+SLIDING = "sliding_speed"  # a column in place of speed
 ERROR = "_error"  # ending of the column with an output's standard deviation
 
 
@@ -116,7 +117,27 @@ def column_units(spec: ModelSpec) -> dict[str, str]:
     outputs = output_units(spec)
     errors = {name + ERROR: unit for name, unit in outputs.items()}
     numbers = {p.name: p.unit for p in places(spec).values() if p.kind in ("real", "integer")}
-    return {**numbers, **outputs, **errors, "line": "1"}
+    sliding = {SLIDING: "m/s"} if find_model(spec.key).fits.at_mean else {}
+    return {**numbers, **outputs, **errors, **sliding, "line": "1"}
+
+
+def with_speed(columns: Mapping[str, Any], radius: float, where: str = "data") -> dict[str, Any]:
+    """Return columns with speed [rad/s] for a sliding speed [m/s] at a radius [m]."""
+    found = dict(columns)
+    if SLIDING not in found:
+        return found
+    if "speed" in found:
+        raise ParameterError(f"{where}: has speed and {SLIDING}, allowed: one of both")
+    sliding = found.pop(SLIDING)
+    try:
+        found["speed"] = (
+            [None if x is None else float(x) / radius for x in sliding]
+            if np.ndim(sliding)
+            else float(sliding) / radius
+        )
+    except (TypeError, ValueError):
+        raise ParameterError(f"{where}: {SLIDING} has no number, numbers [m/s] required") from None
+    return found
 
 
 def measured(
@@ -129,6 +150,8 @@ def measured(
     """Return measured points, or name the first thing that cannot be used."""
     spec = part.spec
     units, known, own = output_units(spec), column_units(spec), find_model(spec.key).fits
+    if own.at_mean and own.sliding_radius:
+        data = with_speed(data, own.sliding_radius(part.params))
     for name in data:
         if name not in known:
             hint = suggestion(name, known, "did you mean {}? ") + f"outputs: {', '.join(units)}"

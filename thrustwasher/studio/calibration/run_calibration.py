@@ -3,13 +3,15 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+from ...errors import ParameterError
 from ...model.registry import find_model
+from ...storage.tables.given import columns_given, is_table
 from ..evaluators.make import part_of
 from .engagement.trace_fit import TRACES
 from .estimates import Calibration
 from .fit import Asked
 from .friction.friction_fit import fit_law
-from .measured import Measured, decided, measured
+from .measured import Measured, column_units, decided, measured
 from .model_fit import fit_points
 from .traces.recording import Traces
 
@@ -21,7 +23,7 @@ RECORDED: dict[str, Traces] = {"clutch": TRACES}
 
 def calibrate(
     part: object,
-    data: Mapping[str, object] | None = None,
+    data: Any = None,
     *,
     fit: Sequence[str] | None = None,
     errors: Mapping[str, float | str] | None = None,
@@ -41,7 +43,8 @@ def calibrate(
     ----------
     part : parameters, a part (``load_part``), or the key of a model with its defaults; the first
         guess, and what is not fitted
-    data : columns of one length by name [SI], also as keywords: inputs and parameters of the
+    data : a path, a ``pandas.DataFrame`` (units in ``attrs["units"]``) or an ``asammdf.MDF``; or
+        columns of one length by name [SI], also as keywords: inputs and parameters of the
         points (one number is that of all), measured outputs (None where not measured),
         ``<output>_error``: their standard deviation. Points with the same number in a column
         ``line`` are walked as a sweep does. A washer's folds are ``film_loss_load`` and
@@ -83,6 +86,12 @@ def calibrate(
     0.06
     """
     start, at = part_of(part), at or {}
+    if is_table(data):
+        data = columns_given(data, column_units(start.spec))
+    elif not isinstance(data, Mapping | None):
+        raise ParameterError(
+            f"data: {type(data).__name__}, allowed: columns by name, a path, a DataFrame, an MDF"
+        )
     data = {**(data or {}), **columns}
     own = find_model(start.spec.key).fits
     is_law = not own.computed and not own.units.keys().isdisjoint(data)

@@ -4,13 +4,13 @@ import argparse
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ...cli.common._output import note
-from ...cli.common._table import SHOWN, renaming
+from ...cli.common._table import named_table, tell
 from ...errors import ParameterError
 from ...units import parse_quantity
 
 if TYPE_CHECKING:
     from ...model.spec import ModelSpec
+    from ...storage.tables.heads import Wanted
     from ...storage.tables.table import Table
     from ..calibration.traces.recording import Traces
 
@@ -21,26 +21,29 @@ OPTIONS = {
     "--drag-torque TORQUE": "torque in addition to the pack's that slows the slip, with --inertia",
     "--torque-at PLACE": "where torque was recorded: pack or hub, default pack",
     "--inertia-between J": "inertia between the faces and the hub's sensor",
+    "--torque-offset TORQUE": "of recordings: torque that the sensor shows in addition to the true "
+    "one; or in --fit torque_offset",
 }
 UNITS = {
     "piston_area": "m2",
     "inertia": "kg.m2",
     "drag_torque": "N.m",
     "inertia_between": "kg.m2",
+    "torque_offset": "N.m",
 }
 
 
-def read_tables(paths: Sequence[str], names: Sequence[str]) -> tuple[list["Table"], bool]:
+def read_tables(
+    paths: Sequence[str], names: Sequence[str], wanted: "Wanted"
+) -> tuple[list["Table"], bool]:
     """Return the tables of files, and whether they are recordings over time.
 
     ParameterError if some have a column ``time`` and others not, or if several have none.
     """
-    from ...storage.tables.table import time_hint
-    from ...storage.tables.table_file import read_table
+    from ...storage.tables.known_columns import time_hint
     from ..calibration.traces.trace_file import is_trace
 
-    given = renaming(names)
-    tables = [read_table(path).renamed(given) for path in paths]
+    tables = [named_table(path, names, wanted) for path in paths]
     over_time = [is_trace(table) for table in tables]
     if any(over_time) and not all(over_time):
         trace, settled = paths[over_time.index(True)], paths[over_time.index(False)]
@@ -61,19 +64,14 @@ def read_recordings(tables: Sequence["Table"], kind: "Traces") -> dict[str, Any]
     """Return columns by the files' names, and say what was read and passed over."""
     from ..calibration.traces.trace_file import columns_of
 
-    found = {}
+    found: dict[str, Any] = {}
+    paths = [table.path for table in tables]
     for table in tables:
-        if table.path in found:
+        if paths.count(table.path) > 1:
             raise ParameterError(f"{table.path}: is given twice, allowed: once")
-        found[table.path], passed, remarks = columns_of(table, kind.columns, kind.measured)
-        if remarks:
-            note(f"{table.path}: read with {', '.join(remarks)}")
-        if passed:
-            more = f" and {len(passed) - SHOWN} more" if len(passed) > SHOWN else ""
-            note(
-                f"{table.path}: passed over, as no column that counts: "
-                f"{', '.join(passed[:SHOWN])}{more}"
-            )
+        own, passed, remarks = columns_of(table, kind.columns, kind.measured, kind.needed)
+        found |= own
+        tell(table.path, remarks, passed)
     return found
 
 

@@ -28,13 +28,15 @@ EXAMPLES = (
 )
 LAW_UNITS = {
     "speed": "rad/s",
+    "sliding_speed": "m/s",
     "load": "N",
     "friction": "1",
     "friction_error": "1",
     "oil_temperature": "K",
 }
 LAW = "friction"  # what the law is fitted to
-LAW_OPTIONAL = ("friction_error", "oil_temperature")
+LAW_OPTIONAL = ("friction_error", "oil_temperature", "speed", "sliding_speed")
+LAW_NEEDED = (("speed", "sliding_speed"), ("load",), ("friction",))
 MISFIT = 25.0  # reduced chi-square from which a fit is none: five errors on average
 SETTINGS = {"set": "NAME=VALUE", "error": "NAME=VALUE", "bounds": "NAME=LOW:HIGH"}
 OPTIONS = {
@@ -45,8 +47,8 @@ OPTIONS = {
     "--error NAME=VALUE ...": "standard deviation of an output: friction_torque=2%%, of its value; "
     "may be repeated",
     "--bounds NAME=LOW:HIGH ...": "narrower range of a parameter; may be repeated",
-    "--column NAME=CHANNEL ...": "column of the file that holds NAME, e.g. speed=N_SLIP or "
-    "'speed [rpm]=N_SLIP'; may be repeated",
+    "--column NAME=COLUMN ...": _table.COLUMN,
+    **_table.OPTIONS,
     "--confidence P": "probability of the intervals; above 0, below 1, default 0.95",
     "--preset NAME": "preset to start from, e.g. paper",
     "--fidelity LEVEL": "fidelity level of the model, default the part's",
@@ -106,7 +108,9 @@ def run(arguments: argparse.Namespace) -> int:
             raise ParameterError("--error, --bounds, --fidelity: allowed: with PART")
         changes = _options.read_settings(arguments.set, part.spec)
         part = replace(part, parameters=part.parameters | changes)
-        columns = _table.read_columns(data, LAW_UNITS, optional=LAW_OPTIONAL, known=tables[0])
+        columns = _table.read_columns(
+            data, LAW_UNITS, optional=LAW_OPTIONAL, needed=LAW_NEEDED, known=tables[0]
+        )
         options |= columns
 
     began = time.perf_counter()
@@ -171,7 +175,9 @@ def _tables(
             f"{paths[1]}: allowed: [PART] DATA.csv, one file; several with {', '.join(RECORDED)}, "
             "as recordings with a column time"
         )
-    tables, over_time = _traces.read_tables(paths, arguments.column or ())
+    tables, over_time = _traces.read_tables(
+        paths, arguments.column or (), _table.wanted_of(arguments)
+    )
     if over_time and not kind and (given or not any(c.name == LAW for c in tables[0].columns)):
         able = next(iter(RECORDED))
         raise ParameterError(

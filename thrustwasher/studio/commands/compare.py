@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from ...cli.common import _options, _output
+from ...cli.common import _options, _output, _table
 from ...errors import ParameterError
 
 HELP = "compare the models with measured data sets, blind or after a fit"
@@ -17,6 +17,8 @@ OPTIONS = {
     "evaluate the fit by the others; default 0, blind",
     "--draws N": "of the scatter, for the band; default 64",
     "--out DIR": "folder for comparison.json and comparison.png",
+    "--column NAME=COLUMN ...": f"of points.csv: {_table.COLUMN}",
+    **{name: f"of points.csv: {text}" for name, text in _table.OPTIONS.items()},
     "--page FILE.md": "of a folder of measured data sets: write the page of all of them",
     "--json": "one JSON object with every number",
 }
@@ -46,7 +48,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.page:
         return _page(arguments, folder, draws)
     out = _output.check_folder(arguments.out, "--out") if arguments.out else None
-    data_set = load_data_set(folder)
+    columns = _table.renaming(arguments.column or ())
+    data_set = load_data_set(folder, columns, _table.wanted_of(arguments))
     found = compare(data_set, fit=fit, draws=draws, progress=_output.time_left("compare:"))
     _output.warn(found.warnings)
     told = found.to_dict()
@@ -108,7 +111,9 @@ def _page(arguments: argparse.Namespace, folder: Path, draws: int) -> int:
     from ..measured.comparison import compare
     from ..measured.data_set_file import load_data_set
 
-    _options.refuse_unused(arguments, "--page", ("fit", "out", "json"))
+    _options.refuse_unused(
+        arguments, "--page", ("fit", "out", "json", "column", "skip", "table", "sheet")
+    )
     target = _output.check_file(arguments.page, "--page", (".md",))
     data_sets = [load_data_set(path.parent) for path in sorted(folder.glob("*/rig.toml"))]
     if not data_sets:

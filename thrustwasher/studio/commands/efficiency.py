@@ -28,6 +28,8 @@ OPTIONS = {
     "torque=25:250:n10, speed=1000rpm:4000rpm:n7, of a gear train up to the ends of its [box]",
     "--gear NAME": "first: the brake holds, second: the clutch holds; default first",
 }
+LOSS_MAP = ".vtlm"
+RPM = 9.549296585513721  # of a rad/s
 LEAST = ("pitting_safety", "root_safety", "scuffing_safety", "bearing_life")
 
 
@@ -38,7 +40,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser, OPTIONS)
     parser.set_defaults(gear=None)
     _options.add_oil(parser)
-    _output.add_targets(parser, out="write all points as CSV", plot="draw the map")
+    _output.add_targets(
+        parser, out="write all points as CSV, or a loss map of VECTO (.vtlm)", plot="draw the map"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -46,7 +50,7 @@ def run(arguments: argparse.Namespace) -> int:
     from ...train.train_file import is_train
 
     given = split_settings(arguments.over, "--over", VALUES)
-    targets = _output.targets(arguments)
+    targets = _output.targets(arguments, (".csv", LOSS_MAP))
     began = time.perf_counter()
     found = (_of_train if is_train(arguments.scene) else _of_scene)(arguments, given)
     wall_time = time.perf_counter() - began
@@ -55,7 +59,11 @@ def run(arguments: argparse.Namespace) -> int:
     columns = {name: series.tolist() for name, series in found.columns.items()}
     texts = ["; ".join(lines) for lines in found.doubts]
     words = {"flow": found.flow, "doubts": texts}
-    targets.write({**units, "flow": "", "doubts": ""}, {**columns, **words})
+    if targets.out and targets.out.suffix.lower() == LOSS_MAP:
+        _output.write_text(targets.out, _loss_map(found.columns))
+        _output.note(f"wrote {targets.out}")
+    else:
+        targets.write({**units, "flow": "", "doubts": ""}, {**columns, **words})
     if targets.plot:
         from ..report.model_plots.efficiency_plot import efficiency_figure
 
@@ -78,6 +86,25 @@ def run(arguments: argparse.Namespace) -> int:
     for line in _largest(found):
         print(line)
     return 0
+
+
+def _loss_map(columns: Mapping[str, Any]) -> str:
+    """Return a torque loss map as VECTO reads it: speed, torque and torque loss of the input."""
+    import numpy as np
+
+    speed, torque = columns["speed"], columns["torque"]
+    if len(np.unique(columns.get("oil_temperature", [0.0]))) > 1:
+        raise ParameterError(f"--out FILE{LOSS_MAP}: one oil_temperature is allowed in a loss map")
+    if not (speed > 0.0).all() or not np.isfinite(columns["loss"]).all():
+        raise ParameterError(
+            f"--out FILE{LOSS_MAP}: speeds above 0 rad/s and a loss at every point are required; "
+            "narrow --over"
+        )
+    lost = columns["loss"] / speed
+    lines = ["Input Speed [rpm],Input Torque [Nm],Torque Loss [Nm]"]
+    for i in np.lexsort((torque, speed)):
+        lines.append(f"{RPM * speed[i]:.10g},{torque[i]:.10g},{lost[i]:.10g}")
+    return "\n".join([*lines, ""])
 
 
 def _of_scene(arguments: argparse.Namespace, given: Mapping[str, str]) -> Any:

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from ...cli.common import _options, _output
 from ...cli.common._options import option_name
-from ...cli.common._table import read_columns
+from ...cli.common._table import COLUMN, read_columns, wanted_of
+from ...cli.common._table import OPTIONS as TABLE
 from ...errors import ParameterError, SolveError
 from ...model.levels import level_named
 from ...model.quantity import Quantity
@@ -36,8 +37,8 @@ OPTIONS = {
     "load=20:1850:x40 (40 values, equal ratios; n40: even), speed=136,545, "
     '"oil_temperature [degC]=24,80"; may be repeated, the first input runs fastest',
     "--points FILE.csv": "instead of --over, a file with a point in every line",
-    "--column NAME=CHANNEL ...": "with --points: column of the file that holds NAME, e.g. "
-    "speed=N_SLIP; may be repeated",
+    "--column NAME=COLUMN ...": f"with --points: {COLUMN}",
+    **{name: f"with --points: {text}" for name, text in TABLE.items()},
     "--preset NAME": "named set of parameters to start from, e.g. paper",
     "--fidelity LEVEL": "fidelity level of the model, its command's --help lists them; "
     "auto:0.01: the "
@@ -190,7 +191,13 @@ def _points(arguments: argparse.Namespace, known: Mapping[str, Quantity]) -> dic
     path, names = arguments.points, arguments.column or ()
     units = {name: p.unit for name, p in known.items() if p.kind in ("real", "integer")}
     columns: dict[str, Any] = dict(
-        read_columns(path, {**units, "line": "1"}, (*units, "line"), names=names)
+        read_columns(
+            path,
+            {**units, "line": "1"},
+            (*units, "line"),
+            names=names,
+            wanted=wanted_of(arguments),
+        )
     )
     if not set(columns) - {"line"}:
         inputs = ", ".join(p.name for p in known.values() if p.is_input) or "a path of the scene"

@@ -454,9 +454,9 @@ class PartEvaluator:
         if model.face(part.params) is None:
             return {}
         faces = [model.face(part.params if own is None else own) for own in params]
-        area, count, radius = np.array(faces, float).T
         load, speed = (inputs[:, names.index(name)] for name in ("load", "speed"))
-        return face_loads(Face(area, count, radius), load, speed, columns["friction_power"])
+        whole = Face(*np.array(faces, float).T)
+        return face_loads(whole, load, speed, columns["friction_power"])
 
     def _design(self, row: Row) -> tuple[PartFile, dict[str, float]]:
         """Return the part of a row, and its inputs; ParameterError."""

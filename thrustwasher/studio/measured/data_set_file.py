@@ -1,5 +1,6 @@
 """A data set's folder: ``rig.toml`` (source, conditions), ``points.csv``, part or scene."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,9 @@ from ...model.point import point_of
 from ...model.registry import find_model, spec_of
 from ...model.toml_tables import nothing_else, read_file
 from ...settings import places
-from ...storage.tables.table import numbers
+from ...storage.tables.column_names import renamed
+from ...storage.tables.heads import USUAL, Wanted
+from ...storage.tables.table import Table, numbers
 from ...storage.tables.table_file import read_table
 from ..evaluators.evaluator import Row
 from ..evaluators.make import evaluator, gearbox, inputs_of, part_of
@@ -73,12 +76,16 @@ class DataSet:
         return self.folder.name
 
 
-def load_data_set(path: str | Path) -> DataSet:
+def load_data_set(
+    path: str | Path, columns: Mapping[str, str] | None = None, wanted: Wanted = USUAL
+) -> DataSet:
     """Return the measured data set of a folder.
 
     Parameters
     ----------
     path : of the folder with ``rig.toml``, ``points.csv`` and the part or scene that it names
+    columns : columns of ``points.csv`` by the names that count, as ``--column`` takes them
+    wanted : where the table stands in ``points.csv``
 
     Raises
     ------
@@ -101,16 +108,16 @@ def load_data_set(path: str | Path) -> DataSet:
     made: Any
     if "part" in table:
         made = evaluator(_part(folder, str(table["part"])))
-        known = places(made.part.spec)  # what the model is asked by at a point too: a gear's power
+        asked = places(made.part.spec)  # what the model is asked by at a point too: a gear's power
         outputs = {name: f.unit for name, f in made.measurable.items()}
     else:
         named, gear = str(table["scene"]), str(table.get("gear", "first"))
         made = gearbox(folder / named if named.endswith(".toml") else named, gear)
-        known = made.quantities
+        asked = made.quantities
         outputs = {name: f.unit for name, f in made.figures.items()}
-    inputs = {name: q.unit for name, q in known.items() if q.is_input}
-    columns, origin = _points(folder / "points.csv", inputs, outputs)
-    found = [name for name in columns if name in outputs]
+    inputs = {name: q.unit for name, q in asked.items() if q.is_input}
+    known, origin = _columns(_points(folder / "points.csv", columns or {}, wanted), inputs, outputs)
+    found = [name for name in known if name in outputs]
     if not found or (len(found) > 1 and "part" not in table):
         raise ParameterError(
             f"{where}: points.csv has the measured columns {', '.join(found) or 'none'}, allowed: "
@@ -118,8 +125,8 @@ def load_data_set(path: str | Path) -> DataSet:
         )
     rows = len(origin)
     origin = origin * len(found)  # a point for every measured column of a line
-    vary = str(table.get("vary", next((n for n in columns if n in inputs), "")))
-    if vary not in columns or vary not in inputs:
+    vary = str(table.get("vary", next((n for n in known if n in inputs), "")))
+    if vary not in known or vary not in inputs:
         raise ParameterError(f"{where}: vary = {vary!r}, allowed: an input that is a column")
     most = table.get("coefficients", 0)
     fitted = origin.count("fit")
@@ -129,7 +136,7 @@ def load_data_set(path: str | Path) -> DataSet:
             "allowed: at most as many points as the fit has coefficients"
         )
     several = len(found) > 1
-    given = {name: columns[name] for name in columns if name in inputs}
+    given = {name: known[name] for name in known if name in inputs}
     lines = zip(*(column.tolist() for column in given.values()), strict=True)
     points = [dict(zip(given, line, strict=True)) for line in lines]
     taken, target_name = "", made.name
@@ -137,7 +144,7 @@ def load_data_set(path: str | Path) -> DataSet:
         taken, target_name = point_of(made.part, points[0]).taken, made.part.spec.name
         points = [inputs_of(made.part, point) for point in points]
     else:
-        points = [{name: known[name].check(x) for name, x in point.items()} for point in points]
+        points = [{name: asked[name].check(x) for name, x in point.items()} for point in points]
     return DataSet(
         folder=folder,
         texts={key: " ".join(table[key].split()) for key in TEXTS},
@@ -153,8 +160,8 @@ def load_data_set(path: str | Path) -> DataSet:
         outputs=tuple(name for name in found for _ in range(rows)),
         units=tuple(outputs[name] for name in found for _ in range(rows)),
         inputs={name: np.tile(column, len(found)) for name, column in given.items()},
-        measured=np.concatenate([columns[name] for name in found]),
-        error=np.concatenate([columns.get(name + ERROR, np.zeros(rows)) for name in found]),
+        measured=np.concatenate([known[name] for name in found]),
+        error=np.concatenate([known.get(name + ERROR, np.zeros(rows)) for name in found]),
         origin=origin,
         kind=kind,
         input_units=tuple(inputs[name] for name in given),
@@ -170,14 +177,18 @@ def _part(folder: Path, named: str) -> Any:
     return preset_part(spec, preset) if preset else part_of(spec.key)
 
 
-def _points(
-    path: Path, inputs: dict[str, str], outputs: dict[str, str]
-) -> tuple[dict[str, NDArray[np.float64]], tuple[str, ...]]:
-    """Return the columns [SI] and the origin of every point."""
+def _points(path: Path, names: Mapping[str, str], wanted: Wanted) -> Table:
+    """Return the table of the points."""
     if not path.is_file():
         raise ParameterError(f"{path}: cannot be read, a CSV file is required")
-    table = read_table(path)
-    table = table.of_columns([column.plain for column in table.columns])
+    return renamed(read_table(path, wanted), names)
+
+
+def _columns(
+    table: Table, inputs: dict[str, str], outputs: dict[str, str]
+) -> tuple[dict[str, NDArray[np.float64]], tuple[str, ...]]:
+    """Return the columns [SI] and the origin of every point."""
+    path = table.path
     units = {**inputs, **outputs, **{n + ERROR: u for n, u in outputs.items()}}
     columns: dict[str, NDArray[np.float64]] = {}
     origin: tuple[str, ...] = ()
@@ -185,6 +196,8 @@ def _points(
         name, difference = column.name, column.name.endswith(ERROR)
         if name == "origin":
             origin = tuple(column.cells)
+            continue
+        if name in table.used or name.startswith("_"):
             continue
         if name not in units:
             hint = suggestion(name, units, "did you mean {}? ")

@@ -9,8 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import ParameterError
+from ...model.quantity import Quantity
+from ...model.registry import find_model
+from ...model.spec import ModelSpec
 from ...processes import refuse_import_by_worker
+from ...settings import places
 from ...storage.journal import Journal
+from ...storage.tables.given import columns_given, is_table
 from ..evaluators.evaluator import Evaluator
 from ..evaluators.evaluator import Rows as Points
 from ..evaluators.make import evaluator, is_at_points
@@ -32,7 +37,7 @@ def run_sweep(
     over: Mapping[str, object] | None = None,
     *,
     at: Mapping[str, object] | None = None,
-    points: Mapping[str, object] | None = None,
+    points: Any = None,
     params: object = None,
     fidelity: str | None = None,
     out: str | Path | None = None,
@@ -51,7 +56,8 @@ def run_sweep(
         numbers, or a text such as "50:1850:50", "20:1850:x40", "24 degC, 80 degC"
     at : one value by name for what is held; the rest is at the model's defaults, moved into the
         part's box
-    points : instead of ``over``, columns of one length by name: every row is a point
+    points : instead of ``over``, columns of one length by name: every row is a point; or a path, a
+        ``pandas.DataFrame`` (units in ``attrs["units"]``), an ``asammdf.MDF``
     params : parameter object to start from
     fidelity : level of the model, or "auto:0.01": the cheapest one whose torque the verification
         tables verify to 1 % over all points
@@ -134,19 +140,34 @@ def _plan(
     model: Any,
     over: Mapping[str, object],
     at: Mapping[str, object],
-    points: Mapping[str, object] | None,
+    points: Any,
     params: object,
     fidelity: str | None,
 ) -> Plan | RunPlan:
     """Return what is evaluated, row by row."""
     if is_at_points(model):
+        if is_table(points):
+            points = columns_given(points, _units(places(_spec(model))), ())
         return make_plan(model, over, at, points, params, fidelity)
     if params is not None or fidelity is not None:
         raise ParameterError(
             "params, fidelity: allowed: of a part at points; others have their own"
         )
     found = model if hasattr(model, "evaluate") else evaluator(model)
+    if is_table(points):
+        points = columns_given(points, _units(found.quantities), ())
     return make_run_plan(found, over, at, points)
+
+
+def _spec(model: Any) -> ModelSpec:
+    """Return the model of a part, or of a name."""
+    return model.spec if hasattr(model, "spec") else find_model(model).spec
+
+
+def _units(known: Mapping[str, Quantity]) -> dict[str, str]:
+    """Return the unit of every column that points may have."""
+    numbers = (p for p in known.values() if p.kind in ("real", "integer"))
+    return {"line": "1"} | {p.name: p.unit for p in numbers}
 
 
 def journal_of(out: Path) -> Path:

@@ -1,5 +1,6 @@
 """The rows of a sweep as columns, and as a file."""
 
+import json
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
@@ -95,6 +96,9 @@ class SweepTable(Tabled):
         own = {*self.outputs(), "status"}
         others = [name for name in self.columns if name not in own]
         return [name for name in others if len(set(self.columns[name].tolist())) > 1]
+
+    def _axes(self) -> list[str]:
+        return self.axes()
 
     def _columns(self) -> dict[str, NDArray[Any]]:
         return self.columns
@@ -269,7 +273,10 @@ def _repeating(table: SweepTable) -> list[str]:
 
 
 def _batch(table: SweepTable) -> Any:
-    """Return a table of pyarrow with units in the columns' metadata; failed numbers are null."""
+    """Return a table of pyarrow; failed numbers are null.
+
+    Units are in the columns' metadata, and where pandas keeps ``attrs`` in a Parquet file.
+    """
     pa, _ = _pyarrow()
     fields, arrays = [], []
     bad = np.isin(table["status"], list(table.failures)) if table.failures else None
@@ -278,7 +285,9 @@ def _batch(table: SweepTable) -> Any:
         unit = table.units.get(title, "")
         fields.append(pa.field(title, array.type, metadata={"unit": unit} if unit else None))
         arrays.append(array)
-    return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
+    attributes = {"units": {n: unit for n, unit in table.units.items() if n in table.columns}}
+    schema = pa.schema(fields, metadata={"PANDAS_ATTRS": json.dumps(attributes)})
+    return pa.Table.from_arrays(arrays, schema=schema)
 
 
 def _arrow(column: NDArray[Any], bad: NDArray[np.bool_] | None) -> Any:

@@ -51,6 +51,7 @@ def walk_pack(params: TracedPack, fidelity: str, run: Run) -> History | Status:
     if params.inertia_between:
         hub = way.slip + run.inputs["drum_speed"]
         torque = torque + params.inertia_between * np.gradient(hub, run.time)
+    torque = torque + params.torque_offset
     return {"friction_torque": torque, "temperature": way.temperature, "slip": way.slip}
 
 
@@ -61,7 +62,8 @@ def slip_by_torque(run: Run, rig: TracedPack) -> Run:
     the sensor is not slowed through it.
     """
     known = np.isfinite(run.values["friction_torque"])
-    torque = np.interp(run.time, run.time[known], np.abs(run.values["friction_torque"][known]))
+    true = np.abs(run.values["friction_torque"][known] - rig.torque_offset)
+    torque = np.interp(run.time, run.time[known], true)
     slip, inertia = run.inputs["speed"].copy(), rig.inertia - rig.inertia_between
     if inertia <= 0.0:
         raise ParameterError(

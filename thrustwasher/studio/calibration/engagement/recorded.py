@@ -10,7 +10,9 @@ import numpy as np
 from ....clutch.parameters import DRUM, LOAD, OIL, SPEED
 from ....errors import ParameterError
 from ....model.part_file import PartFile
+from ....storage.tables.given import columns_given, is_table
 from ....units import format_quantity
+from ..measured import SLIDING, with_speed
 from ..traces.recording import Recording, recording
 from .traced_pack import TracedPack
 
@@ -19,12 +21,14 @@ COLUMNS = {
     "load": "N",
     "pressure": "Pa",
     "speed": "rad/s",
+    "sliding_speed": "m/s",
     "oil_temperature": "K",
     "drum_speed": "rad/s",
     "friction_torque": "N.m",
     "temperature": "K",
 }
 MEASURED = ("friction_torque", "temperature")
+NEEDED = (("load", "pressure"), ("speed", SLIDING), MEASURED)
 SIGNALS = {"load": LOAD, "speed": SPEED, "oil_temperature": OIL, "drum_speed": DRUM}
 UNDER_ZERO = 0.02  # of the largest load: a reading this far below 0 is an offset
 
@@ -33,13 +37,18 @@ def read_recordings(recordings: Any, rig: TracedPack) -> tuple[list[Recording], 
     """Return the recordings, files read, with ``load`` for ``pressure``; what was not plain."""
     found, said = [], []
     for name, given in _named(recordings):
-        columns = given
+        of_file: dict[str, Any] = {name: given}
         if not isinstance(given, Mapping):
             from ..traces.trace_file import read_trace
 
-            columns, _, remarks = read_trace(given, COLUMNS, MEASURED)
-            said += [f"{name}: read with {', '.join(remarks)}."] if remarks else []
-        found.append(_with_load(recording(name, columns, COLUMNS, MEASURED), rig))
+            if isinstance(given, str | PathLike):
+                of_file, _, remarks = read_trace(given, COLUMNS, MEASURED, NEEDED)
+                said += [f"{name}: read with {', '.join(remarks)}."] if remarks else []
+            else:
+                of_file = {name: columns_given(given, COLUMNS, MEASURED)}
+        for own, columns in of_file.items():
+            slip = with_speed(columns, rig.friction_radius, own)
+            found.append(_with_load(recording(own, slip, COLUMNS, MEASURED), rig))
     if not found:
         raise ParameterError("recordings: none, allowed: one or more")
     return found, said
@@ -48,11 +57,11 @@ def read_recordings(recordings: Any, rig: TracedPack) -> tuple[list[Recording], 
 def _named(recordings: Any) -> Iterator[tuple[str, Any]]:
     """Yield the name of each recording, and its columns or the path of its file."""
     if isinstance(recordings, Mapping):
-        if recordings and all(isinstance(x, Mapping) for x in recordings.values()):
+        if recordings and all(isinstance(x, Mapping) or is_table(x) for x in recordings.values()):
             yield from recordings.items()
             return
         recordings = [recordings]
-    elif isinstance(recordings, str | PathLike):
+    elif is_table(recordings):
         recordings = [recordings]
     if not isinstance(recordings, Iterable):
         raise ParameterError(
@@ -60,7 +69,7 @@ def _named(recordings: Any) -> Iterator[tuple[str, Any]]:
         )
     for k, given in enumerate(recordings):
         name = str(given) if isinstance(given, str | PathLike) else f"recording {k + 1}"
-        if not isinstance(given, str | PathLike | Mapping):
+        if not isinstance(given, Mapping) and not is_table(given):
             raise ParameterError(
                 f"{name}: {type(given).__name__}, allowed: columns by their names, or a file"
             )

@@ -27,19 +27,25 @@ from ..traces.trace_problem import fit_traces, size_text
 from ..traces.trace_result import TraceCalibration
 from ..traces.traced import Traced
 from .pack_history import SLIDES, slip_by_torque, walk_pack
-from .recorded import COLUMNS, MEASURED, completed, read_recordings
+from .recorded import COLUMNS, MEASURED, NEEDED, completed, read_recordings
 from .slip_scatter import slip_scatter
 from .traced_pack import OF_RIG, TRACED, TracedPack, traced_pack
 
 MOST_MEANS, ALL_MEANS, FEW_MEANS = 512, 2048, 64  # of a recording; of all; of one among many
 USUAL_FIT = ("friction_scale", "permeability")
-MATTERS = {"fill_time": 0.02, "kiss_pressure": 5e4, "drag_torque": 10.0}  # s, Pa, N m
+MATTERS = {  # s, Pa, N m, N m
+    "fill_time": 0.02,
+    "kiss_pressure": 5e4,
+    "drag_torque": 10.0,
+    "torque_offset": 10.0,
+}
 WIDE, DECADES = ("permeability",), 1e4  # their range holds 0; they are looked for by factors
 LOCKED = 10.0  # times speed_smoothing: a slower slip does not tell friction,
 NOISY = 2.0  # times the allowance for scatter: of many rows some lie far off
 SLOWEST = 0.005  # nor one below this share of the largest
 FITTED_OTHERWISE = "allowed: friction_scale in its place; torque tells the product of both"
-OPTIONS = ("piston_area", "inertia", "drag_torque", "inertia_between")
+OPTIONS = ("piston_area", "inertia", "drag_torque", "inertia_between", "torque_offset")
+OF_SLIP = {"inertia", "drag_torque", "torque_offset"}
 PLACES = ("pack", "hub")
 
 
@@ -59,6 +65,7 @@ def calibrate_traces(
     drag_torque: float | str = 0.0,
     torque_at: str = "pack",
     inertia_between: float | str = 0.0,
+    torque_offset: float | str = 0.0,
 ) -> TraceCalibration:
     """Fit parameters of a wet pack to recordings of engagements over time.
 
@@ -69,15 +76,16 @@ def calibrate_traces(
     ----------
     part : ``ClutchParams``, a part (``load_part``) or ``"clutch"``; the first guess, and what is
         not fitted
-    recordings : columns [SI] of one recording by their names, a path of a file, a sequence of
-        these, or columns by the names of the recordings. ``time`` [s]; ``load`` [N] or
+    recordings : columns [SI] of one recording by their names, a path of a file, a DataFrame (units
+        in ``attrs["units"]``, time as a column or the index), an ``asammdf.MDF``, a sequence of
+        these, or these by the names of the recordings. ``time`` [s]; ``load`` [N] or
         ``pressure`` [Pa]; ``speed``: slip [rad/s]; ``oil_temperature`` [K] and ``drum_speed``
         [rad/s] where they are recorded; measured ``friction_torque`` [N m] and ``temperature`` [K]
         of the interface (None: not measured). Where time goes back or leaps by more than 20 usual
         steps another recording begins; a gap of 0.1 s or less within an engagement is bridged
     fit : names of parameters of the pack, and of the test rig: ``fill_time`` [s],
-        ``kiss_pressure`` [Pa], ``drag_torque`` [N m], ``inertia`` [kg m2]; friction_scale and
-        permeability by default
+        ``kiss_pressure`` [Pa], ``drag_torque`` [N m], ``inertia`` [kg m2], ``torque_offset`` [N m];
+        friction_scale and permeability by default
     errors : standard deviation of a row by output (``slip`` is one with ``inertia``): a number
         [SI], or a text with a unit; "2 %" is of the largest measured value. Without: of one output
         its residuals' scatter, of several the scatter of rows against their neighbours
@@ -93,6 +101,7 @@ def calibrate_traces(
     drag_torque : [N m] next to the pack's that slows the slip; below 0: drives it
     torque_at : "pack": the torque of the faces is measured; "hub": between them and the sensor
         ``inertia_between`` [kg m2] turns with the hub, times its acceleration
+    torque_offset : [N m] that the sensor shows in addition to the true torque
 
     Returns
     -------
@@ -123,7 +132,8 @@ def calibrate_traces(
     start = part_of(part, SPEC.key)
     if torque_at not in PLACES:
         raise ParameterError(f"torque_at = {torque_at!r}, allowed: {' or '.join(PLACES)}")
-    given = dict(zip(OPTIONS, (piston_area, inertia, drag_torque, inertia_between), strict=True))
+    of_rig = (piston_area, inertia, drag_torque, inertia_between, torque_offset)
+    given = dict(zip(OPTIONS, of_rig, strict=True))
     rig, held = _held(start.params, {n: x for n, x in given.items() if x not in (0.0, 0)}, at or {})
     if (torque_at == "hub") != (rig.inertia_between > 0.0):
         raise ParameterError(
@@ -152,7 +162,7 @@ def calibrate_traces(
     most = min(MOST_MEANS, max(FEW_MEANS, ALL_MEANS // len(parts)))
     runs = tuple(binned(piece, most, "load", largest) for piece, largest in parts)
     if by_torque:
-        if inner := set(names) & {"inertia", "drag_torque"}:
+        if inner := set(names) & OF_SLIP:
             raise ParameterError(
                 f"fit = {inner.pop()!r}: allowed: with a column speed; without, slip is found by it"
             )
@@ -419,4 +429,6 @@ def _notes(rig: TracedPack, runs: tuple[Run, ...], torque_at: str) -> Iterator[s
     )
 
 
-TRACES = Traces(columns=COLUMNS, measured=MEASURED, spec=TRACED, fit=calibrate_traces)
+TRACES = Traces(
+    columns=COLUMNS, measured=MEASURED, needed=NEEDED, spec=TRACED, fit=calibrate_traces
+)

@@ -31,6 +31,9 @@ class TracedPack(ClutchParams):
     inertia_between: float = quantity(
         0.0, "kg.m2", 0.0, 1e3, "inertia between the faces and where torque is measured"
     )
+    torque_offset: float = quantity(
+        0.0, "N.m", -1e4, 1e4, "torque that the sensor shows in addition to the true one"
+    )
 
     def __post_init__(self) -> None:
         check_ranges(self)

@@ -26,6 +26,7 @@ class Traces:
 
     columns: Mapping[str, str]  # that count, with their SI units
     measured: tuple[str, ...]  # those that are outputs
+    needed: tuple[tuple[str, ...], ...]  # groups of columns; of each a recording has one
     spec: ModelSpec  # the model with the parameters of the test rig around it
     fit: Callable[..., Any]
     """Called with (part, columns by recording, fit=, errors=, ..., options of the test measured

@@ -5,13 +5,11 @@ from os import PathLike, fspath
 
 import numpy as np
 
-from ....errors import ParameterError, suggestion
+from ....errors import ParameterError
 from ....numerics.jit import Array
+from ....storage.tables.known_columns import known_columns
 from ....storage.tables.table import Table, numbers
 from ....storage.tables.table_file import read_table
-from ....units import parse_quantity
-
-SHOWN = 12  # names of columns that do not count
 
 
 def is_trace(table: Table) -> bool:
@@ -20,26 +18,32 @@ def is_trace(table: Table) -> bool:
 
 
 def read_trace(
-    path: str | PathLike[str], units: Mapping[str, str], measured: Sequence[str]
-) -> tuple[dict[str, Array], list[str], list[str]]:
+    path: str | PathLike[str],
+    units: Mapping[str, str],
+    measured: Sequence[str],
+    needed: Sequence[Sequence[str]] = (),
+) -> tuple[dict[str, dict[str, Array]], list[str], list[str]]:
     """Return ``columns_of`` the table in a file."""
-    return columns_of(read_table(fspath(path)), units, measured)
+    return columns_of(read_table(fspath(path)), units, measured, needed)
 
 
 def columns_of(
-    table: Table, units: Mapping[str, str], measured: Sequence[str]
-) -> tuple[dict[str, Array], list[str], list[str]]:
-    """Return the columns of a recording, (n,) each [SI], NaN where a cell is empty.
+    table: Table,
+    units: Mapping[str, str],
+    measured: Sequence[str],
+    needed: Sequence[Sequence[str]] = (),
+) -> tuple[dict[str, dict[str, Array]], list[str], list[str]]:
+    """Return the columns of a file's recordings by name, (n,) each [SI], NaN where a cell is empty.
 
-    Also names of columns that were passed over: a recording has more channels than count here.
-    One whose name is nearly one of these is refused, unless it begins with _. Third: what was not
-    plain, such as samples that are left out.
+    A file with one table is one recording. Also names of columns that were passed over: a recording
+    has more channels than count here. Third: what was not plain, such as samples that are left out.
 
     Parameters
     ----------
     table : as read
     units : SI unit of every column that counts
     measured : those among them that may have empty cells
+    needed : groups of names; of each group a recording has one, if an unknown column may be it
 
     Raises
     ------
@@ -47,26 +51,15 @@ def columns_of(
         and column
     """
     table = table.of_columns(units, measured)
-    found: dict[str, Array] = {}
-    passed = []
-    for column in table.columns:
-        name = column.plain
-        if name not in units:
-            hint = suggestion(name, set(units) - {*found}, "did you mean {}? ", likeness=0.75)
-            if column.name and not column.name.startswith("_"):
-                if hint and not table.binary:
-                    raise ParameterError(
-                        f"{table.path}: column {column.name!r} is not known; {hint}begin its name "
-                        "with _ to pass it over"
-                    )
-                passed.append(column.name)
-            continue
-        if name in found:
-            raise ParameterError(f"{table.path}: has two columns {name}")
-        parse_quantity(f"1 {column.unit}", units[name], f"{table.path}: unit of column {name}")
-        found[name] = np.array(numbers(column, table, units[name], name=name), float)
-        holes = np.isnan(found[name])
-        if name not in measured and holes.any():
-            line = table.lines[int(np.argmax(holes))]
-            raise ParameterError(f"{table.path}, line {line}: {name} is missing")
+    columns, passed = known_columns(table, units, needed, may_lack=True)
+    found: dict[str, dict[str, Array]] = {}
+    for own in table.each():
+        of_table = found.setdefault(f"{table.path}, {own.name}" if own.name else table.path, {})
+        by_name = {column.plain: column for column in own.columns}
+        for name in columns:
+            of_table[name] = np.array(numbers(by_name[name], own, units[name], name=name), float)
+            holes = np.isnan(of_table[name])
+            if name not in measured and holes.any():
+                line = own.lines[int(np.argmax(holes))]
+                raise ParameterError(f"{table.path}, line {line}: {name} is missing")
     return found, passed, table.remarks

@@ -152,7 +152,7 @@ def _zero_offset(points: Traced, residuals: Array) -> tuple[str, ...]:
     share = f" ({100.0 * abs(mean) / largest:.2g} % of the largest torque)" if largest else ""
     return (
         f"With the open pack the recorded torque lies {mean:+.3g} N.m off the model's drag"
-        f"{share}: if that is a zero offset of the sensor, subtract it from the column.",
+        f"{share}: if that is a zero offset of the sensor, give torque_offset, or fit it.",
     )
 
 

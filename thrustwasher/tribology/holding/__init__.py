@@ -5,6 +5,7 @@
 ``asking``      the code by which a pack asks: it lowers its torque
 ``plant``       inertia and delay of the driveline, proved by the slip that answers the code
 ``reversals``   reversals of the slip, and which of them are chatter
+``doubts``      a driveline that was proved and may be another one by now
 ``sampling``    a speed that comes anew every few steps: the unit steps with it
 ``torque``      the torque that ends the slip with the step
 ``work``        the heat: the work that the shafts do to the unit

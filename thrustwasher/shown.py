@@ -10,7 +10,6 @@ from enum import Enum
 from html import escape
 from typing import Any, NamedTuple
 
-from .datasets import dataset_of
 from .errors import EnvironmentProblem
 from .plugins import called
 from .units import format_quantity, format_time
@@ -123,6 +122,8 @@ class Tabled(Shown):
         ------
         EnvironmentProblem : there is no xarray; the message says how to get it
         """
+        from .datasets import dataset_of  # takes numpy, which help does without
+
         columns, words = self._columns(), self._words()
         attributes = {
             name: (words[name].unit, words[name].help) for name in columns if name in words

@@ -87,7 +87,7 @@ TABLE = [
     ("sweep washer --points empty.csv", "empty.csv: is empty"),
     ("sweep washer --points comma.csv", "may have a decimal comma or groups of thousands"),
     ("sweep washer --over load=50:500:50 --workers none", "allowed: a whole number from 1 on"),
-    ("calibrate law.csv", "column 'sped' is not known; did you mean speed?"),
+    ("calibrate law.csv", 'not known: sped [rpm] (is it speed?); if so: --column "speed=sped"'),
     ("calibrate washer torque.csv --fit roughness", "did you mean friction_torque?"),
     ("calibrate washer", "the file with the measured points is missing (DATA.csv)"),
     ("calibrate washer points.csv --fit roughness", "data: no measured output"),
@@ -175,7 +175,7 @@ TABLE = [
     ("explore washer --out ''", "--out : allowed: a file name ending in .html"),
     ("explore washer --out /proc/x.html", "--out /proc: cannot be written"),
     ("calibrate .", "is a folder, a file with a table is required"),
-    ("calibrate mesh.csv", "did you mean friction_error? begin its name with _"),
+    ("calibrate mesh.csv", "not known: friction_torque (is it friction?), power"),
     (
         "calibrate law.csv --error friction=1",
         "--error, --bounds, --fidelity: allowed: with PART",

@@ -123,8 +123,8 @@ def test_the_shipped_recording_is_what_its_script_makes():
     found = trace_fit.COLUMNS
     from thrustwasher.studio.calibration.traces.trace_file import read_trace
 
-    columns, passed, _ = read_trace(rig.TRACE, found, trace_fit.MEASURED)
-    made = rig.rows()
+    runs, passed, _ = read_trace(rig.TRACE, found, trace_fit.MEASURED)
+    (columns,), made = runs.values(), rig.rows()
     assert columns.keys() == made.keys() and not passed
     digits = {"pressure": 60.0, "speed": 0.006, "friction_torque": 0.006}  # as written, rounded
     for name, close in digits.items():

@@ -83,7 +83,7 @@ def test_a_swinging_engine_is_followed_to_the_change_of_its_torque_over_a_step(c
         assert reversals(made) <= 10
         bound = (1 + 2 * case.delay) * case.host**2 * case.max_outside_rate
         bounds.append(max_late_slip(made, found.sampled) * made.first / bound)
-    assert max(bounds) < 1.5
+    assert max(bounds) < 1.6
 
 
 @several(30)

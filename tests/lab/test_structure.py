@@ -59,6 +59,7 @@ PLACES = {
     },
     "a train is made of meshes, and of the laws of bearings, churning and seals": {
         "train.kernels.chain": {"gearmesh", "losses"},
+        "train.kernels.exchange": {"gearmesh"},
         "train.kernels.layout": {"gearmesh", "losses"},
         "train.kernels.step": {"gearmesh", "losses"},
         "train.parameters": {"gearmesh", "losses"},
@@ -70,6 +71,7 @@ PLACES = {
         "studio.explore.scene_data": {"transmission"},
     },
     "the fit of the clutch's friction law": {
+        "studio.calibration.friction.friction_fit": {"clutch"},
         "studio.calibration.friction.friction_law": {"clutch"},
         "studio.calibration.friction.reach": {"clutch"},
     },

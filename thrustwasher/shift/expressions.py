@@ -119,7 +119,7 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
 
 
 class Scope:
-    """Names of values, and of expressions that are evaluated once, when they are asked for.
+    """Names of values, and of expressions that are evaluated once, when they are first needed.
 
     Parameters
     ----------

@@ -136,7 +136,7 @@ def _meant(
 
 
 def guessed(unknown: Sequence[Column], units: Mapping[str, str]) -> dict[str, tuple[str, int]]:
-    """Return for columns what they probably hold by name and unit, and how sure that is.
+    """Return for columns what they probably hold by name and unit, and the points of it.
 
     Each name is guessed once, for the column that fits it best.
     """

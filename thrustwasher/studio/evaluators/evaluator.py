@@ -72,7 +72,7 @@ class Answers(NamedTuple):
     codes: Codes
     """(n,) 0 where a row is sound, else a key of ``Evaluator.reasons`` or an advice."""
     series: Array | None = None
-    """(n, signals, n_t) over ``Evaluator.time``, if signals were asked for."""
+    """(n, signals, n_t) over ``Evaluator.time``, if signals were requested."""
 
 
 class Slopes(NamedTuple):
@@ -147,7 +147,7 @@ class Evaluator(Protocol):
 
 
 class Scattering(Evaluator, Protocol):
-    """What a study of scatter asks for besides."""
+    """What a study of scatter needs in addition."""
 
     @property
     def signals(self) -> Mapping[str, str]:

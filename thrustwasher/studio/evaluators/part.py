@@ -83,7 +83,7 @@ class PartEvaluator:
 
     @cached_property
     def measurable(self) -> dict[str, Figure]:
-        """What rows give that can be measured, by name; no study lists those besides figures."""
+        """What rows give that can be measured, by name; studies list figures alone."""
         model = find_model(self.part.spec.key)
         found = {s.name: Figure(s.name, s.unit, s.help) for s in self.part.spec.outputs if _real(s)}
         more = {"loss_factor": ("1", "power of friction over that transmitted")}

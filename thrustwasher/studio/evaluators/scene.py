@@ -372,7 +372,7 @@ class SceneEvaluator:
     def _chosen(
         self, answers: Array, codes: Any, figures: Sequence[str], signals: Sequence[str]
     ) -> Answers:
-        """Return the columns that were asked for."""
+        """Return the columns that were requested."""
         names = list(self.figures)
         values = answers[:, [names.index(name) for name in figures]]
         series = answers[:, len(names) :].reshape(len(answers), len(self._run.series), -1)

@@ -155,7 +155,9 @@ static inline double foreign_strtod(const char *text, char **end)
 @pytest.mark.slow
 def test_numbers_have_a_point_whatever_the_language_of_the_host(sign, tmp_path):
     (tmp_path / "foreign.h").write_text(f'#define SIGN "{sign}"\n{FOREIGN}')
-    library = toy_library(("-O1", "-Wno-error", "-w", "-D_GNU_SOURCE", "-include", str(tmp_path / "foreign.h")))
+    library = toy_library(
+        ("-O1", "-Wno-error", "-w", "-D_GNU_SOURCE", "-include", str(tmp_path / "foreign.h"))
+    )
     script = (
         MADE
         + "setup 0x1p-1\nenter 0x1p-1\nleave\nstep 0x1p-1 0x1p-2\n"

@@ -10,6 +10,7 @@ import pytest
 
 LIMIT = 40.0  # s
 _used: defaultdict[Path, float] = defaultdict(float)
+_cut: set[str] = set()  # tests that were stopped
 
 
 def _stop(*_: object) -> None:
@@ -22,10 +23,19 @@ def pytest_runtest_call(item: pytest.Item) -> Iterator[None]:
     left, began = LIMIT - _used[item.path], time.process_time()
     if left <= 0.0:
         _stop()
-    signal.signal(signal.SIGPROF, _stop)
+
+    def cut(*_: object) -> None:
+        _cut.add(item.nodeid)
+        _stop()
+
+    signal.signal(signal.SIGPROF, cut)
     signal.setitimer(signal.ITIMER_PROF, left)
     try:
         return (yield)
+    except Exception:  # hypothesis takes the skip for a strategy that is not the same twice
+        if item.nodeid in _cut:
+            _stop()
+        raise
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0.0)
         _used[item.path] += time.process_time() - began

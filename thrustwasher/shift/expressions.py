@@ -81,10 +81,6 @@ def _before(x: Any, t: float, time: Any) -> Any:
     return x[max(int(np.searchsorted(time, t, side="right")) - 1, 0)]
 
 
-def _size(x: Any) -> int:
-    return len(x)
-
-
 FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{"+": operator.add, "-": operator.sub, "*": operator.mul, "/": np.divide},
     **{"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge},
@@ -93,13 +89,13 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
         "abs": np.abs,
         "sign": np.sign,
         "log": np.log,
-        "copysign": lambda x, y: np.copysign(np.abs(x), y),
+        "copysign": np.copysign,
     },
     **{"larger": np.maximum, "smaller": np.minimum, "where": np.where, "finite": np.isfinite},
     "known": lambda x: x is not None and not (np.isscalar(x) and x != x),
     "item": lambda x, i: x[i],
     "part": lambda x, low, high: x[low:high],
-    "size": _size,
+    "size": len,
     "count": lambda x: int(np.count_nonzero(x)),
     "any": lambda x: bool(np.any(x)),
     "all": lambda x: bool(np.all(x)),

@@ -28,7 +28,7 @@ from .parameters import WasherParams
 
 TOLERANCE = 1e-10  # of the solution that is differentiated
 N_CHANGES = L.N_ALL + 3
-OUTPUTS = {
+PLACES = {  # of a result's numbers among the outputs of the kernels
     "friction_torque": L.O_TORQUE,
     "temperature": L.O_MEAN,
     "temperature_max": L.O_PEAK,
@@ -44,9 +44,8 @@ OUTPUTS = {
     "oil_outlet_temperature": L.O_OUTLET,
     "film_temperature": L.O_FILM_TEMPERATURE,
     "stick_margin": L.O_STICK_MARGIN,
-    "washer_tilt_x": L.N_ALL + 1,
-    "washer_tilt_y": L.N_ALL + 2,
 }
+OUTPUTS = {**PLACES, "washer_tilt_x": L.N_ALL + 1, "washer_tilt_y": L.N_ALL + 2}
 LIMITS = {
     "friction_pressure_min": L.P_FRICTION_PRESSURE_MIN,
     "friction_pressure_max": L.P_FRICTION_PRESSURE_MAX,

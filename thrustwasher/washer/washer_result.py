@@ -24,7 +24,7 @@ from .kernels.regime_and_status import point_of
 from .kernels.workspace import Fields, fields_of, size_of_work, workspace_of
 from .mesh_error import OF_FILM, mesh_error
 from .parameters import SPEC, WasherParams, face_of, washer_face
-from .sensitivities import Solved, parameter_derivatives
+from .sensitivities import PLACES, Solved, parameter_derivatives
 
 BRANCHES = {"film": L.FILM_BRANCH, "contact": L.CONTACT_BRANCH}  # that one can ask for
 SLIPS = (
@@ -57,23 +57,6 @@ BEYOND = (
 )
 LOAD, SPEED, TILT, OIL = (signal.verified for signal in SPEC.inputs[:4])
 BRANCH_NAMES = {L.FILM_BRANCH: "film", L.UNSTABLE: "unstable", L.CONTACT_BRANCH: "contact"}
-PLACES = {  # of a result's numbers among the outputs of the kernels
-    "friction_torque": L.O_TORQUE,
-    "temperature": L.O_MEAN,
-    "temperature_max": L.O_PEAK,
-    "film_thickness": L.O_FILM,
-    "film_ratio": L.O_RATIO,
-    "fluid_load": L.O_FLUID_LOAD,
-    "contact_load": L.O_CONTACT_LOAD,
-    "friction_coefficient": L.O_COEFFICIENT,
-    "friction_power": L.O_POWER,
-    "oil_flow": L.O_OIL_FLOW,
-    "throughflow_heat": L.O_THROUGHFLOW_HEAT,
-    "oil_heat": L.O_OIL_HEAT,
-    "oil_outlet_temperature": L.O_OUTLET,
-    "film_temperature": L.O_FILM_TEMPERATURE,
-    "stick_margin": L.O_STICK_MARGIN,
-}
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,6 +6,7 @@ import hashlib
 import json
 import re
 import textwrap
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,12 +16,22 @@ from scene_pages import html, nominal, page_runs, python_figures, python_run, sc
 from thrustwasher import cli
 from thrustwasher.errors import ParameterError, SolveError
 from thrustwasher.shift import load_scene
+from thrustwasher.shift.expressions import FUNCTIONS
+from thrustwasher.studio import report
 from thrustwasher.studio.explore.scene_data import checked, started
 from thrustwasher.studio.explore.scene_page import scene_page
 
 SAME = 1e-9
 LARGEST = 2_500_000  # bytes of a page
 KISS = {"clutch_pressure": [[0.1, 0.0], [0.11, 6e4], [0.2, 6e4], [0.4, 3.2e5], [0.935, 7.2e5]]}
+
+
+def test_the_page_knows_the_functions_of_rules_that_python_knows():
+    """``and`` and ``or`` are written as functions in the page alone."""
+    script = Path(report.__file__).parent / "web" / "scene" / "expressions.js"
+    body = re.search(r"(?s)const FUNCTIONS = \{\n(.*?)\n\};", script.read_text("utf-8"))[1]
+    names = set(re.findall(r'(?m)^  "?([^\s":,}]+)"?[:,]', body))
+    assert names - {"and", "or"} == set(FUNCTIONS)
 
 
 def drawn_profiles(n):

@@ -11,7 +11,10 @@ class Journal(Model):
     command = Command(
         help="friction and film of a plain journal bearing at one operating point",
         title="journal bearing",
-        examples=('thrustwasher journal --load "2 kN" --speed "3000 rpm"',),
+        examples=(
+            'thrustwasher journal --load "1 kN" --speed "3000 rpm"',
+            "thrustwasher journal --load 500 --set clearance=20e-6 --json",
+        ),
     )
 
     @property

@@ -7,7 +7,7 @@
 ``solve``         boundary friction, and a pack that slips at a constant speed
 ``engagement``    load and slip are given over time, torque and heat follow
 ``kernels``       compiled code
-``profile``        A pack along given profiles of load and slip, by its kernels
+``profile``       a pack along given profiles of load and slip, by its kernels
 ``run_out``       the slip of an inertia runs out under a given load
 ``release``       what a pack drags after it was let go: a cold release against a warm one
 ================  =========================================================================

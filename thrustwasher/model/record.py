@@ -3,8 +3,8 @@
 Each model has a class of its own, in the module ``model`` of its folder. What it returns is
 imported when it is requested. What draws a model, shows it in a browser or finds its reference
 values lies above it, in one list each: ``studio.report.model_plots``, ``studio.explore.page``,
-``study.reference_cache``, ``study.charts.work_precision``; the fit of a law of its own in
-``studio.calibration.run_calibration``.
+``studio.verification.reference_cache``, ``lab.charts.work_precision``; the fit of a law of its own
+in ``studio.calibration.run_calibration``.
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@
 ``steady_points``   efficiency and losses in a gear, nothing accelerating
 ``ssp``             a shift as an SSP 1.0 package, for any SSP master
 ``expressions``     expressions over a run, for Python and for pages
-``warning_texts``   a shift's warnings by rules and their texts, for Python and for pages
+``warning_texts``   a shift's warnings by ``warnings.toml``, for Python and for pages
 ``whole_shift``     a shift from its scene alone
 ``tolerance``       a shift with the cheapest levels that hold a tolerance
 ``sequence_rows``   what a run of several shifts keeps of its points

@@ -9,8 +9,8 @@
 ``limits``         Rows with outputs beyond what a part bears: counted by pieces
 ``scene``          A gear shift
 ``scene_figures``  What is read from a run of a scene
-``scene_runs``      Many runs of one scene: the loop, then its washers apart
-``scene_shortcut``  What that errs by
+``scene_runs``     Many runs of one scene: the loop, then its washers apart
+``scene_shortcut``  The error of that
 ``gearbox``        A gearbox that runs steadily in a gear
 ``engagement``     A wet pack that closes under a rising force while its slip runs out
 ``function``       A Python function

@@ -10,7 +10,7 @@
 ``heat``                    heat balance of oil film, carrier, washer and gear
 ``heat_factor``             factor of the heat equations: a band over the columns, bordered by rings
 ``newton``                  positions and temperatures by block elimination, the film settled
-``continuation``            walking along the curve of solutions: load over film thickness
+``continuation``            walking along the curve of solutions: load over film thickness, folds
 ``branch``                  which of several solutions
 ``solve``                   one solve with memory: warm where it can be
 ``ladder``                  heat into and through the thickness of a body

@@ -5,6 +5,7 @@ The counts are those of ``lab/structure.py``; ``lint-imports`` checks the direct
 
 import ast
 import re
+import tomllib
 from statistics import median
 
 import needed
@@ -254,3 +255,13 @@ def test_who_names_a_model_is_listed_with_a_reason():
         if named and not (module in listed and len(named) == 1):
             found[module.removeprefix("thrustwasher.")] = named
     assert found == {m: named for modules in PLACES.values() for m, named in modules.items()}
+
+
+def test_directions_of_imports_are_checked_for_every_model():
+    config = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]
+    homes = (MODELS | HELPERS).values()
+    for contract in config["contracts"]:
+        named = str(contract.get("source_modules", contract.get("layers")))
+        if "thrustwasher.clutch" in named:
+            missing = [home for home in homes if home not in named]
+            assert not missing, f"{contract['name']}: {missing}"

@@ -79,6 +79,7 @@ def parse_quantity(value: str | float, unit: str, name: str, *, difference: bool
     return si
 
 
+@lru_cache(maxsize=4096)
 def unit_size(written: str, unit: str) -> tuple[float, float] | None:
     """Return (factor, offset) of a unit as written, SI value = factor * number + offset.
 
@@ -265,6 +266,7 @@ def _rounded(number: float, digits: int) -> str:
     return f"{number:.{digits - 1}e}"
 
 
+@lru_cache(maxsize=4096)
 def _plain(unit: str) -> str:
     """Return one spelling for °C and degC, N·m and N m, m² and m^2, µm and um."""
     text = unit.strip().replace("°", "deg").replace("·", ".").replace("*", ".").replace("^", "")

@@ -99,14 +99,19 @@ def _modules(*names: str) -> dict[str, Module]:
 def file_of(name: str) -> Path | None:
     """Return the file of a module; None where a name is no module but something in one."""
     if name.startswith(f"{PACKAGE}."):  # nothing is imported to know it
-        place = HERE.parents[1].joinpath(*name.split("."))
-        files = place.with_suffix(".py"), place / "__init__.py"
-        return next((path for path in files if path.is_file()), None)
+        return _own_file(name)
     try:
         spec = importlib.util.find_spec(name)
     except ModuleNotFoundError:
         return None
     return Path(spec.origin) if spec and spec.origin else None
+
+
+@cache
+def _own_file(name: str) -> Path | None:
+    place = HERE.parents[1].joinpath(*name.split("."))
+    files = place.with_suffix(".py"), place / "__init__.py"
+    return next((path for path in files if path.is_file()), None)
 
 
 def _resolved(code: Code, package: str) -> Iterator[str]:

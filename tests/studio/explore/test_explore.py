@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from pages import MODELS, WEB, about, answers, html, node
+from scipy.stats import qmc
 
 from thrustwasher import (
     GearMeshParams,
@@ -153,6 +154,12 @@ def test_the_points_are_one_in_each_32nd_of_every_axis():
         assert sorted((axis * DRAWS).astype(int)) == list(range(DRAWS))
     assert points.min() > 0.0 and points.max() < 1.0
     assert len(np.unique(points, axis=1).T) == 12
+
+
+@pytest.mark.parametrize("n", [1, 64, 65])
+def test_the_points_are_the_first_of_scipys_sequence(n):
+    expected = qmc.Sobol(n, scramble=False).random(DRAWS) + 0.5 / DRAWS
+    np.testing.assert_array_equal(fixed_points(n), expected)
 
 
 def test_at_the_start_the_draws_are_those_of_the_part():

@@ -4,6 +4,7 @@ The tables are those of the model; they know no name, no start values and no ver
 """
 
 import hashlib
+import re
 import struct
 import zlib
 from collections.abc import Iterable, Sequence
@@ -38,6 +39,8 @@ SHELL_FILES = tuple(
 VERSIONS = (2, 3)  # of FMI, both in one library
 PART, MAGIC, WORD = "part.bin", b"twpart3\0", 64  # as in shell.h
 PART_IN_C, TABLE_IN_C = "part.c", "table.c"
+PLAIN = frozenset(range(0x20, 0x7F)) - frozenset(b'"\\?')  # what a literal of C holds as it is
+UNPLAIN = re.compile("[^" + re.escape("".join(map(chr, sorted(PLAIN)))) + "]")
 
 
 def sources(shown: Interface) -> dict[str, str]:
@@ -297,5 +300,7 @@ def _text(value: object) -> str:
         return "0"
     if isinstance(value, _Code) or not isinstance(value, str):
         return str(value)
-    plain = set(range(0x20, 0x7F)) - set(b'"\\?')
-    return '"' + "".join(chr(b) if b in plain else f"\\{b:03o}" for b in value.encode()) + '"'
+    if UNPLAIN.search(value):
+        octal = (chr(b) if b in PLAIN else f"\\{b:03o}" for b in value.encode())
+        return f'"{"".join(octal)}"'
+    return f'"{value}"'

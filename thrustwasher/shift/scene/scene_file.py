@@ -10,6 +10,7 @@ takes seconds and says nothing of its luck, a study takes minutes.
 import os
 from collections.abc import Mapping
 from dataclasses import fields, replace
+from functools import lru_cache
 from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -217,8 +218,11 @@ def _overlay(base: dict[str, Any], top: dict[str, Any]) -> dict[str, Any]:
     return result
 
 
-def scene_of(source: str, table: dict[str, Any]) -> Scene:
-    """Return the scene of merged tables; ``source``: its name, or the path of its file."""
+def scene_of(source: str, table: dict[str, Any], *, warned: bool = True) -> Scene:
+    """Return the scene of merged tables; ``source``: its name, or the path of its file.
+
+    ``warned``: with the warnings of what is doubtful in it; one that is only a draw needs none.
+    """
     own = source.endswith(".toml")
     name = Path(source).stem if own else source
     where = f"scene {name!r}"
@@ -281,7 +285,7 @@ def scene_of(source: str, table: dict[str, Any]) -> Scene:
         where = f"{where} [sequence]"
         scene = checked_sequence(where, scene, read_sequence(where, scene, table["sequence"]))
     scene = scene.checked()
-    return replace(scene, warnings=(*scene.warnings, *doubts(scene)))
+    return replace(scene, warnings=(*scene.warnings, *doubts(scene))) if warned else scene
 
 
 def _parts(
@@ -515,8 +519,14 @@ def known_bands(scene: Scene) -> dict[str, KnownBand]:
 
 def _as_it_comes(scene: Scene) -> bool:
     """Tell if a scene has the numbers of the built-in one of its name."""
-    own = load_scene(scene.name).with_options(step=scene.step, master=scene.master)
+    own = _unchanged(scene.name, scene.step, scene.master)
     return all(_numbers(scene, part) == _numbers(own, part) for part in {*scene.parts, *own.parts})
+
+
+@lru_cache(maxsize=16)
+def _unchanged(name: str, step: float, master: str) -> Scene:
+    """Return a built-in scene, read once: nobody changes it."""
+    return load_scene(name).with_options(step=step, master=master)
 
 
 def _numbers(scene: Scene, name: str) -> dict[str, Any]:

@@ -19,19 +19,20 @@ DRAW = "One draw of the scatter of scene {!r}"
 LEVEL = ("fidelity", "tolerance", "asked")  # and in its parts
 
 
-def varied_scene(scene: Scene, values: Mapping[str, object]) -> Scene:
+def varied_scene(scene: Scene, values: Mapping[str, object], *, warned: bool = True) -> Scene:
     """Return the scene with other values.
 
     Parameters
     ----------
     scene : as ``load_scene`` returns it, or with other options and levels since
     values : by path, SI units, as ``scene_places`` names them
+    warned : with the warnings of what is doubtful in it
 
     Raises
     ------
     ParameterError : there is no such path, or the values do not go together
     """
-    found = scene_of(scene.source, _with_values(scene, values))
+    found = scene_of(scene.source, _with_values(scene, values), warned=warned)
     options = {key: getattr(scene, key) for key in OPTIONS if _differs(scene, found, key)}
     levels = {
         name: replace(part, **{key: getattr(scene.parts[name], key) for key in LEVEL})

@@ -15,7 +15,7 @@ REPORT, TABLE, LIVE = "report.html", "shift.csv", "try.html"
 
 def load() -> None:
     """Load what draws and read the templates while the shift runs: its steps leave Python free."""
-    from scipy.stats import qmc  # noqa: F401 (the live page draws from it)
+    from scipy import special  # noqa: F401 (the laws of the live page's draws)
 
     from ...templates import template
     from ..explore import scene_page  # noqa: F401

@@ -3,6 +3,7 @@
 ==================  ============================================================================
 ``view``            what a model's page shows: data
 ``draws``           how a part scatters: draws that the page's scripts apply to its values
+``sobol``           the points of those draws
 ``description``     a model as the page's scripts read it: inputs, parameters, kernels
 ``page``            which models have one; its file: template, styles, scripts, module
 ``washer_page``     the thrust washer's page

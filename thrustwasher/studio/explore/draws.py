@@ -8,8 +8,9 @@ from ...model.part_file import PartFile
 from ...model.quantity import Quantity, other_of
 from ...model.scatter import Law
 from ...numerics.jit import Array
+from .sobol import POINTS, first_points
 
-DRAWS = 32  # a power of two: of each source one draw lies in each 32nd of its probability
+DRAWS = POINTS  # a power of two: of each source one draw lies in each 32nd of its probability
 
 
 def draws_of(
@@ -46,9 +47,7 @@ def draws_of(
 
 def fixed_points(n: int) -> Array:
     """Return the first Sobol' points (DRAWS, n), each in the middle of its 32nd of each axis."""
-    from scipy.stats.qmc import Sobol
-
-    points: Array = Sobol(n, scramble=False).random(DRAWS) + 0.5 / DRAWS
+    points: Array = first_points(n) + 0.5 / DRAWS
     return points
 
 

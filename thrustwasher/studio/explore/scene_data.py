@@ -303,7 +303,7 @@ def _draw(
         if own["factor"] != 1.0 or any(own[column] for column in COLUMNS):
             profiles[name] = own
     try:
-        other = varied_scene(scene, rest)
+        other = varied_scene(scene, rest, warned=False)
     except ParameterError as problem:
         return {"problem": str(problem)}
     parts = {}

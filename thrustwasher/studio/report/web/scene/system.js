@@ -7,6 +7,16 @@ import { failedBecause, ofScene, warningsOf } from "./warnings.js";
 
 const SLICES = 25; // steps between two looks for messages
 
+/** Return what copies numbers of some arrays to places in others: {to, slot, from, place}. */
+function copying(links) {
+  return () => {
+    for (let k = 0; k < links.length; k += 1) {
+      const { to, slot, from, place } = links[k];
+      to[slot] = from[place];
+    }
+  };
+}
+
 /** One part: its arrays in the kernels' memory, its inputs and outputs. */
 class Part {
   /** @type {string} */
@@ -31,6 +41,8 @@ class Part {
   out;
   /** @type {Int32Array} */
   iout;
+  /** @type {() => void} */
+  give;
 
   constructor(name, given, kernel, about) {
     Object.assign(this, { name, given, kernel, about, spec: about.models[given.model] });
@@ -41,12 +53,18 @@ class Part {
     this.step = kernel.bound("step", ...Object.values(this.arrays));
     this.inputs = new Float64Array(given.inputs.length);
     this.outputs = new Float64Array(given.outputs.length);
+    this.allowed = given.inputs.map(([key, slot, low, high, unit]) => ({ key, slot, low, high, unit }));
     this.prepared = null;
+    this.give = () => {};
   }
 
   /** Take the arrays as views, once nothing grows any more. */
   settle() {
     for (const [key, array] of Object.entries(this.arrays)) this[key] = array.view;
+    const { out, iout, outputs: to } = this;
+    this.give = copying(
+      this.given.outputs.map(([, real, place], slot) => ({ to, slot, from: real ? out : iout, place })),
+    );
   }
 
   /** Forget all, take parameters [numbers]; `table`: [place, numbers] that the level looks up in. */
@@ -81,13 +99,13 @@ class Part {
   }
 
   put(t) {
-    const { inputs } = this.given;
-    for (let i = 0; i < inputs.length; i += 1) {
-      const [name, slot, low, high, unit] = inputs[i],
+    const { allowed } = this;
+    for (let i = 0; i < allowed.length; i += 1) {
+      const { key, slot, low, high, unit } = allowed[i],
         value = this.inputs[i];
       if (!(value >= low && value <= high))
         throw new Error(
-          `${this.name} at t = ${number(t, ".9g")} s: ${name} = ${number(value, "g")} ${unit} is outside ${low} .. ${high} ${unit}; the value is not taken over`,
+          `${this.name} at t = ${number(t, ".9g")} s: ${key} = ${number(value, "g")} ${unit} is outside ${low} .. ${high} ${unit}; the value is not taken over`,
         );
       if (this.inp[slot] !== value) {
         this.inp[slot] = value;
@@ -105,9 +123,7 @@ class Part {
         `${this.name} at t = ${Number(t.toPrecision(9))} s: ${this.about.statuses[rc] ?? "a result is not finite"}`,
       );
     this.dirty = false;
-    const { outputs } = this.given;
-    for (let i = 0; i < outputs.length; i += 1)
-      this.outputs[i] = outputs[i][1] ? this.out[outputs[i][2]] : this.iout[outputs[i][2]];
+    this.give();
   }
 
   refresh(t) {
@@ -270,29 +286,27 @@ export class Model {
       const known = level === "map" ? about.tables[name] : null;
       part.reset(this.numbers(name, level, profiles, draw), known);
     }
-    const named = Object.fromEntries(
-      Object.entries(parts).map(([name, part]) => [
+    const pulls = Object.fromEntries(
+      Object.entries(parts).map(([name, { given, inputs: to }]) => [
         name,
-        part.given.sources.map(([slot, source, place]) => [slot, parts[source].outputs, place]),
+        copying(
+          given.sources.map(([slot, source, place]) => ({ to, slot, from: parts[source].outputs, place })),
+        ),
       ]),
     );
-    const pull = (name) => {
-      const { inputs } = parts[name];
-      for (const [slot, outputs, place] of named[name]) inputs[slot] = outputs[place];
-    };
     const others = Object.keys(parts).filter((name) => name !== "transmission"),
       t0 = about.start_time;
     hub.inputs[about.command] = commandAt(t0, shift);
     hub.refresh(t0);
     for (const name of others) {
-      pull(name);
+      pulls[name]();
       parts[name].refresh(t0);
     }
     for (let sweep = 0; sweep < 4; sweep += 1) {
-      pull("transmission");
+      pulls.transmission();
       hub.refresh(t0);
       for (const name of others) {
-        pull(name);
+        pulls[name]();
         parts[name].refresh(t0);
       }
     }
@@ -311,23 +325,33 @@ export class Model {
           speed: part.given.inputs.findIndex(([own]) => own === "speed"),
         };
       });
+    const columns = [
+      ...this.kept.map(([name, part, place]) => ({ to: signals[name], from: parts[part].outputs, place })),
+      ...this.taken.map(([name, part, place]) => ({ to: signals[name], from: parts[part].inputs, place })),
+    ];
     const keep = (i) => {
-      for (const [name, part, place] of this.kept) signals[name][i] = parts[part].outputs[place];
-      for (const [name, part, place] of this.taken) signals[name][i] = parts[part].inputs[place];
+      for (let k = 0; k < columns.length; k += 1) {
+        const { to, from, place } = columns[k];
+        to[i] = from[place];
+      }
       for (const { part, rows: own, moving, speed } of rows) {
         own.set(part.outputs, i * part.outputs.length);
         moving[i] = Number(part.inputs[speed] !== 0);
       }
     };
+    const calls = about.schedule.map(([what, name]) => ({
+      pull: what === "pull" ? pulls[name] : null,
+      part: parts[name],
+    }));
     time[0] = t0;
     keep(0);
     for (let i = 0; i + 1 < n; i += 1) {
       time[i + 1] = t0 + h * (i + 1);
       hub.inputs[about.command] = commandAt(time[i + 1], shift);
       try {
-        for (const [what, name] of about.schedule) {
-          if (what === "pull") pull(name);
-          else parts[name].advance(time[i], h);
+        for (const { pull, part } of calls) {
+          if (pull) pull();
+          else part.advance(time[i], h);
         }
       } catch (problem) {
         const until = wantedUntil(about, profiles, shift),

@@ -135,8 +135,10 @@ def web_functions(kernel: str, names: Iterable[str]) -> dict[str, dict[str, Any]
 
 
 def _flat(kind: Kind) -> list[str]:
-    """Return the kinds of an argument's parts: "array", "float", "int" or "bool"."""
-    return [w for part in kind.parts for w in _flat(part)] if kind.parts else [kind.name]
+    """Return the kinds of an argument's parts: "array", "table", "float", "int" or "bool"."""
+    if kind.parts:
+        return [word for part in kind.parts for word in _flat(part)]
+    return ["table" if kind.ndim == 2 else kind.name]
 
 
 def linked_objects(

@@ -25,6 +25,7 @@ from .kernels.heat import set_steady
 from .kernels.outputs import outputs_at
 from .kernels.regime_and_status import point_of
 from .kernels.solve import remember_state
+from .kernels.whole_curve.points import ROW, follow_curve, name_branches
 from .kernels.workspace import fields_of, size_of_state, size_of_work, workspace_of
 from .parameters import SPEC, WasherParams
 from .sensitivities import Solved, fold_derivatives
@@ -35,7 +36,6 @@ __all__ = ["Fold", "LoadCurve", "load_curve"]
 
 MOST = next(s.high for s in SPEC.inputs if s.name == "load") or 0.0  # N
 WHERE = ("entry", "walking", "at a load")  # the path got stuck
-_NUMBERS = {name: number for number, name in BRANCH_NAMES.items()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,29 +184,25 @@ def load_curve(
         )
     point = check_point(params, load_min, speed, tilt, oil_temperature, far_face_temperature)
     here = Continuation(params, point, nodes)
-    here.begin(load_min)
-    points: list[WasherResult] = [here.result(level)]
+    points: list[WasherResult] = []
     folds: list[Fold] = []
-    while here.load < load_max or not here.whole[L.RISES]:
-        here.next_point()
-        points.append(here.result(level))
-        folds += here.passed()
+    while not here.whole[L.ENDED]:
+        folds += here.follow(load_min, load_max)
+        points += [here.result(level)] if here.whole[L.POINTS] else []
     return LoadCurve(_labelled(points, folds), folds, gone_level(SPEC, fidelity))
 
 
 def _labelled(points: list[WasherResult], folds: list[Fold]) -> list[WasherResult]:
-    """Name each point's branch: by the folds, or on a single-valued curve by the film ratio."""
-    named = []
-    for p in points:
-        passed = sum(p.film_ratio < fold.film_ratio for fold in folds)
-        if folds:
-            branch = "unstable" if passed % 2 else "contact" if passed else "film"
-        else:
-            branch = "film" if p.film_ratio >= 3.0 else "contact"
+    """Name each point's branch; what it says follows."""
+    named, branches = [], np.empty(len(points))
+    ratios, passed = (np.array([p.film_ratio for p in some]) for some in (points, folds))
+    name_branches(ratios, passed, branches)
+    for p, number in zip(points, branches.tolist(), strict=True):
+        branch = BRANCH_NAMES[number]
         rise = p.temperature - p.oil_temperature
         distress = (bool(folds) and branch == "contact") or rise > 200.0
         messages = (lost_text(p.film_ratio, rise), *p.warnings) if distress else p.warnings
-        p._state[L.S_BRANCH] = _NUMBERS[branch]
+        p._state[L.S_BRANCH] = number
         p._state[L.S_MULTIPLICITY] = L.MULTIPLE if folds else L.SINGLE
         status = advised(p.point(), p.temperature_max, distress, Status.OK)
         named.append(
@@ -228,13 +224,13 @@ class Continuation:
 
     def __init__(self, params: WasherParams, point: Inputs, nodes: tuple[int, int]) -> None:
         """Begin anywhere; ``point`` (5,) holds the inputs."""
-        par = constants(params, nodes)
+        self.par = par = constants(params, nodes)
         self.params, self.nodes = params, nodes
         self.move(point)
         self.work = work_array(("washer", nodes), L.N_HEAD + size_of_work(*nodes))
         self.w = workspace_of(par, self.work)
         self.m, self.f = washer_model(par), fields_of(self.w)
-        self.whole = np.zeros(L.N_WHOLE)
+        self.whole, self.row = np.zeros(L.N_WHOLE), np.empty(ROW)
         set_steady(self.m, self.pt, self.f)
         self.w.curve[L.ACCURACY] = 1e-8
 
@@ -284,17 +280,16 @@ class Continuation:
         """Go to a film thickness [m]; where that gets stuck less exactly, or by load."""
         self._check(continuation.go_to_film(self.w, self.pt, s))
 
-    def begin(self, load: float) -> None:
-        """Go to where the washer carries less than ``load`` [N], the first point of a curve."""
-        self._check(continuation.begin_curve(self.w, self.pt, load, self.whole))
+    def follow(self, load_min: float, load_max: float) -> list[Fold]:
+        """Go on to the next point of the curve, or its end; return the fold that was passed.
 
-    def next_point(self) -> None:
-        """Go on to the next point of the curve."""
-        self._check(continuation.next_point(self.w, self.pt, self.whole))
-
-    def passed(self) -> list[Fold]:
-        """Return the fold between the last two points, if there is one."""
-        self._check(continuation.pass_fold(self.w, self.pt, self.whole))
+        The fold lies between the last two points, before the one that the call leads to.
+        """
+        self._check(
+            follow_curve(
+                self.par, np.array(self.inputs), self.work, load_min, load_max, self.whole, self.row
+            )
+        )
         kind = {1.0: "film_lost", -1.0: "film_regained"}.get(self.whole[L.FOLD])
         return [_fold(kind, self.whole[L.FOLD_LOAD :])] if kind else []
 

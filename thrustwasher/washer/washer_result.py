@@ -17,9 +17,9 @@ from ..model.solutions import Asked, Late
 from ..numerics.jit import Array
 from .kernel_arguments import NO_MESH, constants, work_array
 from .kernels import layout as L
+from .kernels import outputs as kernel
 from .kernels.constants import WasherModel, washer_model
 from .kernels.newton import evaluate_here
-from .kernels.outputs import outputs_at
 from .kernels.regime_and_status import point_of
 from .kernels.workspace import Fields, fields_of, size_of_work, workspace_of
 from .mesh_error import OF_FILM, mesh_error
@@ -221,40 +221,30 @@ class WasherResult(Late, OnFaces):
         par = constants(self.params, self.grid)
         m = washer_model(par)
         (n_r, n_t), kept = self.grid, self._state
-        w = workspace_of(par, work_array(("fields", self.grid), L.N_HEAD + size_of_work(n_r, n_t)))
+        work = work_array(("fields", self.grid), L.N_HEAD + size_of_work(n_r, n_t))
+        w, inputs = workspace_of(par, work), np.array(self.point())
         f = fields_of(w)
         pressure = L.S_FIELDS + f.temp.size
         f.temp[:], f.p[:] = kept[L.S_FIELDS : pressure], kept[pressure:][: f.p.size]
         w.q[:] = kept[L.S_POSITIONS :][:4]
-        point = point_of(par, np.array(self.point()))
+        point = point_of(par, inputs)
         evaluate_here(w, point)
-        outputs_at(w, point)
-
-        def over(nodal: Array) -> Array:
-            return nodal.reshape(n_t, n_r).T.copy()
-
-        def rise(at: int, step: int, first: int = 0) -> Array:
-            found = np.full((n_r, n_t), np.nan)
-            for i in range(first, n_r):
-                found[i] = f.temp[at + i - first + step * np.arange(n_t)]
-            return found
-
-        carrier = rise(m.carrier_at, m.carrier_step)
-        washer = rise(m.washer_at, m.washer_step)
-        film = rise(m.film_at, m.film_step) if m.film_step else 0.5 * (carrier + washer)
+        kernel.outputs_at(w, point)
+        rows = np.empty(kernel.N_FIELDS * n_r * n_t + n_t)
+        kernel.fill_fields(par, inputs, work, rows)
+        over = rows[:-n_t].reshape(kernel.N_FIELDS, n_t, n_r).transpose(0, 2, 1).copy()
         outward, around = _liquid_flow(m, f)
-        slope = m.sin * w.q[L.TILT_X] - m.cos * w.q[L.TILT_Y]
         return WasherFields(
             radius=m.r.copy(),
-            angle=np.mod(np.arctan2(m.sin, m.cos), 2.0 * np.pi),
-            film_thickness=w.q[L.Z_WASHER] + np.outer(m.r, slope),
-            pressure=over(f.p),
-            contact_pressure=over(f.pc),
-            carrier_temperature=self.oil_temperature + carrier,
-            washer_temperature=self.oil_temperature + washer,
-            gear_temperature=self.oil_temperature + rise(m.gear_at, m.gear_step, m.i_g),
-            film_temperature=self.oil_temperature + film,
-            liquid_fraction=over(f.liquid),
+            angle=rows[-n_t:].copy(),
+            film_thickness=over[kernel.F_FILM],
+            pressure=over[kernel.F_PRESSURE],
+            contact_pressure=over[kernel.F_CONTACT],
+            carrier_temperature=over[kernel.F_CARRIER],
+            washer_temperature=over[kernel.F_WASHER],
+            gear_temperature=over[kernel.F_GEAR],
+            film_temperature=over[kernel.F_OIL],
+            liquid_fraction=over[kernel.F_LIQUID],
             flow_outward=outward,
             flow_around=around,
         )

@@ -73,6 +73,32 @@ def test_both_folds_are_those_of_load_curve():
         assert got["load"] == pytest.approx(p.load, rel=BESIDE_FOLDS)
 
 
+def test_draws_over_loads_are_solved_on_both_ways_of_the_load():
+    loads, rest = [300.0, 700.0, 900.0, 1500.0], [545.0, 2e-3, 297.15, 0.0]
+    task = ["draw", as_numbers(WasherParams()), "field", [300.0, *rest], loads]
+    (got,), _ = answers("washer", [task])
+    for way, branches in {"up": [None] * 4, "down": [None, "contact", "contact", None]}.items():
+        for load, one, branch in zip(loads, got[way], branches, strict=True):
+            if way == "down" and branch is None:
+                assert one is None
+                continue
+            point = dict(zip(NAMES, [load, *rest], strict=True))
+            wanted = solve_washer(WasherParams(), **point, branch=branch)
+            assert one["branch"] == wanted.branch
+            assert one["friction_torque"] == pytest.approx(wanted.friction_torque, rel=1e-5)
+
+
+def test_the_stribeck_curve_slows_down_then_speeds_up():
+    speeds, rest = [100.0, 545.0], [2e-3, 297.15, 0.0]
+    (got,), _ = answers("washer", [["stribeck", [300.0, 545.0, *rest], speeds]])
+    rows = [(r["up"], r["speed"]) for r in got["rows"]]
+    assert rows == [(False, 545.0), (False, 100.0), (True, 100.0), (True, 545.0)]
+    for r in got["rows"][:2]:  # down there is no contact branch to come from
+        point = dict(zip(NAMES, [300.0, r["speed"], *rest], strict=True))
+        wanted = solve_washer(WasherParams(), **point).friction_coefficient
+        assert r["friction_coefficient"] == pytest.approx(wanted, rel=1e-5)
+
+
 def test_a_branch_that_is_asked_for_is_kept_fresh_and_its_absence_is_told():
     rest = [545.0, 2e-3, 297.15, 0.0]
     point, light = [800.0, *rest], [300.0, *rest]

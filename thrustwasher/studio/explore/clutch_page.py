@@ -59,7 +59,7 @@ VIEW = View(
         script="clutch_worker",
         calls="broken_rule derive load_memory settle_film advance fill_outputs mean_surface "
         "stored_heat".split(),
-        layout=numbers_of(layout, HOT=Status.HOT, EXTRAPOLATED=Status.EXTRAPOLATED),
+        layout=numbers_of(layout, HOT=Status.HOT, EXTRAPOLATED=Status.EXTRAPOLATED, POINTS=POINTS),
         levels={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.levels},
     ),
     page="clutch",

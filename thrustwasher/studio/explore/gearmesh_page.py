@@ -1,5 +1,7 @@
 """The gear mesh's page: teeth and path of contact, temperatures, safety and film along it."""
 
+import math
+
 from ...gearmesh.kernels import layout
 from ...gearmesh.parameters import SPEC
 from ..report.web_worker import WebWorker, numbers_of
@@ -11,12 +13,15 @@ GROUP = (
     "tip_diameter_gear tool_addendum load_sharing stiffness_at_ends tip_relief_pinion "
     "tip_relief_length_pinion tip_relief_gear tip_relief_length_gear internal"
 ).split()
+TEETH = SPEC.params.__dataclass_fields__["pinion_teeth"].metadata
+MOST_TORQUE = next(s.high for s in SPEC.inputs if s.name == "load") or math.inf  # [N m]
+
 VIEW = View(
     worker=WebWorker(
         script="gearmesh_worker",
         calls="broken_rule derive step solve_point place_mesh tips tip_thickness pitch_of "
         "gear_shift film_ratio_at".split(),
-        layout=numbers_of(layout),
+        layout=numbers_of(layout, MOST_TORQUE=MOST_TORQUE, MOST_TEETH=TEETH["max"]),
         levels={n: {"code": k} for k, n in enumerate(SPEC.fidelities, 1) if n in SPEC.levels},
     ),
     page="gearmesh",

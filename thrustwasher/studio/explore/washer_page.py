@@ -2,8 +2,10 @@
 
 from ...washer.solve import RANGES
 from ...washer.washer_result import SLIPS
-from ..report.shift.live_washer import WORKER
+from ..report.shift.live_washer import LOADS, WORKER
 from .view import View
+
+SPEEDS = tuple(float(f"{2.0 * 1000.0 ** (i / 35):.6g}") for i in range(36))  # [rad/s]
 
 VIEW = View(
     worker=WORKER,
@@ -14,7 +16,7 @@ VIEW = View(
     solve="solve_washer",
     params="WasherParams",
     terms="Film 1 lies between carrier and washer, gap 2 between washer and gear.",
-    more={"slips": SLIPS},
+    more={"slips": SLIPS, "loads": LOADS, "speeds": SPEEDS},
     spans={
         "load": (10.0, 3000.0),
         "speed": (0.0, 1500.0),

@@ -20,6 +20,7 @@
 ``parameter_derivative``    the same over parameters
 ``regime_and_status``       rules between parameters, inputs that are bad, regime and status
 ``map``                     look-up in a map; as a model of its own
+``whole_curve``             all solutions over load with the folds; solutions at many loads
 ``step``                    the washer behind the step ABI
 ==========================  ========================================================================
 """
@@ -36,19 +37,20 @@ CALLED = {
         "thrustwasher.tribology.lumped_body: exponential_weights",
         "thrustwasher.tribology.viscosity: viscosity",
         "thrustwasher.washer.kernels.constants: derive_grid",
-        "thrustwasher.washer.kernels.continuation: begin_curve enter_curve find_fold go_to_film",
-        "thrustwasher.washer.kernels.continuation: locate_fold next_point note pass_fold recall",
-        "thrustwasher.washer.kernels.continuation: remember start_at walk_to",
+        "thrustwasher.washer.kernels.continuation: enter_curve find_fold go_to_film locate_fold",
+        "thrustwasher.washer.kernels.continuation: note recall remember start_at walk_to",
         "thrustwasher.washer.kernels.map.map_rows: map_tilts single_look_up",
         "thrustwasher.washer.kernels.map.map_search: map_covers",
         "thrustwasher.washer.kernels.map.map_step: look_up map_sens",
         "thrustwasher.washer.kernels.newton: evaluate_here newton smooth_film",
-        "thrustwasher.washer.kernels.outputs: outputs_at",
+        "thrustwasher.washer.kernels.outputs: fill_fields outputs_at",
         "thrustwasher.washer.kernels.parameter_derivative: factor_for_parameters follow_parameter",
         "thrustwasher.washer.kernels.parameter_derivative: residuals_here",
         "thrustwasher.washer.kernels.regime_and_status: broken_rule",
         "thrustwasher.washer.kernels.solve: remember_state",
         "thrustwasher.washer.kernels.step: derive sens step",
+        "thrustwasher.washer.kernels.whole_curve.over_loads: follow_loads",
+        "thrustwasher.washer.kernels.whole_curve.points: follow_curve name_branches",
         "thrustwasher.washer.kernels.map.map_rows.look_up_rows rows out found",
         "thrustwasher.washer.kernels.map.map_rows.map_folds folds",
         "thrustwasher.washer.kernels.step.step_rows inputs out whole",

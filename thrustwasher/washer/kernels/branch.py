@@ -125,7 +125,7 @@ def _climb(w: Workspace, pt: Point) -> int:
 
 
 @kernel
-def _near(
+def is_near_fold(
     places: tuple[float, float, float], loads: tuple[float, float, float], load: float
 ) -> bool:
     """Tell if a fold about the middle one of three points may lie beyond the load.
@@ -263,7 +263,7 @@ def descend(w: Workspace, pt: Point, wanted: float) -> int:
             lost = True
             w.found[L.MULTIPLICITY] = L.MULTIPLE
             w.found[L.LOST] = w1
-            if not has_film and _near((s0, s1, s2), (w0, w1, w2), pt.load):
+            if not has_film and is_near_fold((s0, s1, s2), (w0, w1, w2), pt.load):
                 remember(w, 2.0)
                 status = find_fold(w, pt, s0, s2)
                 if status != OK:
@@ -285,7 +285,7 @@ def descend(w: Workspace, pt: Point, wanted: float) -> int:
         elif lost and w2 > w1 * (1.0 + NOISE):
             # film regained between s0 and s2; the contact branch is wanted
             w.found[L.REGAINED] = w1
-            if _near((s0, s1, s2), (w0, w1, w2), pt.load):
+            if is_near_fold((s0, s1, s2), (w0, w1, w2), pt.load):
                 status = find_fold(w, pt, s0, s2)
                 if status != OK:
                     return status

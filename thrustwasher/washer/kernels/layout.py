@@ -121,8 +121,9 @@ N_CURVE = 8
 AT_ENTRY, ON_THE_WAY, AT_A_LOAD = 0.0, 1.0, 2.0
 # The whole curve: load of the last point, film thickness and load of the one before; load of the
 # highest point since the film was regained, of the lowest since it was lost, and the film thickness
-# before it; does the load rise, do points go by load, folds so far. A fold that was just passed (1:
-# the film is lost, -1: regained, 0: none): load and outputs.
+# before it; does the load rise, do points go by load, folds so far; has it begun, is it at its end,
+# points of the last call. A fold that was just passed (1: the film is lost, -1: regained, 0: none):
+# load and outputs.
 (
     CURVE_LOAD,
     BEFORE_FILM,
@@ -132,10 +133,13 @@ AT_ENTRY, ON_THE_WAY, AT_A_LOAD = 0.0, 1.0, 2.0
     RISES,
     BY_LOAD,
     FOLDS,
+    BEGUN,
+    ENDED,
+    POINTS,
     FOLD,
     FOLD_LOAD,
     FOLD_OUTPUTS,
-) = range(11)
+) = range(14)
 N_WHOLE = FOLD_OUTPUTS + N_ALL
 AT_MEMORY = N_INFO  # of the driveline, while a step is made
 AT_TOLD = AT_MEMORY + N_MEMORY  # numbers in what the washer says of its speed

@@ -1,5 +1,7 @@
 """From a converged state to the numbers a user sees, and how they change with it."""
 
+import math
+
 import numpy as np
 
 from ...numerics.arrays import are_finite
@@ -14,7 +16,7 @@ from .ladder import far_heat
 from .layout import TILT_X, TILT_Y, Z_GEAR, Z_WASHER
 from .newton import tilt_of
 from .throughflow import find_flows, flows_change, supply_rise
-from .workspace import Fields, Point, Workspace, fields_of, model_of, vector
+from .workspace import Fields, Point, Workspace, fields_of, model_of, vector, workspace_of
 
 MOST_MARGIN = 1000.0  # of `stick_margin`: nothing is to be held
 BY_HEAT = (  # outputs in proportion to the torque
@@ -325,3 +327,42 @@ def lessen_slopes(
     dout[L.O_STICK_MARGIN] = (dout[L.O_STICK_MARGIN] - rise * margin) / share
     if not margin < MOST_MARGIN * share:
         dout[L.O_STICK_MARGIN] = 0.0
+
+
+# rows of the fields over the nodes
+F_FILM, F_PRESSURE, F_CONTACT, F_CARRIER, F_WASHER, F_GEAR, F_OIL, F_LIQUID, N_FIELDS = range(9)
+
+
+@kernel
+def fill_fields(par: Array, inp: Array, work: Array, rows: Array) -> None:
+    """Fill fields of the present solution over the nodes, ``rows`` (N_FIELDS n + n_t,).
+
+    Field by field, each node by node; then the nodes' angles [rad], from 0 on.
+
+    Separation of the mean surfaces of film 1 [m], film and asperity pressure [Pa], temperatures of
+    carrier and washer towards film 1, of the gear towards gap 2 (NaN inside its inner radius) and
+    of the oil in film 1 (without oil cooling that of its walls) [K], share of liquid.
+    """
+    w, oil_temperature = workspace_of(par, work), inp[L.I_OIL]
+    m, f, q, n = model_of(w), fields_of(w), w.q, int(fields_of(w).p.size)
+    for j in range(m.n_t):
+        slope = m.sin[j] * q[TILT_X] - m.cos[j] * q[TILT_Y]
+        angle = math.atan2(m.sin[j], m.cos[j])
+        rows[N_FIELDS * n + j] = angle if angle >= 0.0 else angle + 2.0 * math.pi
+        for i in range(m.n_r):
+            k = j * m.n_r + i
+            carrier = f.temp[m.carrier_at + j * m.carrier_step + i]
+            washer = f.temp[m.washer_at + j * m.washer_step + i]
+            oil, gear = 0.5 * (carrier + washer), np.nan
+            if m.film_step > 0:
+                oil = f.temp[m.film_at + j * m.film_step + i]
+            if i >= m.i_g:
+                gear = f.temp[m.gear_at + j * m.gear_step + i - m.i_g]
+            rows[F_FILM * n + k] = q[Z_WASHER] + m.r[i] * slope
+            rows[F_PRESSURE * n + k] = f.p[k]
+            rows[F_CONTACT * n + k] = f.pc[k]
+            rows[F_CARRIER * n + k] = oil_temperature + carrier
+            rows[F_WASHER * n + k] = oil_temperature + washer
+            rows[F_GEAR * n + k] = oil_temperature + gear
+            rows[F_OIL * n + k] = oil_temperature + oil
+            rows[F_LIQUID * n + k] = f.liquid[k]

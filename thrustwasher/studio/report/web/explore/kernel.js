@@ -10,6 +10,8 @@ export class Numbers {
   length;
   /** @type {Float64ArrayConstructor | Int32ArrayConstructor} */
   type;
+  /** @type {number} */
+  width;
   /** @type {Float64Array | Int32Array | undefined} */
   kept;
 
@@ -18,9 +20,10 @@ export class Numbers {
    * @param {number} at its first byte
    * @param {number} length
    * @param {Float64ArrayConstructor | Int32ArrayConstructor} type
+   * @param {number} width of a table's row
    */
-  constructor(kernel, at, length, type = Float64Array) {
-    Object.assign(this, { kernel, at, length, type });
+  constructor(kernel, at, length, type = Float64Array, width = 1) {
+    Object.assign(this, { kernel, at, length, type, width });
   }
 
   get view() {
@@ -31,7 +34,13 @@ export class Numbers {
 
   /** Return the part from `first` up to `end` as an array of its own, in the same place. */
   part(first, end = this.length) {
-    return new Numbers(this.kernel, this.at + first * this.type.BYTES_PER_ELEMENT, end - first, this.type);
+    const at = this.at + first * this.type.BYTES_PER_ELEMENT;
+    return new Numbers(this.kernel, at, end - first, this.type, this.width);
+  }
+
+  /** Return the rows of a table from `first` up to `end`. */
+  rows(first, end) {
+    return this.part(first * this.width, end * this.width);
   }
 }
 
@@ -82,6 +91,16 @@ export class Kernel {
   }
 
   /**
+   * Return a table of zeros that is never given back.
+   * @param {number} rows
+   * @param {number} width
+   * @param {Float64ArrayConstructor | Int32ArrayConstructor} type
+   */
+  table(rows, width, type = Float64Array) {
+    return Object.assign(this.array(rows * width, type), { width });
+  }
+
+  /**
    * Call a kernel: arrays and numbers in the order of its arguments, tuples part by part.
    * Return the number that comes back, of a tuple the list of them.
    * @param {string} name
@@ -100,9 +119,10 @@ export class Kernel {
     };
     if (given.length !== takes.length) throw new Error(`${name} takes ${takes.length} arguments`);
     for (let i = 0; i < takes.length; i += 1) {
-      if (takes[i] === "array") {
+      if (takes[i] === "array" || takes[i] === "table") {
         whole(given[i].at);
-        whole(given[i].length);
+        whole(given[i].length / (takes[i] === "table" ? given[i].width : 1));
+        if (takes[i] === "table") whole(given[i].width);
       } else if (takes[i] === "float") {
         numbers[word] = given[i];
         word += 1;

@@ -2,8 +2,6 @@
 
 import { PointModel } from "../kernel.js";
 
-const POINTS = 248; // a whole number for each straight piece of the ramp
-
 export class Model extends PointModel {
   /** @type {number} */
   toOil;
@@ -43,6 +41,7 @@ export class Model extends PointModel {
       times = [],
       loads = [],
       slips = [];
+    const { POINTS } = L; // a whole number for each straight piece of the ramp
     for (let i = 0; i <= POINTS; i += 1) {
       const share = (i / POINTS) * (ramp.length - 1),
         k = Math.min(Math.floor(share), ramp.length - 2);

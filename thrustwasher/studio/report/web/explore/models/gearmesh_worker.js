@@ -2,9 +2,6 @@
 
 import { PointModel } from "../kernel.js";
 
-const MOST_TORQUE = 1e7,
-  MOST_TEETH = 500; // N·m, number: of the pinion
-
 export class Model extends PointModel {
   /** @type {{given: import("../kernel.js").Numbers, status: import("../kernel.js").Numbers} | undefined} */
   point;
@@ -16,7 +13,7 @@ export class Model extends PointModel {
     const broken = super.set(parameters, level),
       teeth = this.L.P_PINION_TEETH,
       par = this.par.view;
-    while (broken === 1 && (par[teeth] += 1) < MOST_TEETH)
+    while (broken === 1 && (par[teeth] += 1) < this.L.MOST_TEETH)
       if (this.kernel.call("broken_rule", this.par) !== 1) return [broken, par[teeth]];
     return broken;
   }
@@ -24,9 +21,9 @@ export class Model extends PointModel {
   /** Solve at (power, speed, oil temperature), as solve_gearmesh. */
   solve([power, speed, oil]) {
     const { L, kernel } = this;
-    if (Math.abs(power) > MOST_TORQUE * Math.abs(speed)) {
+    if (Math.abs(power) > L.MOST_TORQUE * Math.abs(speed)) {
       throw new Error(
-        `speed = ${speed} rad/s, allowed: from ${Math.abs(power) / MOST_TORQUE} rad/s on for power = ${power} W`,
+        `speed = ${speed} rad/s, allowed: from ${Math.abs(power) / L.MOST_TORQUE} rad/s on for power = ${power} W`,
       );
     }
     const torque = power === 0 ? 0 : Math.abs(power / speed);

@@ -15,13 +15,13 @@ const SCALES = {
 };
 const BRANCHES = { film: "film branch", unstable: "unstable: never stays here", contact: "contact branch" };
 const FOLDS = { film_lost: "film lost", film_regained: "film regained" };
-const LOADS = Array.from({ length: 24 }, (_, i) => 20 * 150 ** (i / 23)); // N, of the scatter: the curve's
-const LOADS_IN_WORDS = [LOADS[0], LOADS.at(-1)].map((load) => shown(load, "N", false, 3)).join(" .. ");
+const { loads: LOADS, speeds: SPEEDS } = ABOUT; // N, of the scatter and the curve; rad/s
+const ENDS = [LOADS[0], LOADS.at(-1)];
+const LOADS_IN_WORDS = ENDS.map((load) => shown(load, "N", false, 3)).join(" .. ");
 const WAYS = { up: "load up", down: "load down" },
   LOOK = { up: "scatter-one", down: "scatter-two" };
 const drawnLoad = (load, k) =>
   CHANGES.filter((c) => c.name === "load").reduce((found, c) => drawn(c, k, found, ABOUT.inputs[0]), load);
-const SPEEDS = Array.from({ length: 36 }, (_, i) => Number((2 * 1000 ** (i / 35)).toPrecision(6)));
 
 export const VIEW = {
   quantity: "friction_torque",
@@ -139,7 +139,7 @@ export const VIEW = {
       this.trail = [];
       const began = performance.now();
       this.folds.textContent = "Computing the load curve …";
-      ask("curve", { given: [last.point, 20, 3000] }, (found, problem) => {
+      ask("curve", { given: [last.point, ...ENDS] }, (found, problem) => {
         this.curve = found ?? null;
         this.took = performance.now() - began;
         this.folds.replaceChildren(...this.foldWords(problem));
@@ -160,7 +160,7 @@ export const VIEW = {
 
   foldWords(problem) {
     if (problem) return [`The load curve is not known here: ${problem}.`];
-    if (!this.curve.folds.length) return ["No fold between 20 and 3000 N: one solution at every load."];
+    if (!this.curve.folds.length) return [`No fold from ${LOADS_IN_WORDS}: one solution at every load.`];
     const found = [];
     for (const fold of this.curve.folds) {
       found.push(

@@ -1,9 +1,7 @@
-/* The thrust washer: points, fields, load curve and Stribeck curve, as the Python API solves them. */
-
-import { Draw } from "./washer_draw.js";
-import { Walker } from "./washer_walk.js";
+/* The thrust washer: points, fields, load curve, Stribeck curve and draws of the scatter, by the kernels of the Python API. */
 
 const MOST_DRAWN = 64; // draws whose constants are kept
+const AT_ONCE = 2; // rows between two looks for messages
 
 export class Model {
   /** @type {Record<string, number>} */
@@ -16,10 +14,10 @@ export class Model {
   meshes;
   /** @type {Map<string, any> | undefined} */
   drawn;
-  /** @type {Record<string, any> | undefined} */
-  other;
-  /** @type {import("../kernel.js").Numbers | undefined} */
+  /** @type {Record<string, import("../kernel.js").Numbers> | undefined} */
   whole;
+  /** @type {Record<string, import("../kernel.js").Numbers> | undefined} */
+  rooms;
 
   constructor(kernel, about) {
     Object.assign(this, { kernel, about, L: about.layout, meshes: {} });
@@ -59,6 +57,11 @@ export class Model {
     return kernel.call("broken_rule", par) || (kernel.call("derive_grid", par, ...grid) ? -1 : 0);
   }
 
+  /** Throw what is in the way, if a kernel's status is not 0. */
+  check(code) {
+    if (code) throw new Error(this.about.statuses[code] ?? `status ${code}`);
+  }
+
   /** Solve at (load, speed, tilt, oil, far face); `state` remembers. */
   step(point, branchCode, state) {
     this.inp.view.set([...point, branchCode]);
@@ -91,15 +94,13 @@ export class Model {
     const { L, about } = this,
       head = this.mesh.work.view,
       iout = this.iout.view,
-      found = {};
-    about.real_outputs.forEach((name, i) => (found[name] = head[L.AT_OUTPUTS + i]));
+      found = this.named(head.subarray(L.AT_OUTPUTS, L.AT_POSITIONS));
     found.fluid_load = head[L.AT_OUTPUTS + L.O_FLUID_LOAD];
     found.contact_load = head[L.AT_OUTPUTS + L.O_CONTACT_LOAD];
     found.washer_tilt_x = head[L.AT_POSITIONS + L.TILT_X];
     found.washer_tilt_y = head[L.AT_POSITIONS + L.TILT_Y];
     found.iterations = head[L.ITERATIONS];
-    const branch = head[L.AT_FOUND + L.BRANCH];
-    found.branch = branch === L.CONTACT_BRANCH ? "contact" : branch === L.UNSTABLE ? "unstable" : "film";
+    found.branch = about.branches[head[L.AT_FOUND + L.BRANCH]] ?? "film";
     return {
       ...found,
       regime: iout[L.IO_REGIME],
@@ -108,112 +109,93 @@ export class Model {
     };
   }
 
-  /** Where the fields lie in work: as the kernels' ``fields_of`` and ``washer_model`` divide it. */
-  places() {
-    const { L } = this,
-      par = this.mesh.par.view,
-      [nR, nT] = this.grid,
-      n = nR * nT;
-    const column = par[L.D_PER_COLUMN],
-      rings = par[L.D_RINGS],
-      band = column * nT,
-      temps = band + rings;
-    const sides = Math.ceil(rings / L.N_SIDES) * L.N_SIDES,
-      factor = L.N_TAG + 1 + temps;
-    const following = factor + band * (4 * (2 * column + 1) + 2 * sides) + sides * (sides + 1);
-    const nodal = L.N_HEAD + following + 4 * temps + L.N_SMALL;
-    const temp = nodal + L.N_NODAL * n + nT + (2 * nR + 1) * n + 3 * L.N_SIDES * n;
-    const cooled = par[L.P_OIL_COOLING] !== 0;
-    let carrier = [cooled ? nR : 0, column],
-      washer = [carrier[0] + nR, column];
-    if (par[L.P_CONDUCTION] === L.ONLY_CARRIER) washer = [band, 0];
-    else if (par[L.P_CONDUCTION] === L.ONLY_ROTATING) [carrier, washer] = [[band, 0], carrier];
-    return {
-      contact: nodal + 2 * n,
-      temp,
-      pressure: temp + temps,
-      carrier,
-      washer,
-      film: cooled ? [0, column] : null,
-    };
+  /** Return outputs by name. */
+  named(out) {
+    return Object.fromEntries(this.about.real_outputs.map((name, i) => [name, out[i]]));
   }
 
   /** Film, pressures and temperatures of carrier and washer over the nodes, angle by angle. */
   fields(point) {
-    const { L } = this,
+    const { kernel, L, mesh } = this,
       [nR, nT] = this.grid,
       n = nR * nT,
-      at = this.places();
-    const par = this.mesh.par.view,
-      work = this.mesh.work.view,
-      mesh = L.D_MESH + L.N_RADIAL * nR;
-    const radius = par.slice(L.D_MESH + L.RADIUS * nR, L.D_MESH + (L.RADIUS + 1) * nR);
-    const cos = par.slice(mesh + L.COS * nT, mesh + (L.COS + 1) * nT);
-    const sin = par.slice(mesh + L.SIN * nT, mesh + (L.SIN + 1) * nT);
-    const q = work.slice(L.AT_POSITIONS, L.N_HEAD),
-      film = new Float64Array(n),
-      warm = new Float64Array(n),
-      own = new Float64Array(n);
-    for (let j = 0; j < nT; j += 1) {
-      for (let i = 0; i < nR; i += 1) {
-        const k = j * nR + i;
-        film[k] = q[L.Z_WASHER] + radius[i] * (sin[j] * q[L.TILT_X] - cos[j] * q[L.TILT_Y]);
-        warm[k] = point[L.I_OIL] + work[at.temp + at.carrier[0] + i + j * at.carrier[1]];
-        own[k] = point[L.I_OIL] + work[at.temp + at.washer[0] + i + j * at.washer[1]];
-      }
-    }
+      rows = (mesh.fields ??= kernel.array(L.N_FIELDS * n + nT)),
+      row = (k) => rows.view.slice(k * n, (k + 1) * n);
+    this.inp.view.set(point);
+    kernel.call("fill_fields", mesh.par, this.inp, mesh.work, rows);
     return {
-      radius,
-      angle: Float64Array.from(sin, (s, j) => (Math.atan2(s, cos[j]) + 2 * Math.PI) % (2 * Math.PI)),
-      film_thickness: film,
-      pressure: work.slice(at.pressure, at.pressure + n),
-      contact_pressure: work.slice(at.contact, at.contact + n),
-      carrier_temperature: warm,
-      washer_temperature: own,
+      radius: mesh.par.view.slice(L.D_MESH + L.RADIUS * nR, L.D_MESH + (L.RADIUS + 1) * nR),
+      angle: rows.view.slice(L.N_FIELDS * n),
+      film_thickness: row(L.F_FILM),
+      pressure: row(L.F_PRESSURE),
+      contact_pressure: row(L.F_CONTACT),
+      carrier_temperature: row(L.F_CARRIER),
+      washer_temperature: row(L.F_WASHER),
     };
   }
 
   /** Go along speeds at one load, down from the fastest, then up again: rows of outputs. */
   *stribeck(point, speeds) {
-    const { L } = this,
-      rows = [],
-      state = ((this.other ??= {})[this.grid] ??= this.kernel.array(this.mesh.state.length));
-    const kept = this.mesh.work;
-    state.view.fill(0);
-    const order = speeds.map((_, i) => speeds.length - 1 - i);
-    for (const i of [...order, ...order.slice().reverse()]) {
-      const inputs = point.slice();
-      inputs[L.I_SPEED] = speeds[i];
-      this.mesh = { ...this.mesh, work: this.mesh.curve };
-      const code = this.step(inputs, L.ANY, state),
-        o = this.outputs();
-      this.mesh = { ...this.mesh, work: kept };
-      if (code < this.about.first_failure)
-        rows.push({ up: rows.length >= speeds.length, speed: speeds[i], ...o });
-      yield rows;
+    const { kernel, L } = this,
+      { par, state, curve } = this.mesh,
+      way = [...speeds.slice().reverse(), ...speeds];
+    const own = (this.mesh.speeds ??= {
+      state: kernel.array(state.length),
+      inputs: kernel.table(way.length, L.NINP),
+      out: kernel.table(way.length, L.NOUT),
+      whole: kernel.table(way.length, L.NIOUT, Int32Array),
+      statuses: kernel.array(way.length, Int32Array),
+    });
+    own.state.view.fill(0);
+    own.inputs.view.set(way.flatMap((speed) => [point[0], speed, ...point.slice(2)]));
+    for (let i = 0; i < way.length; i += AT_ONCE) {
+      const end = Math.min(i + AT_ONCE, way.length),
+        [inputs, out, whole] = [own.inputs, own.out, own.whole].map((table) => table.rows(i, end));
+      const statuses = own.statuses.part(i, end);
+      kernel.call("step_rows", par, inputs, own.state, curve, this.iout, out, whole, statuses);
+      yield;
     }
-    return { rows };
+    const rows = way.map((speed, i) => ({
+      up: i >= speeds.length,
+      speed,
+      ...this.named(own.out.rows(i, i + 1).view),
+    }));
+    return { rows: rows.filter((_, i) => own.statuses.view[i] < this.about.first_failure) };
   }
 
   /**
-   * Go over rising loads with the parameters and inputs of a draw of the scatter. Return outputs by load, `up` on the film
-   * branch to its fold, then in contact, `down` only where the contact branch is another solution; or a `broken` rule.
+   * Solve at rising loads with the parameters and inputs of a draw of the scatter. Return outputs by load, `up` on the
+   * film branch to its fold, then in contact, `down` only where the contact branch is another solution; or a `broken` rule.
    */
   *draw(parameters, level, point, loads) {
-    const kept = [this.mesh, this.grid],
-      { grid } = this.about.levels[level],
+    const { kernel, L } = this,
+      { sizes } = this.about.levels[level],
       mesh = this.memory(level, `${level}, draws`);
     const [broken, par] = this.constants(mesh, parameters, level);
     if (broken) return { broken };
-    const own = () => ([this.mesh, this.grid] = [{ ...mesh, par }, grid]),
-      back = () => ([this.mesh, this.grid] = kept);
-    own();
-    const steps = new Draw(this, point, loads).walk();
-    for (let step = steps.next(); ; own(), step = steps.next()) {
-      back();
-      if (step.done) return step.value;
+    const own = (mesh.loads ??= {
+      inp: kernel.array(L.NINP),
+      out: kernel.array(L.NOUT),
+      iout: kernel.array(L.NIOUT, Int32Array),
+      loads: kernel.array(loads.length),
+      walk: kernel.array(sizes.walk),
+      rows: kernel.array(2 * loads.length * L.N_SOLUTION),
+    });
+    own.inp.view.set(point);
+    own.loads.view.set(loads);
+    own.walk.view.fill(0);
+    const { inp, out, iout, walk, rows } = own;
+    do {
+      this.check(
+        kernel.call("follow_loads", par, inp, mesh.work, own.loads, mesh.state, out, iout, walk, rows),
+      );
       yield;
-    }
+    } while (!walk.view[L.WALK_ENDED]);
+    const solutions = Array.from({ length: 2 * loads.length }, (_, i) => {
+      const [branch, load, ...found] = rows.part(i * L.N_SOLUTION, (i + 1) * L.N_SOLUTION).view;
+      return branch ? { load, ...this.named(found), branch: this.about.branches[branch] } : null;
+    });
+    return { up: solutions.slice(0, loads.length), down: solutions.slice(loads.length) };
   }
 
   /** Return the number of a broken rule and the constants of a draw, made once for the same parameters. */
@@ -231,35 +213,43 @@ export class Model {
     return known.get(key);
   }
 
-  /** All solutions between two loads: the path of Python's load_curve, point by point. */
+  /** All solutions between two loads, as Python's load_curve. */
   *curve(point, loadMin, loadMax) {
-    const { L } = this,
-      here = new Walker(this, point, loadMin),
+    const { kernel, L, about } = this,
+      { par, curve: work } = this.mesh,
       points = /** @type {any[]} */ ([]),
-      folds = /** @type {any[]} */ ([]),
-      whole = (this.whole ??= this.kernel.array(L.N_WHOLE));
-    here.go("begin_curve", loadMin, whole);
-    points.push(here.result());
-    while (points.at(-1).load < loadMax || !whole.view[L.RISES]) {
-      here.go("next_point", whole);
-      points.push(here.result());
-      here.go("pass_fold", whole);
-      const [fold, load, ...out] = whole.view.subarray(L.FOLD);
-      if (fold) folds.push({ kind: fold > 0 ? "film_lost" : "film_regained", ...here.named(load, out) });
-      yield points;
-    }
-    for (const p of points) {
-      const passed = folds.filter((fold) => p.film_ratio < fold.film_ratio).length;
-      p.branch = !folds.length
-        ? p.film_ratio >= 3
-          ? "film"
-          : "contact"
-        : passed % 2
-          ? "unstable"
-          : passed
-            ? "contact"
-            : "film";
-    }
+      folds = /** @type {any[]} */ ([]);
+    const own = (this.whole ??= {
+      inp: kernel.array(L.NINP),
+      whole: kernel.array(L.N_WHOLE),
+      rows: kernel.array(AT_ONCE * L.N_POINT),
+    });
+    own.inp.view.set(point);
+    own.whole.view.fill(0);
+    const { inp, whole, rows } = own,
+      place = (row) => ({ load: row[0], ...this.named(row.subarray(1)) });
+    do {
+      this.check(kernel.call("follow_curve", par, inp, work, loadMin, loadMax, whole, rows));
+      const kind = about.folds[whole.view[L.FOLD]];
+      if (kind) folds.push({ kind, ...place(whole.view.subarray(L.FOLD_LOAD)) });
+      for (let k = 0; k < whole.view[L.POINTS]; k += 1)
+        points.push(place(rows.view.subarray(k * L.N_POINT, (k + 1) * L.N_POINT)));
+      yield;
+    } while (!whole.view[L.ENDED]);
+    const branches = this.room("branches", points),
+      ratios = this.room("points", points),
+      passed = this.room("folds", folds);
+    kernel.call("name_branches", ratios, passed, branches);
+    points.forEach((p, i) => (p.branch = about.branches[branches.view[i]]));
     return { points, folds };
+  }
+
+  /** Return the film ratios of points as an array in the kernels' memory, kept under a name. */
+  room(name, points) {
+    const rooms = (this.rooms ??= {});
+    if (!(rooms[name]?.length >= points.length)) rooms[name] = this.kernel.array(2 * points.length);
+    const room = rooms[name].part(0, points.length);
+    room.view.set(points.map((p) => p.film_ratio));
+    return room;
   }
 }

@@ -155,6 +155,9 @@ def _rows(found: Any) -> Any:
 
 def _largest(found: Any) -> list[str]:
     """Return the losses by source where torque and speed are highest, and lowest limits."""
+    from ...shift.steady_points import SOURCES as OF_SCENE
+    from ...train.train_map import SOURCES as OF_TRAIN
+
     c, words = found.columns, found._words()
     i = int(abs(c["torque"] * c["speed"]).argmax())
     whole, way = c["loss"][i], found.flow[i]
@@ -165,7 +168,7 @@ def _largest(found: Any) -> list[str]:
         f"{found.heading}; at {_place(c, i)}: {efficient}, loss "
         f"{format_quantity(whole, 'W')}, of it"
     ]
-    sources = [name for name in c if name.endswith("_loss") and "." not in name]
+    sources = [name for name in {**dict.fromkeys(OF_TRAIN), **dict.fromkeys(OF_SCENE)} if name in c]
     for name in sorted(sources, key=lambda n: -c[n][i]):
         if c[name][i] != 0.0:
             part = f"{format_quantity(c[name][i], 'W')} ({100.0 * c[name][i] / whole:.1f} %)"
@@ -189,8 +192,8 @@ def _limits(found: Any) -> list[str]:
             continue
         end = name if name.endswith("_safety") else "_life"
         i = int(np.nanargmin(c[name]))
-        own = [n for n in c if "." in n and n.endswith(end)]
-        of = next(n for n in own if c[n][i] == c[name][i]).removesuffix(end).rstrip(".")
+        own = [n for n in c if n != name and n.endswith(end)]
+        of = next(n for n in own if c[n][i] == c[name][i]).removesuffix(end).rstrip("._")
         value = format_quantity(c[name][i], found._words()[name].unit)
         lines.append(f"  minimum {name} {value}: {of}, at {_place(c, i)}")
     return lines

@@ -25,7 +25,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields, replace
-from functools import cache
+from functools import cache, cached_property
 from importlib import resources
 from pathlib import Path
 from typing import Any, TypeVar
@@ -130,7 +130,7 @@ class PartFile:
         ]
         return found
 
-    @property
+    @cached_property
     def params(self) -> Any:
         """All parameters: ``WasherParams``, ``ClutchParams`` and so on."""
         return self.spec.params(**self.parameters)
@@ -285,6 +285,8 @@ def flat_name(spec: ModelSpec, names: Mapping[str, str], text: str) -> str:
     ``names``: how names begin in the file and in the model.
     """
     flat = _flat_start(names, text)
+    if flat == text:
+        return text
     known = {f.name for f in fields(spec.params)} | {s.name for s in spec.outputs}
     return flat if re.split(r"\W", flat, maxsplit=1)[0] in known else text
 

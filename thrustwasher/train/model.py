@@ -30,6 +30,8 @@ class GearTrain(Model):
         title="gear train, {meshes} meshes",
         closing="{flow}; {fidelity}",
         plot="draw losses by source, and over torque of either sign",
+        report="write a report of a few pages as HTML: loss map, losses, safeties, lives",
+        report_by="write_reducer_report",
         extra={"flow": ("1", "which way power runs, or why there is no efficiency")},
     )
 

@@ -85,6 +85,17 @@ class TrainScene:
     meshes: tuple[str, ...]
 
 
+def train_of(part: PartFile) -> TrainScene:
+    """Return the scene of a part of a gear train."""
+    count = int(part.params.meshes)
+    named = {flat: own.removesuffix(".") for own, flat in part.names.items()}
+    shafts, meshes = (
+        tuple(named.get(f"{kind}_{i + 1}_", f"{kind} {i + 1}") for i in range(n))
+        for kind, n in (("shaft", count + 1), ("mesh", count))
+    )
+    return TrainScene(part.description or part.name, part, shafts, meshes)
+
+
 def is_train(name: str) -> bool:
     """Return whether a word names a train: a preset, or a file of a scene or part."""
     if not name.endswith(".toml"):

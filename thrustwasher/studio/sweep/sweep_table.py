@@ -164,11 +164,13 @@ def _as_in_file(table: SweepTable, part: PartFile) -> SweepTable:
         columns={part.own_name(name): x for name, x in table.columns.items()},
         units={part.own_name(name): x for name, x in table.units.items()},
         beyond=tuple(
-            x._replace(signal=replace(x.signal, name=part.own_name(x.signal.name)))  # type: ignore[type-var]
+            x._replace(signal=replace(x.signal, name=part.own_name(x.signal.name)))
             for x in table.beyond
         ),
         results=tuple(part.own_name(s.name) for s in part.spec.outputs),
-        words={part.own_name(name): x._replace(help=part.own_text(x.help)) for name, x in known.items()},
+        words={
+            part.own_name(name): x._replace(help=part.own_text(x.help)) for name, x in known.items()
+        },
     )
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from thrustwasher import propagate
 from thrustwasher.cli import main
 from thrustwasher.studio.report.html import render
 from thrustwasher.studio.report.model_plots.reducer_plots import loss_map_figure
@@ -20,7 +21,8 @@ POINT = {"torque": 150.0, "speed": 500.0, "oil_temperature": 353.15}
 
 @pytest.fixture(scope="module")
 def page():
-    return reducer_page(load_train(SCENE), [POINT])
+    study = propagate(SCENE, at=POINT, runs=64, indices=False, workers=1)
+    return reducer_page(load_train(SCENE), [POINT], study=study)
 
 
 def rows(page, anchor):

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from ...model.part_file import PartFile
     from ...train.train_file import TrainScene
 
+RUNS = 256  # of the scatter about the first point
 HELP = "of a gear train: write a report of a few pages as HTML"
 
 
@@ -27,6 +28,12 @@ def write(
     from ..report.reducer_report import reducer_page
 
     scene = part if isinstance(part, TrainScene) else train_of(part)
-    page = reducer_page(scene, points, progress=_output.time_left("report:"), **more)
+    study = None
+    if scene.part.scatter:
+        from ..scatter.propagate import propagate
+
+        study = propagate(scene.part, at=dict(points[0]), runs=RUNS, indices=False, workers=1)
+    show = _output.time_left("report:")
+    page = reducer_page(scene, points, study=study, progress=show, **more)
     _output.write_text(file, render(page))
     _output.note(f"wrote {file}")

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...shown import text_of
 from ...train.solve import hours
 from ...train.train_map import train_map
 from ...units import format_quantity as say
@@ -13,11 +14,10 @@ from .html import Card, Page, Plot, Section, Table
 from .model_plots.reducer_plots import life_figure, loss_map_figure, source_figure
 from .model_plots.train_plot import SOURCES
 from .palette import RPM
+from .scatter.study_data import Study
 
 if TYPE_CHECKING:
     from ...train.train_file import TrainScene
-    from ..optimisation.optimum import Optimum
-    from ..scatter.result import ScatterResult
 
 GRID = 33  # torques and speeds of the map
 BEYOND = 1.25  # times the operating point: the map of a reducer without [box]
@@ -40,7 +40,7 @@ class OperatingPoint:
     inputs: Mapping[str, float]
     figures: Mapping[str, float]
     """By the names of the file [SI]."""
-    study: "ScatterResult | None" = None
+    study: Study | None = None
 
     @property
     def loss_share(self) -> float:
@@ -66,8 +66,8 @@ def reducer_page(
     scene: "TrainScene",
     points: Sequence[Mapping[str, float]],
     *,
-    bands: bool = True,
-    optimum: "Optimum | None" = None,
+    study: Study | None = None,
+    optimum: Any = None,
     progress: Any = None,
 ) -> Page:
     """Return the report of a reducer.
@@ -76,11 +76,11 @@ def reducer_page(
     ----------
     scene : of ``load_train``
     points : operating points, each torque [N m], speed [rad/s], oil_temperature [K]
-    bands : also the scatter about the first point, if the file has any
+    study : of the scatter about the first point
     optimum : what a search has found, whose design the scene is
     progress : called with points of the map done and in all
     """
-    found = [_solved(scene, point, bands and i == 0) for i, point in enumerate(points)]
+    found = [_solved(scene, point, None if i else study) for i, point in enumerate(points)]
     first = found[0]
     whole = train_map(scene, **_axes(scene, points), progress=progress)
     places = [(p.inputs["torque"], p.inputs["speed"]) for p in found]
@@ -128,14 +128,14 @@ def reducer_page(
     )
 
 
-def _solved(scene: "TrainScene", point: Mapping[str, float], bands: bool) -> OperatingPoint:
-    found = train_map(scene, **{name: [x] for name, x in point.items()})
-    figures = {name: float(column[0]) for name, column in found.columns.items()}
-    study = None
-    if bands and scene.part.scatter:
-        from ..scatter.propagate import propagate
+def _map_at(scene: "TrainScene", point: Mapping[str, float]) -> Any:
+    torque, speed, oil = ([point[name]] for name in ("torque", "speed", "oil_temperature"))
+    return train_map(scene, torque, speed, oil)
 
-        study = propagate(scene.part, at=dict(point), runs=256, indices=False, workers=1)
+
+def _solved(scene: "TrainScene", point: Mapping[str, float], study: Study | None) -> OperatingPoint:
+    found = _map_at(scene, point)
+    figures = {name: float(column[0]) for name, column in found.columns.items()}
     return OperatingPoint(dict(point), figures, study)
 
 
@@ -156,7 +156,7 @@ def _axes(scene: "TrainScene", points: Sequence[Mapping[str, float]]) -> dict[st
 def _doubts(scene: "TrainScene", points: Sequence[Mapping[str, float]]) -> list[str]:
     found = []
     for number, point in enumerate(points, 1):
-        lines = train_map(scene, **{name: [x] for name, x in point.items()}).doubts[0]
+        lines = _map_at(scene, point).doubts[0]
         found += [f"Point {number}: {text}" for text in lines]
     return found
 
@@ -303,9 +303,8 @@ def _limit_table(limits: Sequence[tuple[float, str, str, int]]) -> Table:
     return Table(["limit", "value", "margin", "point"], rows, range(1, 4))
 
 
-def _design_section(optimum: "Optimum") -> Section:
+def _design_section(optimum: Any) -> Section:
     """Return what a search has changed."""
-    from ..optimisation.design_problem import shown
     from .model_plots.optimum_plot import optimum_figure
 
     problem, best = optimum.problem, optimum.best
@@ -313,7 +312,8 @@ def _design_section(optimum: "Optimum") -> Section:
         [v.name, v.text(float(v.nominal)), v.text(best.values[v.name])] for v in problem.variables
     ]
     rows += [
-        [f.name, optimum.before(f), shown(f, best.figures[f.name])] for f in problem.every_figure
+        [f.name, optimum.before(f), text_of(best.figures[f.name], f.unit, f.relative, 4)]
+        for f in problem.every_figure
     ]
     texts = [
         f"{', '.join([*(g.words for g in problem.goals), *(x.words for x in problem.limits)])}."

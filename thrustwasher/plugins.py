@@ -36,6 +36,10 @@ CALLED = {
     ),
     "load_report": ("thrustwasher.studio.commands._shift_report:load", REPORT),
     "write_report": ("thrustwasher.studio.commands._shift_report:write", REPORT),
+    "write_reducer_report": (
+        "thrustwasher.studio.commands._reducer_report:write",
+        "--report of a gear train",
+    ),
     "runs_of_study": ("thrustwasher.studio.scatter.propagate:runs_of_study", STUDY),
     "propagate": ("thrustwasher.studio.scatter.propagate:propagate", STUDY),
     "kept_runs": ("thrustwasher.studio.commands.scatter:kept_runs", STUDY),

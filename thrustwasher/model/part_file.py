@@ -25,10 +25,10 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields, replace
-from functools import cache
+from functools import cache, cached_property
 from importlib import resources
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from ..errors import ParameterError, Suggesting, within
 from ..face_load import LIMITED, over_limits
@@ -46,7 +46,7 @@ from .parameters import (
     with_changes,
 )
 from .point import point_of
-from .quantity import Quantity, part_quantities
+from .quantity import Figure, Quantity, part_quantities
 from .registry import MODELS, find_model
 from .scatter import Scatter, read_scatter
 from .spec import ModelSpec, tailored
@@ -67,6 +67,7 @@ TABLES = ("parameters", "box", "limits", "scatter")
 LONGEST_NAME = 60  # characters, of a name that becomes that of files
 SUFFIX = ".toml"
 Box = dict[str, tuple[float, float]]
+Named = TypeVar("Named", Quantity, Figure)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -105,6 +106,19 @@ class PartFile:
         own, flat = next(found, ("", ""))
         return own + name.removeprefix(flat)
 
+    def own_text(self, text: str) -> str:
+        """Return a name of the model, or words that begin with what it is of, as the file has it.
+
+        ``mesh_1_loss`` is first.loss then, and "mesh 1: ..." is "first: ...".
+        """
+        for own, flat in self.names.items():
+            if text.startswith(flat):
+                return own + text.removeprefix(flat)
+            words = re.sub(r"_(\d+)_", r" \1, ", flat).removesuffix(", ")
+            if re.match(rf"{words}[:,]", text):
+                return own.removesuffix(".").replace(".", ", ") + text.removeprefix(words)
+        return text
+
     def suggesting(self, known: Mapping[str, Any]) -> Suggesting[Any]:
         """Return what is known by name; suggested are the names of what this part reads."""
         found, params = Suggesting(known), self.params
@@ -116,7 +130,7 @@ class PartFile:
         ]
         return found
 
-    @property
+    @cached_property
     def params(self) -> Any:
         """All parameters: ``WasherParams``, ``ClutchParams`` and so on."""
         return self.spec.params(**self.parameters)
@@ -206,10 +220,19 @@ class PartFile:
         most = {n: float(max(x) if hasattr(x, "__len__") else x) for n, x in values.items()}
         return over_limits(self.limits, most)
 
-    def places(self, inputs: Mapping[str, float] | None = None) -> dict[str, Quantity]:
+    def places(self, inputs: Mapping[str, float] | None = None) -> Suggesting[Quantity]:
         """Return what of the part can scatter, by name; ``inputs`` [SI], others at their starts."""
         found = part_quantities(self.spec, self.params, {**self.starts, **(inputs or {})})
-        return self.suggesting(found)
+        return self.named(found)
+
+    def named(self, known: Mapping[str, Named]) -> Suggesting[Named]:
+        """Return quantities or figures under the names of the file, and what it suggests."""
+        if not self.names:
+            return self.suggesting(known)
+        own = {n: replace(x, name=self.own_name(x.name)) for n, x in known.items()}
+        found = Suggesting({self.own_name(name): x for name, x in own.items()})
+        found.suggested = self.suggesting(known).suggested
+        return found
 
     def scattered(
         self,
@@ -222,14 +245,17 @@ class PartFile:
         the table is not allowed.
         """
         places, params = self.places(inputs), self.params
-        also = {other: places[name] for other, name in other_names_of(self.spec.params).items()}
+        others = other_names_of(self.spec.params).items()
+        also = {other: places[self.own_name(name)] for other, name in others}
         given = self.scatter if table is None else table
-        also |= {own: place for n, place in places.items() if (own := self.own_name(n)) != n}
-        scatter = read_scatter("[scatter]", given, self.suggesting(places | also))
+        also |= {flat: x for n, x in places.items() if (flat := self.flat_name(n)) != n}
+        known = Suggesting({**places, **also})
+        known.suggested = places.suggested
+        scatter = read_scatter("[scatter]", given, known)
         idle = {}
         for name in scatter.names:
-            failing = unread(params, name, self.fidelity)
-            if failing and not any(c.by in scatter.names for c in failing):
+            failing = unread(params, self.flat_name(name), self.fidelity)
+            if failing and not any(self.own_name(c.by) in scatter.names for c in failing):
                 idle[name] = why_unread(params, failing, self.fidelity)
         doubts = (f"scatter of {name} {why}" for name, why in idle.items())
         return replace(scatter, warnings=(*scatter.warnings, *doubts))
@@ -240,6 +266,8 @@ class PartFile:
         ParameterError if the parameters do not go together.
         """
         names = {s.name for s in self.spec.inputs}
+        if self.names:
+            values = {_flat_start(self.names, n): value for n, value in values.items()}
         own = {n: value for n, value in values.items() if n not in names}
         inputs = {n: value for n, value in values.items() if n in names}
         own |= held_choices(self.params, own)
@@ -256,10 +284,17 @@ def flat_name(spec: ModelSpec, names: Mapping[str, str], text: str) -> str:
 
     ``names``: how names begin in the file and in the model.
     """
-    head = next((own for own in names if text.startswith(own)), "")
-    flat = names[head] + text.removeprefix(head) if head else text
+    flat = _flat_start(names, text)
+    if flat == text:
+        return text
     known = {f.name for f in fields(spec.params)} | {s.name for s in spec.outputs}
     return flat if re.split(r"\W", flat, maxsplit=1)[0] in known else text
+
+
+def _flat_start(names: Mapping[str, str], text: str) -> str:
+    """Return a text with the model's start of a name in place of the file's."""
+    head = next((own for own in names if text.startswith(own)), "")
+    return names[head] + text.removeprefix(head) if head else text
 
 
 def load_part(path: str | Path) -> PartFile:

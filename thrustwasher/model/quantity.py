@@ -34,11 +34,15 @@ class Quantity:
     kind: Literal["real", "integer", "boolean", "enumeration"] = "real"
     is_input: bool = False
     """An input of a model, no parameter."""
+    in_degrees: bool = False
+    """An angle that was given in degrees, and is shown so."""
 
     def text(self, value: Any) -> str:
         """Return a value as a person reads it."""
         if self.choices:
             return str(value).lower() if isinstance(value, bool) else str(value)
+        if self.in_degrees:
+            return f"{math.degrees(value):.4g}\N{DEGREE SIGN}"
         return format_quantity(value, self.unit, difference=self.relative)
 
     @property

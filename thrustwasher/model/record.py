@@ -66,6 +66,8 @@ class Command:
     title: str  # may name parameters: "gear mesh, {pinion_teeth} teeth"
     closing: str = "{fidelity}"  # how it was solved; may name results
     plot: str = ""  # what --plot draws
+    report: str = ""  # what --report writes, if anything
+    report_by: str = ""  # what writes it, a name of ``plugins``: (file, part, operating points)
     extra: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     """Results that are no output: unit and meaning."""
     instead: Mapping[str, Signal] = field(default_factory=dict)

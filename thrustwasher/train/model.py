@@ -30,6 +30,8 @@ class GearTrain(Model):
         title="gear train, {meshes} meshes",
         closing="{flow}; {fidelity}",
         plot="draw losses by source, and over torque of either sign",
+        report="write a report of a few pages as HTML: loss map, losses, safeties, lives",
+        report_by="write_reducer_report",
         extra={"flow": ("1", "which way power runs, or why there is no efficiency")},
     )
 
@@ -63,13 +65,13 @@ class GearTrain(Model):
 
     def own_names(self, source: str | None) -> Callable[[str], str]:
         """Return what gives names and texts the file's names of shafts and meshes."""
-        from .train_file import load_train, own_text
+        from .train_file import load_train
 
         scene = None if source is None else load_train(source)
 
         def named(text: str) -> str:
             there = re.sub(r" \(-1: no such \w+\)$", "", text)  # what is shown is there
-            return there if scene is None else own_text(scene, there)
+            return there if scene is None else scene.part.own_text(there)
 
         return named
 

@@ -85,6 +85,17 @@ class TrainScene:
     meshes: tuple[str, ...]
 
 
+def train_of(part: PartFile) -> TrainScene:
+    """Return the scene of a part of a gear train."""
+    count = int(part.params.meshes)
+    named = {flat: own.removesuffix(".") for own, flat in part.names.items()}
+    shafts, meshes = (
+        tuple(named.get(f"{kind}_{i + 1}_", f"{kind} {i + 1}") for i in range(n))
+        for kind, n in (("shaft", count + 1), ("mesh", count))
+    )
+    return TrainScene(part.description or part.name, part, shafts, meshes)
+
+
 def is_train(name: str) -> bool:
     """Return whether a word names a train: a preset, or a file of a scene or part."""
     if not name.endswith(".toml"):
@@ -114,20 +125,6 @@ def load_train(path: str | Path, oil: Any = None) -> TrainScene:
     return TrainScene(title or part.description or part.name, part, tuple(shafts), tuple(meshes))
 
 
-def own_text(scene: TrainScene, text: str) -> str:
-    """Return a flat name, or a text about a mesh or shaft, with the names of the scene.
-
-    ``mesh_1_loss`` is first.loss then, and "mesh 1: ..." is "first: ...".
-    """
-    for kind, own in (("mesh", scene.meshes), ("shaft", scene.shafts)):
-        for i, word in enumerate(own, 1):
-            if text.startswith(f"{kind}_{i}_"):
-                return f"{word}.{text.removeprefix(f'{kind}_{i}_')}"
-            if text.startswith((f"{kind} {i}:", f"{kind} {i},")):
-                return word + text.removeprefix(f"{kind} {i}")
-    return text
-
-
 def flat_part(where: str, table: dict[str, Any], folder: Path | None = None) -> dict[str, Any]:
     """Return the table of a part file for a scene; ``folder`` of the part files it names.
 
@@ -149,7 +146,13 @@ def flat_part(where: str, table: dict[str, Any], folder: Path | None = None) -> 
         values |= _mesh(place, f"mesh_{i}_", train["meshes"][name], folder)
         upstream = train["meshes"][name]["pinion"] == shafts[i - 1]
         values[f"mesh_{i}_driver"] = "pinion" if upstream else "gear"
-    named = {f"{name}.": f"shaft_{i}_" for i, name in enumerate(shafts, 1)}
+    named = {
+        f"{name}.{end}.": f"shaft_{i}_bearing_{k}_"
+        for i, name in enumerate(shafts, 1)
+        if isinstance(ends := train["shafts"][name].get("bearings"), dict)
+        for k, end in enumerate(ends, 1)
+    }
+    named |= {f"{name}.": f"shaft_{i}_" for i, name in enumerate(shafts, 1)}
     named |= {f"{name}.": f"mesh_{i}_" for i, name in enumerate(meshes, 1)}
     found = {key: table[key] for key in TEXTS if key in table and key != "title"}
     for key in ("box", "scatter"):
@@ -209,6 +212,9 @@ def _chain(where: str, train: Mapping[str, Any]) -> tuple[list[str], list[str]]:
 def _shaft(where: str, start: str, given: Mapping[str, Any]) -> dict[str, Any]:
     nothing_else(where, given, SHAFT)
     bearings = given.get("bearings")
+    ends = [f"bearing {k}" for k in range(1, L.ENDS + 1)]
+    if isinstance(bearings, dict):  # each by a name of its own
+        ends, bearings = [*bearings], [*bearings.values()]
     if not isinstance(bearings, list) or len(bearings) != L.ENDS:
         raise ParameterError(f"{where}: bearings = {bearings!r}, allowed: exactly two tables")
     own: dict[str, Any] = {"axial": given.get("arrangement", given.get("axial", "first"))}
@@ -216,7 +222,7 @@ def _shaft(where: str, start: str, given: Mapping[str, Any]) -> dict[str, Any]:
     own |= {key: given[key] for key in ("seals", "seal_diameter") if key in given}
     found = {start + key: value for key, value in own.items()}
     for k, bearing in enumerate(bearings, 1):
-        at = f"{where} bearing {k}"
+        at = f"{where} {ends[k - 1]}"
         if not isinstance(bearing, dict):
             raise ParameterError(f"{at}: {bearing!r}, allowed: a table")
         found |= {f"{start}bearing_{k}_{n}": value for n, value in _bearing(at, bearing).items()}

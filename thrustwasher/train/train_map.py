@@ -16,7 +16,7 @@ from ..shown import Card, Tabled, Words, column_lines, plain_dict
 from ..units import format_quantity
 from .parameters import SPEC
 from .solve import LOCKED, solve_train
-from .train_file import TrainScene, own_text
+from .train_file import TrainScene
 
 RANGES = {s.name: (s.unit, *s.range) for s in SPEC.inputs}
 SOURCES = ("mesh_loss", "bearing_loss", "seal_loss", "churning_loss")
@@ -132,7 +132,7 @@ def _point(
     """Return row, flow and doubts at a point; a train that locks itself has no figures."""
     found = solve_train(params, **point, fidelity=scene.part.fidelity, throw=False)
     locked = found.status == Status.MAX_ITERATIONS
-    said = (LOCKED,) if locked else tuple(own_text(scene, text) for text in found.warnings)
+    said = (LOCKED,) if locked else tuple(map(scene.part.own_text, found.warnings))
     shown = {name: np.nan if locked else getattr(found, name) for name in _figures(params)}
     shown["efficiency"] = found.efficiency
     flow = SELF_LOCKING if locked else found.flow
@@ -147,4 +147,4 @@ def _figures(params: Any) -> list[str]:
 def _names(scene: TrainScene) -> dict[str, str]:
     """Return what inputs, outputs and warnings are called with the names of the scene."""
     plain = [s.name for s in SPEC.inputs] + _figures(scene.part.params) + ["warnings"]
-    return {name: own_text(scene, name) for name in plain}
+    return {name: scene.part.own_text(name) for name in plain}

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 from dataclasses import fields
 from pathlib import Path
 
@@ -128,9 +129,31 @@ def test_names_of_the_file_are_taken(tmp_path, capsys):
     assert main(["sweep", str(SCENE), "--over", "first.load_factor=1,2", "--out", str(out)]) == 0
     capsys.readouterr()
     by_file = load_part(SCENE).scattered({"first.load_factor": "5 %"}).names
-    assert by_file == ("mesh_1_load_factor",)
+    assert by_file == ("first.load_factor",)
+    flat = load_part(SCENE).scattered({"mesh_1_load_factor": "5 %"}).names
+    assert flat == by_file
+    head = out.read_text().partition("\n")[0].split(",")
+    assert "first.load_factor" in head and "rotor.bearing_1_life [s]" in head
+    assert not [name for name in head if name.startswith(("mesh_1_", "mesh_2_", "shaft_1_"))]
     with pytest.raises(ParameterError, match=r"did you mean .first\.load_factor"):
         load_part(written(tmp_path, TEXT.replace('"first.load_factor"', '"load_factor"')))
+
+
+def test_bearings_may_have_names_of_their_own(tmp_path):
+    """``input.left.life``: a table of two bearings by name in place of a list."""
+    given = TEXT[: TEXT.index("bearings = [")], TEXT[TEXT.index("bearings = [") :]
+    pair = given[1][: given[1].index("]\n") + 1]
+    first, second = re.findall(r"\{.*\}", pair)
+    named = f"bearings.left = {first}\nbearings.right = {second}"
+    scene = load_train(written(tmp_path, TEXT.replace(pair, named)))
+    listed = load_train(SCENE)
+    assert scene.part.params == listed.part.params
+    shaft = listed.shafts[0]
+    found = train_map(scene, [50.0], [300.0])
+    plain = train_map(listed, [50.0], [300.0])
+    assert found.columns[f"{shaft}.left.life"] == plain.columns[f"{shaft}.bearing_1_life"]
+    assert scene.part.own_text("shaft 1, bearing 2: too fast") == f"{shaft}, right: too fast"
+    assert scene.part.flat_name(f"{shaft}.right.capacity") == "shaft_1_bearing_2_capacity"
 
 
 def test_what_is_not_there_is_said_to_have_no_effect():

@@ -44,6 +44,8 @@ class PointCommand:
                 "outputs, separated by commas, default all; --plot draws the ranking",
             )
         _output.add_targets(parser, plot=model.plot)
+        if model.report:
+            parser.add_argument("--report", metavar="FILE", help=model.report)
 
     def meant(self, name: str, spelled: str) -> str:
         """Return what to say of an option that there is not, ``spelled`` what is spelled alike."""
@@ -58,6 +60,8 @@ class PointCommand:
         given = {"preset": getattr(arguments, "preset", None), "part": arguments.part}
         options = _options.read_options(arguments, model.options)
         targets = _output.targets(arguments)
+        report = getattr(arguments, "report", None)
+        report = _output.check_file(report, "--report", (".html",)) if report else None
 
         place = self._model.place(point)
         fidelity = _level(arguments.fidelity or at.part.fidelity, spec, params, place)
@@ -76,6 +80,8 @@ class PointCommand:
                 else called("ranking_figure")(spec.name, _ranking(model, spec, result, changes))
             )
         found, parameters = _output.scalars(result), _output.parameters_of(params)
+        if report:
+            called(model.report_by)(report, at.part, [place])
         if arguments.json:
             if changes is not None:
                 given["sensitivities"] = result.sensitivities(changes)

@@ -62,7 +62,8 @@ class Measured:
         """Return the outputs [SI] with changed parameters, (n,), and the rows that failed, why."""
         plan, names = self.plan, self.names
         assert plan.rows is not None
-        rows = replace(plan.rows, held={**plan.rows.held, **changes})
+        flat = {plan.evaluator.part.flat_name(name): x for name, x in changes.items()}
+        rows = replace(plan.rows, held={**plan.rows.held, **flat})
         found, codes, _ = plan.evaluator.evaluate(rows, names)
         failed = {i: Status(int(s)) for i, s in enumerate(codes) if s >= FIRST_FAILURE}
         return found[self.row, [names.index(name) for name in self.output]], failed
@@ -71,9 +72,10 @@ class Measured:
         """Return exact derivatives over parameters, (n, names), if the model has them here."""
         plan = self.plan
         assert plan.rows is not None
-        rows = replace(plan.rows, held={**plan.rows.held, **changes})
+        flat = {plan.evaluator.part.flat_name(name): x for name, x in changes.items()}
+        rows = replace(plan.rows, held={**plan.rows.held, **flat})
         wanted = list(zip(self.row.tolist(), self.output, strict=True))
-        slopes: Array | None = plan.evaluator.slopes(rows, wanted, names)
+        slopes: Array | None = plan.evaluator.slopes(rows, wanted, [*flat])
         return slopes
 
     def drawn_over(self, output: str) -> dict[str, tuple[str, Array]]:

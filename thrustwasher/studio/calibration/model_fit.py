@@ -35,7 +35,8 @@ def fit_points(points: Measured, asked: Asked) -> Calibration:
     groups = grouped(points)
     points, plan = groups.means if groups else points, points.plan
     spec = plan.spec
-    real = [f.name for f in fields(spec.params) if f.metadata["kind"] == "real"]
+    part = plan.evaluator.part
+    real = part.suggesting({f.name: f for f in fields(spec.params) if f.metadata["kind"] == "real"})
     names = chosen_names(asked.fit or (), real, f"real parameters of {spec.name}", asked.columns)
     if len(points.value) < len(names):
         sizes = f"{counted(len(points.value), 'value')} for {counted(len(names), 'parameter')}"
@@ -53,7 +54,8 @@ def fit_points(points: Measured, asked: Asked) -> Calibration:
     found, judged = fitted(problem, first, asked.confidence, bool(asked.profile))
     far, poor = misses(points, problem, found["_best"], judged)
     said = [*points.plan.warnings, *_few(problem), *far, *poor]
-    params = replace(points.plan.params[0], **values_of(found))
+    values = {part.flat_name(name): value for name, value in values_of(found).items()}
+    params = replace(points.plan.params[0], **values)
     return Calibration(params=params, points=points, remarks=remarks(said), **found)
 
 
@@ -82,10 +84,12 @@ def problem_of(
         if name not in names:
             raise ParameterError(f"bounds of {name}: allowed: of {', '.join(names)}, as fitted")
     params, rows, quantities = points.plan.params[0], [], []
+    part = getattr(points.plan.evaluator, "part", None)  # recordings have none: no names of a file
+    own_name = part.own_name if part else str
     for name in names:
         start, change = getattr(params, name), (changes or {}).get(name, 0.0)
         rows.append(_range_of(name, metas[name], start, bounds.get(name), change))
-        quantities.append(of_field(name, start, metas[name]))
+        quantities.append(of_field(own_name(name), start, metas[name]))
     low, high, first, scale, by_logarithm = np.array(rows).T
     usual = typical or np.abs(points.value).mean() or 1.0
     even = np.full(len(points.value), 1.0 / usual)

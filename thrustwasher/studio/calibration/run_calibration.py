@@ -92,10 +92,14 @@ def calibrate(
         raise ParameterError(
             f"data: {type(data).__name__}, allowed: columns by name, a path, a DataFrame, an MDF"
         )
-    data = {**(data or {}), **columns}
+    data = {start.flat_name(name): column for name, column in {**(data or {}), **columns}.items()}
+    fit = (fit,) if isinstance(fit, str) else fit
+    fit = fit and [start.flat_name(name) for name in fit]
+    bounds = {start.flat_name(name): ends for name, ends in (bounds or {}).items()}
+    errors = {start.flat_name(name): error for name, error in (errors or {}).items()}
     own = find_model(start.spec.key).fits
     is_law = not own.computed and not own.units.keys().isdisjoint(data)
-    points = measured(start, data, at, errors or {}, fidelity or start.fidelity)
+    points = measured(start, data, at, errors, fidelity or start.fidelity)
     fit_to = LAWS.get(start.spec.key, fit_points) if is_law else fit_points
-    asked = Asked(fit, {*data}, {*at}, bounds or {}, confidence, profile)
+    asked = Asked(fit, {*data}, {*at}, bounds, confidence, profile)
     return fit_to(decided(points, fit or ()), asked)

@@ -13,6 +13,7 @@ from ...numerics.power_flow import FLOWS, FORWARD
 from ...settings import split_settings
 from ...units import format_quantity
 from ..sweep.axes import parse_values
+from . import _reducer_report
 
 HELP = "efficiency of a gearbox or gear train, with the loss of each source"
 EXAMPLES = (
@@ -25,9 +26,11 @@ OPTIONS = {
     "--over NAME=VALUES ...": "torque [N m] and speed [rad/s] of the input: torque=50:250:50 "
     "(start:stop:step), speed=1000rpm:4000rpm:n7 (7 values, even), torque=-50,200 (coasting: "
     "against the speed), of a gear train oil_temperature=40degC,80degC too; default "
-    "torque=25:250:n10, speed=1000rpm:4000rpm:n7, of a gear train up to the ends of its [box]",
+    "torque=25:250:n10, speed=1000rpm:4000rpm:n7, of a gear train 33 each, up to the ends of its "
+    "[box]",
     "--gear NAME": "first: the brake holds, second: the clutch holds; default first",
 }
+GRID = 33  # torques, and speeds, of a gear train: lines of a map without kinks
 LOSS_MAP = ".vtlm"
 RPM = 9.549296585513721  # of a rad/s
 LEAST = ("pitting_safety", "root_safety", "scuffing_safety", "bearing_life")
@@ -39,6 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add_subject(parser, "scene", "SCENE", what, "planetary", asked=False)
     _options.add(parser, OPTIONS)
     parser.set_defaults(gear=None)
+    parser.add_argument("--report", metavar="FILE", help=_reducer_report.HELP)
     _options.add_oil(parser)
     _output.add_targets(
         parser, out="write all points as CSV, or a loss map of VECTO (.vtlm)", plot="draw the map"
@@ -51,6 +55,9 @@ def run(arguments: argparse.Namespace) -> int:
 
     given = split_settings(arguments.over, "--over", VALUES)
     targets = _output.targets(arguments, (".csv", LOSS_MAP))
+    report = _reducer_report.target(arguments.report)
+    if report and not is_train(arguments.scene):
+        raise ParameterError(f"--report {report}: allowed: of a gear train")
     began = time.perf_counter()
     found = (_of_train if is_train(arguments.scene) else _of_scene)(arguments, given)
     wall_time = time.perf_counter() - began
@@ -68,6 +75,8 @@ def run(arguments: argparse.Namespace) -> int:
         from ..report.model_plots.efficiency_plot import efficiency_figure
 
         targets.draw(efficiency_figure(found))
+    if report:
+        _reducer_report.write(report, found.scene, _worst(found))
     if arguments.json:
         points = [
             {**dict(zip(columns, row, strict=True)), "flow": way, "doubts": lines}
@@ -126,10 +135,11 @@ def _of_train(arguments: argparse.Namespace, given: Mapping[str, str]) -> Any:
     if arguments.gear is not None:
         raise ParameterError(f"--gear {arguments.gear}: a gear train has one gear, that it shows")
     scene = load_train(arguments.scene, arguments.oil and oil(arguments.oil))
-    usual, box = {**USUAL, "oil_temperature": "80 degC"}, scene.part.box
-    for name, n in (("torque", 10), ("speed", 7)):
-        if name in box:
-            usual[name] = f"{box[name][1] / n!r}:{box[name][1]!r}:n{n}"
+    box = scene.part.box
+    usual = {n: f"{text.rpartition(':')[0]}:n{GRID}" for n, text in USUAL.items()}
+    usual["oil_temperature"] = "80 degC"
+    for name in usual.keys() & box.keys() - {"oil_temperature"}:
+        usual[name] = f"{box[name][1] / GRID!r}:{box[name][1]!r}:n{GRID}"
     over = _axes(given, RANGES, usual)
     return train_map(scene, **over, progress=_output.time_left("efficiency:"))
 
@@ -155,6 +165,9 @@ def _rows(found: Any) -> Any:
 
 def _largest(found: Any) -> list[str]:
     """Return the losses by source where torque and speed are highest, and lowest limits."""
+    from ...shift.steady_points import SOURCES as OF_SCENE
+    from ...train.train_map import SOURCES as OF_TRAIN
+
     c, words = found.columns, found._words()
     i = int(abs(c["torque"] * c["speed"]).argmax())
     whole, way = c["loss"][i], found.flow[i]
@@ -165,7 +178,7 @@ def _largest(found: Any) -> list[str]:
         f"{found.heading}; at {_place(c, i)}: {efficient}, loss "
         f"{format_quantity(whole, 'W')}, of it"
     ]
-    sources = [name for name in c if name.endswith("_loss") and "." not in name]
+    sources = [name for name in {**dict.fromkeys(OF_TRAIN), **dict.fromkeys(OF_SCENE)} if name in c]
     for name in sorted(sources, key=lambda n: -c[n][i]):
         if c[name][i] != 0.0:
             part = f"{format_quantity(c[name][i], 'W')} ({100.0 * c[name][i] / whole:.1f} %)"
@@ -173,6 +186,17 @@ def _largest(found: Any) -> list[str]:
     if found.scene.__class__.__name__ == "TrainScene":
         lines += _limits(found)
     return [*lines, f"Power in is power out and losses within {found.balance:.1e}."]
+
+
+def _worst(found: Any) -> list[dict[str, float]]:
+    """Return the point of most power, and those where a limit is least, each once."""
+    import numpy as np
+
+    c = found.columns
+    places = [int(abs(c["torque"] * c["speed"]).argmax())]
+    places += [int(np.nanargmin(c[n])) for n in LEAST if n in c and not np.isnan(c[n]).all()]
+    names = ("torque", "speed", "oil_temperature")
+    return [{n: float(c[n][i]) for n in names} for i in dict.fromkeys(places)]
 
 
 def _place(c: Mapping[str, Any], i: int) -> str:
@@ -189,8 +213,8 @@ def _limits(found: Any) -> list[str]:
             continue
         end = name if name.endswith("_safety") else "_life"
         i = int(np.nanargmin(c[name]))
-        own = [n for n in c if "." in n and n.endswith(end)]
-        of = next(n for n in own if c[n][i] == c[name][i]).removesuffix(end).rstrip(".")
+        own = [n for n in c if n != name and n.endswith(end)]
+        of = next(n for n in own if c[n][i] == c[name][i]).removesuffix(end).rstrip("._")
         value = format_quantity(c[name][i], found._words()[name].unit)
         lines.append(f"  minimum {name} {value}: {of}, at {_place(c, i)}")
     return lines

@@ -1,6 +1,7 @@
 """``thrustwasher optimise``: the best part, load curve or gear shift under limits, or a front."""
 
 import argparse
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -8,6 +9,7 @@ from ...cli.common import _options, _output
 from ...errors import ParameterError
 from ...settings import split_settings
 from ...storage.whole_files import new_folder
+from . import _reducer_report
 from ._study_target import add_part_options, read_target
 
 if TYPE_CHECKING:
@@ -44,6 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add_subject(parser, "target", "TARGET", what, asked=True)
     _options.add(parser, OPTIONS)
     parser.set_defaults(out=FOLDER)
+    parser.add_argument("--report", metavar="FILE", help=_reducer_report.HELP)
     _options.add_workers(parser, "processes; default: one per core where they pay, 1: none")
     add_part_options(parser)
 
@@ -53,6 +56,9 @@ def run(arguments: argparse.Namespace) -> int:
     target, at = read_target(arguments)
     if arguments.figures:
         return _list_figures(target, at, arguments.reached)
+    report = _reducer_report.target(arguments.report)
+    if report and getattr(getattr(target, "spec", None), "key", "") != "train":
+        raise ParameterError(f"--report {report}: allowed: of a gear train")
     vary = split_settings(arguments.vary, "--vary", VALUES)
     robust = _share(arguments.robust)
     points = _whole(arguments, "points", 20)
@@ -82,11 +88,23 @@ def run(arguments: argparse.Namespace) -> int:
                 finish=_draw,
             )
     _output.warn(found.warnings)
+    if report:
+        _write_report(report, target, at or {}, found)
     if arguments.json:
         _output.print_json({**found.to_dict(), "out": str(folder)})
     else:
         say(found, folder)
     return 0
+
+
+def _write_report(report: Path, part: Any, at: Any, found: "Optimum") -> None:
+    """Write the report of the best design of a gear train."""
+    from ..evaluators.make import inputs_of
+
+    params, inputs = part.varied(found.best.values)
+    values = {f.name: getattr(params, f.name) for f in fields(params)}
+    best = replace(part, parameters=values)
+    _reducer_report.write(report, best, [inputs_of(part, at) | inputs], optimum=found)
 
 
 def _ends(text: str) -> str:

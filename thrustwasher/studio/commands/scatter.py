@@ -31,6 +31,7 @@ OPTIONS = {
     "--runs N": "base points, rounded up to a power of two; default 1024, of a scene 256",
     "--seed N": "of the sample; default 1",
     "--outputs LIST": "figures and signals to keep, names with commas; default: all",
+    "--files": "also write the runs nearest to quantiles of the figures as files to open",
     "--no-indices": "leave out what decides each figure (Sobol' indices): runs / (2 + sources)",
     "--out DIR": "folder for scatter.html and tables, default scatter-TARGET; stopped, the "
     "same command resumes",
@@ -85,7 +86,7 @@ def run(arguments: argparse.Namespace) -> int:
             cluster=arguments.cluster,
             out=folder,
             progress=progress,
-            finish=lambda result: write_files(result, target, at, folder),
+            finish=lambda result: write_files(result, target, at, folder, arguments.files),
         )
     _output.warn(result.warnings)
     if arguments.json:
@@ -142,8 +143,10 @@ def _progress() -> Callable[[int, int], None]:
     return progress
 
 
-def write_files(result: "ScatterResult", target: Any, at: Any, folder: Path) -> None:
-    """Write the page, and the runs nearest to quantiles of its figures as files to open.
+def write_files(
+    result: "ScatterResult", target: Any, at: Any, folder: Path, nearest: bool = True
+) -> None:
+    """Write the page; also the runs ``nearest`` to quantiles of its figures as files to open.
 
     Files of an earlier study of which this one has none go.
     """
@@ -156,7 +159,7 @@ def write_files(result: "ScatterResult", target: Any, at: Any, folder: Path) -> 
     files: dict[str, dict[float, str]] = {}
     made = evaluator(target, at=at)
     with _output.whole_folder(folder) as draft:
-        for name in main_figures(result, MOST_FIGURES):
+        for name in main_figures(result, MOST_FIGURES) if nearest else ():
             for level, values in result.nearest.get(name, {}).items():
                 text = made.file(values, draw=True)
                 file = f"{name}-{100.0 * level:02.0f}.toml"
@@ -188,6 +191,8 @@ def _first_line(path: Path) -> str:
 
 def say(result: "ScatterResult", folder: Path | None) -> None:
     """Print the bands, what decides them, probabilities, and where the files are."""
+    from ..report.scatter.study_page import LEADING
+
     failed = sum(result.failed.values())
     print(
         f"{result.target}: {result.runs} base points, {result.solves} runs"
@@ -197,7 +202,11 @@ def say(result: "ScatterResult", folder: Path | None) -> None:
         print(f"  {note}")
     spread = ("deviation", "by gradient")
     heads = ("figure", "nominal", "5 %", "50 %", "95 %", *spread, "outside", DECIDED)
-    rows = [heads, *(_row(name, band) for name, band in result.figures.items())]
+    first = [name for name in LEADING if name in result.figures and result.model == "train"]
+    rows = [heads]
+    for name in dict.fromkeys((*first, *result.figures)):
+        band = result.figures[name]
+        rows.append(_lost_row(band) if first and name == "efficiency" else _row(name, band))
     widths = [max(len(row[i]) for row in rows) for i in range(len(heads) - 1)]
     for name, *numbers, decided in rows:
         cells = (f"{x:>{w}}" for x, w in zip(numbers, widths[1:], strict=True))
@@ -219,6 +228,17 @@ def _row(name: str, band: "Band") -> tuple[str, ...]:
     decided = ", ".join(f"{n} {total:.2f}" for total, n in sorted(known, reverse=True)[:3])
     outside = f"{100.0 * band.outside.value:.3g} %" if band.outside else ""
     return (name, *cells, outside, decided)
+
+
+def _lost_row(band: "Band") -> tuple[str, ...]:
+    """Return the row of an efficiency as the part of the power in that is lost."""
+    row = _row("lost of the power in", band)
+    values = (band.nominal, *reversed(band.quantiles.values()))
+    lost = [f"{100.0 * (1.0 - x):.3g} %" if x > 0.0 else "-" for x in values]
+    linear = band.linear_deviation
+    spread = [band.standard_deviation, float("nan") if linear is None else linear]
+    apart = [f"{100.0 * x:.2g} %" if x == x else "-" for x in spread]
+    return (row[0], *lost, *apart, *row[1 + len(lost) + len(apart) :])
 
 
 def _is_sure(index: "Index") -> bool:

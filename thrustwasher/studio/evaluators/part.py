@@ -76,10 +76,11 @@ class PartEvaluator:
     def figures(self) -> dict[str, Figure]:
         """Its outputs and outcomes; of a washer the loads of its folds too."""
         found = {f.name: f for f in (*self._outputs(), *self._outcomes())}
+        found = {n: replace(f, help=self.part.own_text(f.help)) for n, f in found.items()}
         if self.part.spec.key == "washer":
             for name, (_, words) in FOLDS.items():
                 found[name] = Figure(name, "N", words, of_curve=True)
-        return self.part.suggesting(found)
+        return self.part.named(found)
 
     @cached_property
     def measurable(self) -> dict[str, Figure]:
@@ -135,6 +136,10 @@ class PartEvaluator:
         """Return the same: it has no time step."""
         return self
 
+    def _flat(self, names: Sequence[str]) -> Sequence[str]:
+        """Return the model's names of figures or quantities, which a file may call otherwise."""
+        return [self.part.flat_name(name) for name in names] if self.part.names else names
+
     def _with_other_level(self, how: str) -> "PartEvaluator":
         spec, level = self.part.spec, self.fidelity
         if not tables_of(spec, level):
@@ -155,11 +160,12 @@ class PartEvaluator:
         ``Rows`` are walked line by line, each row warm from the one before it; choices ``auto`` are
         made anew by the parameters of each. Other rows stand alone, with the choices of the part.
         """
+        figures = self._flat(figures)
         if isinstance(rows, Rows):
             return self._walked(rows, figures)
         values = np.full((len(rows), len(figures)), np.nan)
         codes = np.zeros(len(rows), np.int32)
-        besides = [name for name in figures if name not in self.figures]
+        besides = [name for name in figures if self.part.own_name(name) not in self.figures]
         if any(name not in (*FOLDS, *besides) for name in figures):
             columns, codes = self._points(rows)
             for i, name in enumerate(figures):
@@ -186,6 +192,7 @@ class PartEvaluator:
     ) -> Slopes | None:
         """Return figures (m,) and their slopes (m, k); None over inputs or past a fold."""
         own = {f.name for f in fields(self.part.spec.params)}
+        figures, quantities = self._flat(figures), self._flat(quantities)
         if self.reached != "below" or not own.issuperset(quantities):
             return None
         values = np.full(len(figures), np.nan)
@@ -249,7 +256,7 @@ class PartEvaluator:
         nominal = self.evaluate([{}], figures).values
         for words, rows in (("nominal run", nominal), ("base runs", base)):
             columns = dict.fromkeys([s.name for s in self.part.spec.outputs], np.full(1, np.nan))
-            columns |= {name: rows[:, i] for i, name in enumerate(figures)}
+            columns |= {name: rows[:, i] for i, name in enumerate(self._flat(figures))}
             for x in beyond(self.part.spec, columns):
                 one = x.text(len(rows)).partition(", ")[2]
                 text = x.text(len(rows)).replace(" points,", f" {words},")

@@ -181,7 +181,9 @@ def _variable(
             raise ParameterError(f"vary {name}: {text}, allowed: {place.range_text}")
     if not low < high:
         raise ParameterError(f"vary {name}={given}: allowed: low below high")
-    return replace(place, low=low, high=high)
+    words = " ".join(map(str, ends))
+    in_degrees = place.unit == "rad" and ("deg" in words or "\N{DEGREE SIGN}" in words)
+    return replace(place, low=low, high=high, in_degrees=in_degrees)
 
 
 def _limit(text: str, figures: Mapping[str, Figure]) -> Limit:

@@ -113,7 +113,7 @@ def optimise(
             raise ParameterError(f"{name} = {value!r}, allowed: a whole number {low} .. {high}")
     designs = designs_of(target, at or {}, reached)
     part = getattr(designs, "part", None)
-    named = str if part is None else part.flat_name
+    named = str if part is None else part.own_name
     problem = read_problem(
         designs.quantities,
         figures_to_search(designs),

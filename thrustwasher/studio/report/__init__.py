@@ -5,6 +5,7 @@
 ``html``          one page that holds text, tables and plots and works offline
 ``model_plots``   pictures of one model
 ``palette``       colours told apart by everyone, and what axis labels share
+``reducer_report``  of a gear train: loss map, losses by source, safeties, lives, limits
 ``result_plots``  the picture of a result, by its class
 ``shift``         the report of a shift, chapter by chapter
 ``style``         one look for all plots

@@ -118,8 +118,8 @@ def target_of(
     if outputs is None or not (outputs or evaluator.kind == "scene"):
         chosen = [*known, *signals]
     else:
-        flat = getattr(getattr(evaluator, "part", None), "flat_name", str)
-        chosen = [flat(name) for name in outputs]
+        own = getattr(getattr(evaluator, "part", None), "own_name", str)
+        chosen = [own(name) for name in outputs]
         for name in chosen:
             if name not in known and name not in signals:
                 raise _unknown(evaluator, name, [*known, *signals])

@@ -4,7 +4,7 @@ import json
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import IO, Any
 
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import FIRST_FAILURE, EnvironmentProblem, ParameterError, Status
+from ...model.part_file import PartFile
 from ...model.registry import find_model
 from ...model.solutions import without_idle, words_at_points
 from ...model.spec import NAMED
@@ -54,7 +55,9 @@ class SweepTable(Tabled):
     beyond: tuple[Beyond, ...] = ()
     model: str = ""
     results: tuple[str, ...] = ()
-    """Names of what was computed, where that is no model at points."""
+    """Names of what was computed, where that is not what the model calls them."""
+    words: Mapping[str, Words] = field(default_factory=dict, repr=False)
+    """Meaning of columns that the model calls otherwise."""
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -104,7 +107,7 @@ class SweepTable(Tabled):
         return self.columns
 
     def _words(self) -> dict[str, Words]:
-        known = words_at_points(find_model(self.model)) if self.model else {}
+        known = self.words or (words_at_points(find_model(self.model)) if self.model else {})
         return {n: known.get(n, Words())._replace(unit=unit) for n, unit in self.units.items()}
 
     def _card(self) -> Card:
@@ -147,7 +150,28 @@ def make_table(
     columns["status"] = names[flags[:, -1]]
     counts = {Status(i).name: n for i, n in enumerate(np.bincount(flags[:, -1]).tolist()) if n}
     more = plan.taken, plan.warnings, tuple(beyond(plan.spec, columns)), plan.spec.key
-    return SweepTable(columns, units, plan.fidelity, plan.choice, counts, *more)
+    table = SweepTable(columns, units, plan.fidelity, plan.choice, counts, *more)
+    return _as_in_file(table, plan.evaluator.part)
+
+
+def _as_in_file(table: SweepTable, part: PartFile) -> SweepTable:
+    """Return a table with the names that a part's file has for what the model calls otherwise."""
+    if not part.names:
+        return table
+    known = words_at_points(find_model(part.spec.key))
+    return replace(
+        table,
+        columns={part.own_name(name): x for name, x in table.columns.items()},
+        units={part.own_name(name): x for name, x in table.units.items()},
+        beyond=tuple(
+            x._replace(signal=replace(x.signal, name=part.own_name(x.signal.name)))
+            for x in table.beyond
+        ),
+        results=tuple(part.own_name(s.name) for s in part.spec.outputs),
+        words={
+            part.own_name(name): x._replace(help=part.own_text(x.help)) for name, x in known.items()
+        },
+    )
 
 
 def _run_table(

@@ -9,6 +9,7 @@ from matplotlib.patches import Rectangle
 from ..palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, RPM, SKY
 from ..style import heading, label, new_figure, styled
 
+MOST_LINES = 8  # of a map: more stand too close for their numbers
 SOURCES = {
     "pump_loss": ("oil pump", BLUE),
     "churning_loss": ("churning", SKY),
@@ -33,8 +34,8 @@ def efficiency_figure(found: Any) -> Figure:
     torque, speed = np.unique(c["torque"]), np.unique(c["speed"])
     order = np.lexsort((c["torque"], c["speed"]))
     grid = {name: c[name][order].reshape(len(speed), len(torque)) for name in c}
-    figure, axes = new_figure(12.4, 4.3, 1, 3, head=1)
-    percent, rpm = 100.0 * grid["efficiency"], RPM * speed
+    figure, axes = new_figure(12.4, 4.3, 1, 3, head=1, right=0.35)
+    percent, rpm = 100.0 * grid["efficiency"], np.round(RPM * speed, 6)  # whole ends have ticks
     running = grid["warnings"][np.isfinite(percent)]
     everywhere = running.min() if len(running) else 0.0  # of which a picture shows nothing
     further = grid["warnings"] > everywhere
@@ -134,4 +135,5 @@ def _levels(percent: Any) -> list[float]:
     """Return percents worth a line: closer to one another where efficiency is high."""
     known = percent[np.isfinite(percent)]
     wanted = [20, 40, 60, 70, 80, 85, 90, 92, 94, 95, 96, *np.arange(96.5, 100.0, 0.25)]
-    return [x for x in wanted if known.min() < x < known.max()] or [float(np.median(known))]
+    found = [x for x in wanted if known.min() < x < known.max()] or [float(np.median(known))]
+    return found[:: -(len(found) // MOST_LINES + 1)][::-1]

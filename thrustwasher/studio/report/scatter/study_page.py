@@ -41,6 +41,7 @@ from .words import (
 )
 
 MOST_FIGURES, MOST_CARDS, MOST_BANDS, MOST_OVER_TIME = 12, 8, 8, 4
+LEADING = ("efficiency", "loss", "bearing_life")  # figures of a gear train that come first
 MUCH = 0.1  # square of a coefficient that makes a source worth naming
 BAND_TEXT = (
     "Shaded: 90 % of all runs are inside, instant by instant. Dashed: the nominal values of all "
@@ -121,12 +122,14 @@ def main_figures(result: Study, most: int) -> list[str]:
     found = [name for name, band in result.figures.items() if varies(band)]
     washers = washer_figures(result)
 
-    def rank(name: str) -> tuple[bool, bool, float]:
-        band = result.figures[name]
-        return band.outside is None, name not in washers, -relative_spread(band)
+    leading = [name for name in LEADING if name in found and result.model == "train"]
+
+    def rank(name: str) -> tuple[bool, bool, bool, float]:
+        band, wanted = result.figures[name], name not in leading
+        return wanted, band.outside is None, name not in washers, -relative_spread(band)
 
     first = sorted(found, key=rank)[:most]
-    return [name for name in found if name in first]
+    return [*leading[:most], *(n for n in found if n in first and n not in leading)]
 
 
 def _subtitle(result: Study) -> str:

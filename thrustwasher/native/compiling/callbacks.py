@@ -32,6 +32,7 @@ EXCHANGE_ABI: dict[str, tuple[str, tuple[str, ...]]] = {
     "start": ("tw_start", (*_EXCHANGED, "")),
     "rates": ("tw_rates", (*_EXCHANGED, "NOUT", "NCONT", "NSIGN")),
     "update": ("tw_update", (*_EXCHANGED, "NOUT", "NIOUT", "")),
+    "finish": ("tw_finish", (*_EXCHANGED, "")),  # of kernels that keep a solution
     "slopes": ("tw_slopes", (*_EXCHANGED, "NALONG", "NFOUND")),
 }
 
@@ -61,7 +62,9 @@ def abi(kernel: ModuleType) -> list[tuple[ModuleType, str, str, tuple[str, ...]]
     exchange = f"{kernel.__name__.rpartition('.')[0]}.exchange"
     if exchange in called_modules(kernel.__name__):
         module = importlib.import_module(exchange)
-        found += [(module, name, *about) for name, about in EXCHANGE_ABI.items()]
+        found += [
+            (module, name, *about) for name, about in EXCHANGE_ABI.items() if hasattr(module, name)
+        ]
     return found
 
 

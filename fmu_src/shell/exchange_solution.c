@@ -55,8 +55,8 @@ int solve_exchange(Instance *m) {
         const Requirement *r = &REQUIREMENTS[i];
         if (s->par[r->slot] == r->value) continue;
         s->latch = STATUS_BAD_INPUT;
-        return fail(m, "%s = %g is for co-simulation only; in model exchange allowed: %g", r->name,
-                    s->par[r->slot], r->value);
+        return fail(m, "%s = %g is for co-simulation only; in model exchange allowed: %g (%s)", r->name,
+                    s->par[r->slot], r->value, r->text);
     }
     if (s->mode == INITIALIZING) {
         rc = start(m);

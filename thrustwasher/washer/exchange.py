@@ -11,7 +11,7 @@ _OF_BRISTLE = (
 _OF_FILM = "film_thickness film_ratio fluid_load_share oil_flow".split()
 
 EXCHANGE = Exchange(
-    kernel="thrustwasher.washer.kernels.exchange",
+    kernel="thrustwasher.washer.kernels.exchange.unit",
     states=(
         bend_state("bend", "of the bristle that holds the washer at rest"),
         output("energy", "J", 100.0, "heat made by friction since the start"),
@@ -32,6 +32,7 @@ EXCHANGE = Exchange(
         "the temperature from which the washer is hot",
         "200 K mean rise",
         "the ends of what is verified: load, speed, tilt, oil temperature",
+        "the ends of the map, outside of which the field is solved",
     ),
     parameters=(
         *BRISTLE,

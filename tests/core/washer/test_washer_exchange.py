@@ -6,7 +6,7 @@ from exchange_runs import Kernels
 
 from thrustwasher.model.registry import find_spec
 from thrustwasher.numerics.status import NOT_IN_MAP, OK, SINGULAR
-from thrustwasher.washer.map import WasherMap
+from thrustwasher.washer.map.look_up import WasherMap
 
 SPEC = find_spec("washer")
 FILM, CONTACT = {"load": 300.0, "speed": 545.0}, {"load": 1200.0, "speed": 545.0}

@@ -40,7 +40,7 @@ CALLED = {
         "thrustwasher.washer.kernels.continuation: begin_curve enter_curve find_fold go_to_film",
         "thrustwasher.washer.kernels.continuation: locate_fold next_point note pass_fold recall",
         "thrustwasher.washer.kernels.continuation: remember start_at walk_to",
-        "thrustwasher.washer.kernels.exchange: start rates update finish slopes",
+        "thrustwasher.washer.kernels.exchange.unit: start rates update finish slopes",
         "thrustwasher.washer.kernels.map.map_rows: map_tilts single_look_up",
         "thrustwasher.washer.kernels.map.map_search: map_covers",
         "thrustwasher.washer.kernels.map.map_step: look_up map_sens",

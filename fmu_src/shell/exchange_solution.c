@@ -83,7 +83,8 @@ int update_exchange(Instance *m) {
     memcpy(iout, s->solution.iout, sizeof iout);
     const int rc = update(m);
     if (!is_failure(rc)) {
-        if (memcmp(discrete, s->discrete, sizeof discrete) != 0) s->dirty = 1;
+        /* outputs are those of `rates`, which starts from what is kept now */
+        if (NEEDS_STEPS || memcmp(discrete, s->discrete, sizeof discrete) != 0) s->dirty = 1;
         return GOOD;
     }
     memcpy(s->discrete, discrete, sizeof discrete);

@@ -135,6 +135,14 @@ int tw_update(double *par, double *own, double *inp, double *cont, double *discr
     return returned(m, raised);
 }
 
+#if NEEDS_STEPS
+int tw_finish(double *par, double *own, double *inp, double *cont, double *discrete, double *work, double t) {
+    u8 *m = block_of(par);
+    CALL(finish, INSIDE(par), INSIDE(own), INSIDE(inp), INSIDE(cont), INSIDE(discrete), INSIDE(work), t);
+    return returned(m, raised);
+}
+#endif
+
 int tw_slopes(double *par, double *own, double *inp, double *cont, double *discrete, double *work,
               double *along, double *found) {
     u8 *m = block_of(par);

@@ -47,6 +47,9 @@ DECLARE(tw_start, START)
 DECLARE(tw_rates, RATES)
 DECLARE(tw_update, UPDATE)
 DECLARE(tw_slopes, SLOPES)
+#if NEEDS_STEPS
+DECLARE(tw_finish, START)
+#endif
 #endif
 
 /* The host may round otherwise, flush small numbers to zero or trap: numbers would differ or the
@@ -125,6 +128,12 @@ int tw_update(double *par, double *own, double *inp, double *cont, double *discr
               double *out, int32_t *iout, double t) {
     CALL(tw_update, par, own, inp, cont, discrete, work, out, iout, t);
 }
+
+#if NEEDS_STEPS
+int tw_finish(double *par, double *own, double *inp, double *cont, double *discrete, double *work, double t) {
+    CALL(tw_finish, par, own, inp, cont, discrete, work, t);
+}
+#endif
 
 int tw_slopes(double *par, double *own, double *inp, double *cont, double *discrete, double *work,
               double *along, double *found) {

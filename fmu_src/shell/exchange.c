@@ -81,8 +81,8 @@ int update_discrete(Instance *m, double *next) {
     return GOOD;
 }
 
-/* Nothing is kept between steps: what is tried and rejected leaves no trace. */
-int complete_step(Instance *m) { return refresh(m) == GOOD ? GOOD : BAD; }
+/* What is kept is kept here and at events: what is tried and rejected leaves no trace. */
+int complete_step(Instance *m) { return refresh(m) == GOOD && finish_step(m) == GOOD ? GOOD : BAD; }
 #else
 int set_time(Instance *m, double t) { return (void)m, (void)t, BAD; }
 

@@ -55,8 +55,8 @@ int solve_exchange(Instance *m) {
         const Requirement *r = &REQUIREMENTS[i];
         if (s->par[r->slot] == r->value) continue;
         s->latch = STATUS_BAD_INPUT;
-        return fail(m, "%s = %g is for co-simulation only; in model exchange allowed: %g", r->name,
-                    s->par[r->slot], r->value);
+        return fail(m, "%s = %g is for co-simulation only; in model exchange allowed: %g (%s)", r->name,
+                    s->par[r->slot], r->value, r->text);
     }
     if (s->mode == INITIALIZING) {
         rc = start(m);
@@ -83,7 +83,8 @@ int update_exchange(Instance *m) {
     memcpy(iout, s->solution.iout, sizeof iout);
     const int rc = update(m);
     if (!is_failure(rc)) {
-        if (memcmp(discrete, s->discrete, sizeof discrete) != 0) s->dirty = 1;
+        /* outputs are those of `rates`, which starts from what is kept now */
+        if (NEEDS_STEPS || memcmp(discrete, s->discrete, sizeof discrete) != 0) s->dirty = 1;
         return GOOD;
     }
     memcpy(s->discrete, discrete, sizeof discrete);
@@ -92,8 +93,24 @@ int update_exchange(Instance *m) {
     tell_failure(m, s->latch, s->time, 0.0);
     return BAD;
 }
+
+/* What the kernels keep of a completed step. */
+int finish_step(Instance *m) {
+#if NEEDS_STEPS
+    Snap *s = &m->now;
+    const int rc = tw_finish(GIVEN, s->time);
+    if (!is_failure(rc)) return GOOD;
+    s->latch = rc < 0 ? STATUS_NOT_FINITE : rc;
+    tell_failure(m, s->latch, s->time, 0.0);
+    return BAD;
+#else
+    return (void)m, GOOD;
+#endif
+}
 #else
 int solve_exchange(Instance *m) { return (void)m, BAD; }
 
 int update_exchange(Instance *m) { return (void)m, BAD; }
+
+int finish_step(Instance *m) { return (void)m, BAD; }
 #endif

@@ -17,12 +17,13 @@ int tw_step(double *par, double *inp, double *state, double *work, double *out, 
 int tw_sens(double *par, double *inp, double *state, double *work, double *seed, double *dout);
 /* Of model exchange, for an instance in tw_memory: states and what is discrete at the start; outputs,
    derivatives and event indicators; what is discrete anew; changes of outputs and derivatives along
-   `along`, changes of inputs and states. */
+   `along`, changes of inputs and states. Where NEEDS_STEPS: keep the solution of a completed step. */
 int tw_start(double *par, double *own, double *inp, double *cont, double *discrete, double *work, double t);
 int tw_rates(double *par, double *own, double *inp, double *cont, double *discrete, double *work, double *out,
              double *der, double *sign);
 int tw_update(double *par, double *own, double *inp, double *cont, double *discrete, double *work,
               double *out, int32_t *iout, double t);
+int tw_finish(double *par, double *own, double *inp, double *cont, double *discrete, double *work, double t);
 int tw_slopes(double *par, double *own, double *inp, double *cont, double *discrete, double *work,
               double *along, double *found);
 

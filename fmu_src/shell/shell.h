@@ -118,6 +118,7 @@ int advance(Instance *m, double t, double h);
 /* exchange_solution.c */
 int solve_exchange(Instance *m);
 int update_exchange(Instance *m);
+int finish_step(Instance *m);
 
 /* exchange.c: model exchange, whose states are the host's */
 /* NULL, and said so, also where this model is for co-simulation only. */

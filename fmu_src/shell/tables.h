@@ -68,7 +68,7 @@ typedef struct {
 typedef struct {
     int32_t slot;
     double value;
-    const char *name;
+    const char *name, *text; /* of the parameter, of its value */
 } Requirement;
 
 /* What lets a parameter be used, values of others: all that are required, and one of the rest. */

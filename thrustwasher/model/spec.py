@@ -135,7 +135,7 @@ class Exchange:
     kernel: str  # dotted name of the module with start(), rates(), update() and slopes()
     states: tuple[Signal, ...]
     needs: Mapping[str, tuple[str, ...]]
-    requires: Mapping[str, bool] = field(default_factory=dict)
+    requires: Mapping[str, float] = field(default_factory=dict)
     indicators: tuple[str, ...] = ("no event: it stays at 1, so that hosts follow the inputs",)
     parameters: tuple[Signal, ...] = ()
     steps: bool = False

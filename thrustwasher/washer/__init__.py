@@ -13,6 +13,7 @@
 ``follow``            inputs are given over time, friction and heat follow
 ``map``               solutions on both branches, charted for look-up
 ``kernels``           compiled code
+``exchange``          what it shows for model exchange
 ``fits``              what of a washer can be fitted in addition to its outputs
 ``mesh_error``        what a washer's torque owes to its mesh, from the solution itself
 ``sensitivities``     derivatives of a washer's results and of its fold loads over its parameters

@@ -19,6 +19,7 @@ from ..model.part_file import preset_params
 from ..model.spec import Rule
 from ..model.toml_tables import spec_beside
 from ..tribology.holding.parameters import coupling_age, coupling_inertia, holding_choice
+from .exchange import EXCHANGE
 
 LEAST_ROUGHNESS = 1.5e-7  # [m] smoother ones make the tilted gap hundreds of sigma: not solved
 FRICTION_LAWS = {
@@ -409,4 +410,4 @@ def _counted() -> tuple[tuple[str, int], ...]:
     return ("Newton iterations", ITERATIONS), ("heat factors made", FACTORED)
 
 
-SPEC = spec_beside(__file__, WasherParams, RULES, counted=_counted)
+SPEC = spec_beside(__file__, WasherParams, RULES, counted=_counted, exchange=EXCHANGE)

@@ -35,6 +35,7 @@ from calls import (
 
 HERE = Path(__file__).parent
 SHIFT_STOP = 1.3  # s, of the default shift
+HEATS = ("energy", "oil_energy", "received_heat")  # outputs that add up all that was before
 Single = Callable[[Bench, Path], tuple[Table, str]]  # runs an FMU: its outputs, what was said
 Rows = Iterator[Row]
 
@@ -50,13 +51,17 @@ def in_python(bench: Bench, fmu: Path, host: str, package: str) -> tuple[Table, 
     return read(target), told
 
 
-def fmusim(bench: Bench, fmu: Path, *options: str) -> tuple[Table, str]:
-    target = bench.scratch / f"fmusim-{fmu.parent.name}-{fmu.stem}.csv"
+def fmusim(bench: Bench, fmu: Path, *options: str, kind: str = "cs") -> tuple[Table, str]:
+    target = bench.scratch / f"fmusim-{kind}-{fmu.parent.name}-{fmu.stem}.csv"
     step, stop = experiment(fmu)
-    order = ["--interface-type", "cs", "--input-file", bench.inputs(fmu), "--stop-time", stop]
+    order = ["--interface-type", kind, "--input-file", bench.inputs(fmu), "--stop-time", stop]
     order += ["--output-interval", step, "--output-file", target, *options, fmu]
     _, told = called(bench.program("fmusim"), *order, folder=bench.scratch)
     return read(target), told
+
+
+def fmusim_exchange(bench: Bench, fmu: Path) -> tuple[Table, str]:
+    return fmusim(bench, fmu, "--solver", "cvode", "--tolerance", "1e-6", kind="me")
 
 
 def fmu_check(bench: Bench, fmu: Path) -> tuple[Table, str]:
@@ -89,6 +94,34 @@ def singles(run: Single, versions: tuple[int, ...], bench: Bench) -> Rows:
         if failures:
             result = f"{len(failures)} of {len(fmus)} fail; {failures[0]}"
         yield Row(fmi, f"{len(fmus)} FMUs", result, said(told))
+
+
+def has_exchange(fmu: Path) -> bool:
+    with zipfile.ZipFile(fmu) as archive:
+        return b"<ModelExchange" in archive.read("modelDescription.xml")
+
+
+def exchanges(run: Single, versions: tuple[int, ...], bench: Bench) -> Rows:
+    """Run every FMU that has model exchange; say how far its heats end from co-simulation."""
+    for fmi in versions:
+        worst, failures, told = (0.0, "", ""), [], ""
+        fmus = [fmu for fmu in bench.fmus(fmi) if bench.inputs(fmu) and has_exchange(fmu)]
+        for fmu in fmus:
+            try:
+                table, words = run(bench, fmu)
+                told += words
+                one, two = table[max(table)], by_fmpy(bench, fmu)
+                last = two[max(two)]
+                for name in HEATS:
+                    if name in one and last.get(name):
+                        off = abs(one[name] / last[name] - 1.0)
+                        worst = max(worst, (off, name, fmu.stem))
+            except (Failed, subprocess.TimeoutExpired) as error:
+                failures.append(f"{fmu.stem}: {error}")
+        result = f"heat {worst[0]:.1g} from co-simulation ({worst[2]} `{worst[1]}`)"
+        if failures:
+            result = f"{len(failures)} of {len(fmus)} fail; {failures[0]}"
+        yield Row(fmi, f"{len(fmus)} FMUs, model exchange", result, said(told))
 
 
 def references(bench: Bench) -> Rows:
@@ -223,6 +256,7 @@ HOSTS = [
         "fmpy",
         several(
             references,
+            partial(exchanges, single("fmpy-exchange", "fmpy"), (2, 3)),
             partial(events, single("fmpy-events", "fmpy")),
             partial(masters, "fmpy", "fmpy", (2, 3)),
         ),
@@ -234,6 +268,7 @@ HOSTS = [
         "",
         several(
             partial(singles, fmusim, (2, 3)),
+            partial(exchanges, fmusim_exchange, (2, 3)),
             partial(events, with_events()),
             partial(
                 events, with_events("--record-intermediate-values"), ran="intermediate values too"
@@ -255,7 +290,15 @@ HOSTS = [
         partial(masters, "fmucontainer", "fmu-manipulation-toolbox", (2, 3)),
     ),
     Host("fmuloader", "", "fmuloader", partial(singles, single("fmuloader", "fmuloader"), (2, 3))),
-    Host("PyFMI", "", "pyfmi", partial(singles, single("pyfmi", "pyfmi"), (2, 3))),
+    Host(
+        "PyFMI",
+        "",
+        "pyfmi",
+        several(
+            partial(singles, single("pyfmi", "pyfmi"), (2, 3)),
+            partial(exchanges, single("pyfmi-exchange", "pyfmi"), (2,)),
+        ),
+    ),
     Host("OMSimulator", "OMSimulator", "", omsimulator),
     Host("libcosim", "", "libcosimpy", partial(masters, "libcosim", "libcosimpy", (2, 3))),
     Host("Ecos", "", "ecospy", partial(masters, "ecos", "ecospy", (2, 3))),
@@ -281,20 +324,30 @@ def version(bench: Bench, host: Host) -> str | None:
 
 
 def write_into(page: Path, rows: list[tuple[str, ...]]) -> None:
-    """Put the rows, without what hosts said, between the page's marks.
+    """Put the rows, without what hosts said, between the page's marks; other hosts' rows stay.
 
     Runs with both versions of FMI that come out alike are one row.
     """
     alike = dict[tuple[str, ...], list[str]]()
     for host, number, fmi, ran, result in rows:
         alike.setdefault((host, number, ran, result), []).append(fmi)
+    ran_now = {row[0] for row in rows}
     rows = [(h, n, ", ".join(fmi), ran, result) for (h, n, ran, result), fmi in alike.items()]
     lines = ["| host | version | FMI | what was run | result |", "|---|---|---|---|---|"]
     lines += [f"| {' | '.join(row)} |" for row in rows]
-    text = "\n".join(lines)
-    block = re.compile(r"(?s)(<!-- hosts -->\n\n).*?(\n\n<!-- end -->)")
-    written = block.sub(lambda m: f"{m[1]}{text}{m[2]}", page.read_text("utf-8"))
-    page.write_text(written, "utf-8")
+    block = re.compile(r"(?s)(<!-- hosts -->\n\n)(.*?)(\n\n<!-- end -->)")
+
+    def merged(found: re.Match[str]) -> str:
+        stay = [line for line in found[2].splitlines()[2:] if host_of(line) not in ran_now]
+        order = [host.name for host in HOSTS]
+        own = sorted(stay + lines[2:], key=lambda line: order.index(host_of(line)))
+        return f"{found[1]}{chr(10).join(lines[:2] + own)}{found[3]}"
+
+    page.write_text(block.sub(merged, page.read_text("utf-8")), "utf-8")
+
+
+def host_of(line: str) -> str:
+    return line.split("|")[1].strip()
 
 
 def main() -> None:

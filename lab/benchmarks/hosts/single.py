@@ -1,7 +1,7 @@
 """One FMU in a host with a package for Python: inputs from a table, outputs into one.
 
-python single.py {fmpy,fmpy-events,fmuloader,pyfmi} FMU INPUTS.csv STEP STOP OUTPUTS.csv, run by
-the Python that has the host's package (run.py does so). Prints a line of JSON with the version.
+python single.py HOST FMU INPUTS.csv STEP STOP OUTPUTS.csv, HOST one of ``HOSTS``, run by the Python
+that has the host's package (run.py does so). Prints a line of JSON with the version.
 """
 
 import json
@@ -11,16 +11,17 @@ from typing import Any
 
 import numpy as np
 
+SOLVER = {"solver": "CVode", "relative_tolerance": 1e-6}
 # names, then one row of their values per point of time
 Table = tuple[list[str], Any]
 
 
-def fmpy(fmu: str, inputs: str, step: float, stop: float, **events: bool) -> Table:
+def fmpy(fmu: str, inputs: str, step: float, stop: float, **more: Any) -> Table:
     from fmpy import simulate_fmu
     from fmpy.util import read_csv
 
     given = {"input": read_csv(inputs), "output_interval": step, "step_size": step}
-    found = simulate_fmu(fmu, stop_time=stop, **given, **events)
+    found = simulate_fmu(fmu, stop_time=stop, **given, **more)
     names = list(found.dtype.names)
     return names, np.column_stack([found[name].astype(float) for name in names])
 
@@ -29,10 +30,18 @@ def fmpy_events(fmu: str, inputs: str, step: float, stop: float) -> Table:
     return fmpy(fmu, inputs, step, stop, early_return_allowed=True, use_event_mode=True)
 
 
-def pyfmi(fmu: str, inputs: str, step: float, stop: float) -> Table:
+def fmpy_exchange(fmu: str, inputs: str, step: float, stop: float) -> Table:
+    return fmpy(fmu, inputs, step, stop, fmi_type="ModelExchange", **SOLVER)
+
+
+def pyfmi_exchange(fmu: str, inputs: str, step: float, stop: float) -> Table:
+    return pyfmi(fmu, inputs, step, stop, "ME")
+
+
+def pyfmi(fmu: str, inputs: str, step: float, stop: float, kind: str = "CS") -> Table:
     from pyfmi import load_fmu
 
-    model = load_fmu(fmu, log_level=2)
+    model = load_fmu(fmu, log_level=2, kind=kind)
     table = np.genfromtxt(inputs, delimiter=",", names=True)
     names = list(table.dtype.names or ())
     given = (names[1:], np.column_stack([table[name] for name in names]))
@@ -81,8 +90,10 @@ def fmuloader(fmu: str, inputs: str, step: float, stop: float) -> Table:
 HOSTS = {
     "fmpy": (fmpy, "fmpy"),
     "fmpy-events": (fmpy_events, "fmpy"),
+    "fmpy-exchange": (fmpy_exchange, "fmpy"),
     "fmuloader": (fmuloader, "fmuloader"),
     "pyfmi": (pyfmi, "pyfmi"),
+    "pyfmi-exchange": (pyfmi_exchange, "pyfmi"),
 }
 
 if __name__ == "__main__":

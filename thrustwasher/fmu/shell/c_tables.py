@@ -178,7 +178,13 @@ def _lists(shown: Interface) -> dict[str, tuple[str, list[str]]]:
 
 def _requirements(shown: Interface) -> list[list[Any]]:
     needed = shown.spec.exchange.requires if shown.spec.exchange else {}
-    return [[v.slot, float(needed[v.name]), v.name] for v in shown.parameters if v.name in needed]
+    found = []
+    for v in shown.parameters:
+        if v.name in needed:
+            items = {i.value: i.name for i in shown.enumerations.get(v.type_name or "", ())}
+            value = needed[v.name]
+            found.append([v.slot, float(value), v.name, items.get(int(value), str(value))])
+    return found
 
 
 def _state(v: Variable) -> list[Any]:

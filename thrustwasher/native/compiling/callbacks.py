@@ -26,12 +26,13 @@ ABI: dict[str, tuple[str, tuple[str, ...]]] = {
     "step": ("tw_step", (*_ARRAYS, "NOUT", "NIOUT", "", "")),
     "sens": ("tw_sens", (*_ARRAYS, "NSEED", "NOUT")),
 }
-# Entries for model exchange, of the module ``exchange`` beside that of the step.
+# Entries for model exchange, of the module or folder ``exchange`` beside that of the step.
 _EXCHANGED = ("NPAR", "NOWN", "NINP", "NCONT", "NMODE", "NWORK")
 EXCHANGE_ABI: dict[str, tuple[str, tuple[str, ...]]] = {
     "start": ("tw_start", (*_EXCHANGED, "")),
     "rates": ("tw_rates", (*_EXCHANGED, "NOUT", "NCONT", "NSIGN")),
     "update": ("tw_update", (*_EXCHANGED, "NOUT", "NIOUT", "")),
+    "finish": ("tw_finish", (*_EXCHANGED, "")),  # of kernels that keep a solution
     "slopes": ("tw_slopes", (*_EXCHANGED, "NALONG", "NFOUND")),
 }
 
@@ -59,9 +60,11 @@ def abi(kernel: ModuleType) -> list[tuple[ModuleType, str, str, tuple[str, ...]]
     """Return the entries for an FMU's shell: module, name, name in the shell, lengths of arrays."""
     found = [(kernel, name, *about) for name, about in ABI.items() if hasattr(kernel, name)]
     exchange = f"{kernel.__name__.rpartition('.')[0]}.exchange"
-    if exchange in called_modules(kernel.__name__):
-        module = importlib.import_module(exchange)
-        found += [(module, name, *about) for name, about in EXCHANGE_ABI.items()]
+    for home in {exchange, f"{exchange}.unit"}.intersection(called_modules(kernel.__name__)):
+        module = importlib.import_module(home)
+        found += [
+            (module, name, *about) for name, about in EXCHANGE_ABI.items() if hasattr(module, name)
+        ]
     return found
 
 

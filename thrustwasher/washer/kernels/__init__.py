@@ -22,6 +22,7 @@
 ``map``                     look-up in a map; as a model of its own
 ``whole_curve``             all solutions over load with the folds; solutions at many loads
 ``step``                    the washer behind the step ABI
+``exchange``                the same for model exchange: a bristle, solutions kept from step to step
 ==========================  ========================================================================
 """
 
@@ -39,6 +40,7 @@ CALLED = {
         "thrustwasher.washer.kernels.constants: derive_grid",
         "thrustwasher.washer.kernels.continuation: enter_curve find_fold go_to_film locate_fold",
         "thrustwasher.washer.kernels.continuation: note recall remember start_at walk_to",
+        "thrustwasher.washer.kernels.exchange.unit: start rates update finish slopes",
         "thrustwasher.washer.kernels.map.map_rows: map_tilts single_look_up",
         "thrustwasher.washer.kernels.map.map_search: map_covers",
         "thrustwasher.washer.kernels.map.map_step: look_up map_sens",

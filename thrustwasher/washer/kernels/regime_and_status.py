@@ -20,6 +20,8 @@ LEAST_ROUGHNESS = 1.5e-7  # [m]
 LEAST_MODULUS, LEAST_STRENGTH = 1e9, 1e7  # [Pa] of a body, as in its parameters
 LEAST_CONDUCTIVITY, LEAST_DENSITY, LEAST_SPECIFIC_HEAT = 0.1, 500.0, 50.0
 LEAST_TEMPERATURE = 233.15  # [K] of the oil that is supplied
+LARGEST_VERIFIED = (3000.0, 1500.0, 0.004)  # load [N], speed [rad/s], tilt [rad]
+VERIFIED_OIL = (260.0, 420.0)  # [K]
 LARGEST_RISE = 200.0  # [K] mean rise that counts as distress
 
 
@@ -119,10 +121,10 @@ def change_of(par: Array, inp: Array, seed: Array) -> Point:
 def is_verified(pt: Point) -> bool:
     """Tell if the operating point is inside the range that the tests cover."""
     return (
-        pt.load <= 3000.0
-        and abs(pt.speed) <= 1500.0
-        and pt.tilt <= 0.004
-        and 260.0 <= pt.oil_temperature <= 420.0
+        pt.load <= LARGEST_VERIFIED[0]
+        and abs(pt.speed) <= LARGEST_VERIFIED[1]
+        and pt.tilt <= LARGEST_VERIFIED[2]
+        and VERIFIED_OIL[0] <= pt.oil_temperature <= VERIFIED_OIL[1]
     )
 
 

@@ -63,6 +63,7 @@ def map_alone(spec: ModelSpec) -> ModelSpec:
         counted=tuple,
         profile=tuple(row[: 1 + len(inputs)] for row in spec.profile),
         table_of=params,
+        exchange=None,
     )
     own = {f.name: getattr(params, f.name) for f in fields(MapParams)}
     if own["outside_map"] == "solve":

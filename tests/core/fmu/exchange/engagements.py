@@ -49,9 +49,10 @@ def nominal(u):
     return np.concatenate([[100.0, 100.0], u.nominals()])
 
 
-def exchanged(u, plant, end, tolerance=1e-6, method="Radau"):
+def exchanged(u, plant, end, tolerance=1e-6, method="Radau", **parameters):
     """Return times, slips, end torque, heat, steps, events; the solver owns pack and plant."""
-    u.start(0.0, oil_temperature=plant.oil, starts_pressed=True, **plant.inputs(0.0, plant.speeds))
+    parameters |= {"starts_pressed": True, "oil_temperature": plant.oil}
+    u.start(0.0, **parameters, **plant.inputs(0.0, plant.speeds))
 
     def rates(t, y):
         u.fmu.setTime(t)

@@ -2,8 +2,13 @@
 
 import numpy as np
 import pytest
-from engagements import TWELVE, exchanged, lock_up, stepped
+from closed_forms.lock_up import engagement
+from engagements import TWELVE, Plant, exchanged, lock_up, stepped
 from exchanged import unit
+
+from thrustwasher import ClutchParams, solve_clutch
+from thrustwasher.clutch.parameters import FRICTION_LAWS
+from thrustwasher.model.registry import find_spec
 
 each = pytest.mark.parametrize(
     "place", [0, *(pytest.param(k, marks=pytest.mark.slow) for k in range(1, len(TWELVE)))]
@@ -46,6 +51,28 @@ def test_every_tolerance_ends_at_the_same_lock(tolerance, part):
         run = exchanged(u, plant, END, tolerance)
     assert lock_up(run) == pytest.approx(lock_up(fine), rel=part)
     assert run["torque"] == pytest.approx(plant.held, abs=0.5)
+
+
+@pytest.mark.parametrize("place", [0, 5, 8])
+def test_a_constant_friction_is_modelicas_clutch_to_four_digits(place):
+    """Modelica.Mechanics.Rotational.Components.Clutch, mu constant, has a closed form."""
+    given, rigid = TWELVE[place], find_spec("clutch")
+    (first, second), (drive, brake) = given.inertias, given.torques
+    plant = Plant(given.inertias, given.torques, given.load, 1e-9, given.speeds)
+    level = list(rigid.fidelities).index("closed") + 1
+    law = list(FRICTION_LAWS).index("constant") + 1
+    capacity = solve_clutch(
+        ClutchParams(friction_law="constant"), load=plant.load, speed=0.0, fidelity="closed"
+    ).torque_capacity
+    sign = np.sign(plant.speeds[0] - plant.speeds[1])
+    form = engagement(capacity, sign * drive, -sign * brake, first, second, *(
+        sign * s for s in plant.speeds
+    ))  # fmt: skip
+    with unit("clutch") as u:
+        run = exchanged(u, plant, 1.2 * form.lock_time, 1e-8, fidelity=level, friction_law=law)
+    assert lock_up(run) == pytest.approx(0.98 * form.lock_time, rel=1e-4)
+    assert run["heat"] == pytest.approx(form.heat, rel=2e-4)  # the bristle holds a part
+    assert run["torque"] == pytest.approx(plant.held, rel=1e-4, abs=1e-4)
 
 
 def test_a_contact_rise_is_for_co_simulation_alone():

@@ -99,7 +99,7 @@ def test_derivatives_are_those_of_the_values(key, fmi):
         shown = interface(SPECS[key])
         unknowns = [v.name for v in (*shown.outputs, *shown.derivatives) if v.type == "Real"]
         inputs = {v.name: v for v in shown.inputs if v.type == "Real"}
-        inputs = {n: v for n, v in inputs.items() if not n.startswith("energy_")}
+        inputs = {n: v for n, v in inputs.items() if not n.startswith(("energy_", "far_face"))}
         x, given = u.x(), dict(zip(inputs, np.atleast_1d(u.get(*inputs)), strict=True))
         sizes = {**{n: v.nominal or 1.0 for n, v in inputs.items()}}
         sizes |= dict(zip(u.states, u.nominals(), strict=True))

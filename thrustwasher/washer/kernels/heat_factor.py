@@ -275,15 +275,15 @@ def solve_heat(m: WasherModel, rhs: Array, x: Array, f: Fields) -> None:
             r0, r1, r2, r3 = ring[g], ring[g + 1], ring[g + 2], ring[g + 3]
             r4, r5, r6, r7 = ring[g + 4], ring[g + 5], ring[g + 6], ring[g + 7]
             for k in range(n):
-                value, at = z[np.uintp(k)], np.uintp(k * sides + g)
-                r0 -= b.under[at] * value
-                r1 -= b.under[at + np.uintp(1)] * value
-                r2 -= b.under[at + np.uintp(2)] * value
-                r3 -= b.under[at + np.uintp(3)] * value
-                r4 -= b.under[at + np.uintp(4)] * value
-                r5 -= b.under[at + np.uintp(5)] * value
-                r6 -= b.under[at + np.uintp(6)] * value
-                r7 -= b.under[at + np.uintp(7)] * value
+                value, here = z[np.uintp(k)], np.uintp(k * sides + g)
+                r0 -= b.under[here] * value
+                r1 -= b.under[here + np.uintp(1)] * value
+                r2 -= b.under[here + np.uintp(2)] * value
+                r3 -= b.under[here + np.uintp(3)] * value
+                r4 -= b.under[here + np.uintp(4)] * value
+                r5 -= b.under[here + np.uintp(5)] * value
+                r6 -= b.under[here + np.uintp(6)] * value
+                r7 -= b.under[here + np.uintp(7)] * value
             ring[g], ring[g + 1], ring[g + 2], ring[g + 3] = r0, r1, r2, r3
             ring[g + 4], ring[g + 5], ring[g + 6], ring[g + 7] = r4, r5, r6, r7
         dense_substitute(b.flat, ring, sides)

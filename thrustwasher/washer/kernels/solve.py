@@ -165,7 +165,7 @@ def _from_guess(w: Workspace, pt: Point, state: Array) -> bool:
         return False
     w.found[L.BRANCH] = L.FILM_BRANCH
     if is_clear_film(w):
-        return state[L.S_BRANCH] == L.FILM_BRANCH
+        return bool(state[L.S_BRANCH] == L.FILM_BRANCH)
     multiplicity = state[L.S_MULTIPLICITY]
     if multiplicity == L.SINGLE:
         w.found[L.BRANCH] = L.FILM_BRANCH if ratio >= FILM_RATIO else L.CONTACT_BRANCH

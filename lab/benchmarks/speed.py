@@ -1,9 +1,10 @@
 """What a washer solve costs: warm, cold, curve; where its time goes; what a newcomer waits for.
 
-python -m lab.benchmarks.speed [--start | --python]
+python -m lab.benchmarks.speed [--start | --python | --washer]
 
 ``--start``: only whole processes by the wall clock, everything compiled and the FMUs built, and
-what Python adds to a solve. ``--python``: only calls from Python and sweeps, processor time. One
+what Python adds to a solve. ``--python``: only calls from Python and sweeps, processor time;
+``--washer``: only solves of the washer, from nothing, warm and in time, processor time. One
 thread; medians over repeats, minima in brackets. Run it on an idle machine, two versions in turn:
 ``PYTHONPATH=FOLDER python lab/benchmarks/speed.py --python`` measures the one in that folder.
 """
@@ -17,6 +18,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -34,9 +36,9 @@ from thrustwasher import (
     solve_gearmesh,
     solve_washer,
 )
-from thrustwasher.washer import solve
+from thrustwasher.washer import follow, solve
 from thrustwasher.washer.kernel_arguments import constants
-from thrustwasher.washer.kernels import gap, heat, layout, newton
+from thrustwasher.washer.kernels import gap, heat, heat_factor, layout, newton
 from thrustwasher.washer.kernels.constants import washer_model
 from thrustwasher.washer.kernels.continuation import cold_start
 from thrustwasher.washer.kernels.film import evaluate_film, film_solve
@@ -83,6 +85,46 @@ def timed(work: Callable[[], object], repeats: int) -> tuple[float, float]:
         work()
         seconds.append(time.perf_counter() - start)
     return statistics.median(seconds), min(seconds)
+
+
+def washers() -> None:
+    """Print what solves from nothing, warm ones and steps in time cost."""
+    table_head("point", "from nothing, ms", "warm us, load +-1 %", "iterations")
+    cold_all, warm_all = [], []
+    for name, speed, load in POINTS:
+        cold_solve = partial(solve_washer, PARAMS, load=load, speed=speed, tilt=0.002)
+        base = cold_solve()
+        cold, warm = processor_time(cold_solve, 10), processor_time(neighbours(base), 40)
+        cold_all.append(cold[0])
+        warm_all.append(warm[0])
+        times = median_and_least(cold, 1e3, ".2f"), median_and_least(warm, 1e6, ".0f")
+        table_row(f"{name}, {speed:g} rad/s, {load:g} N", *times, base.iterations)
+    table_row(
+        "median",
+        f"{1e3 * statistics.median(cold_all):.2f}",
+        f"{1e6 * statistics.median(warm_all):.0f}",
+        "",
+    )
+    n, draw = 40, np.random.default_rng(1)
+    cases = {
+        "coming to rest, 50 to 5 rad/s": (np.geomspace(50.0, 5.0, n), np.full(n, 500.0)),
+        "swinging through rest": (20.0 * np.sin(np.linspace(0.1, 7.0, n)), np.full(n, 500.0)),
+        "jumps": (draw.uniform(10.0, 1300.0, n), draw.uniform(20.0, 1800.0, n)),
+    }
+    table_head("in time, steps of 10 ms", "heat", "ms a step")
+    for (name, (speeds, loads)), mode in itertools.product(
+        cases.items(), ("quasi_steady", "transient")
+    ):
+        rows = np.column_stack([loads, speeds, np.full(n, 2e-3), np.full(n, 297.15), np.zeros(n)])
+        run = follow.Follower(replace(PARAMS, thermal_mode=mode), (10, 32))
+
+        def steps() -> None:
+            run.state[:] = 0.0  # noqa: B023 (called in this turn)
+            for i, row in enumerate(rows):  # noqa: B023
+                run._step(row, 0.01 if i else 1e-12)  # noqa: B023
+
+        seconds = processor_time(steps, 1)
+        table_row(name, mode, median_and_least(seconds, 1e3 / n, ".2f"))
 
 
 def neighbours(base: WasherResult) -> Callable[[], WasherResult]:
@@ -141,8 +183,8 @@ def starts() -> None:
             table_row(f"{name}, new process", median_and_least(timed(run, 5), 1.0, ".3g") + " s")
     point = {"load": 300.0, "speed": 953.0, "tilt": 0.002}
     start = solve_washer(PARAMS, **point)
-    ready, state = solve._prepared(PARAMS, "field", start.grid), start._state.copy()
-    ready.inp[:] = (*point.values(), 297.15, 0.0)
+    ready, state = solve._prepared(PARAMS, start.grid), start._state.copy()
+    ready.inp[:] = (*point.values(), 297.15, 0.0, 0.0)
     calls: dict[str, Callable[[], object]] = {
         "solve_washer, fidelity map": lambda: solve_washer(PARAMS, fidelity="map", **point),
         "solve_washer, field, warm": lambda: solve_washer(PARAMS, start=start, **point),
@@ -229,7 +271,7 @@ def profile() -> None:
     par = constants(PARAMS, (10, 32))
     w = workspace_of(par, np.zeros(layout.N_HEAD + size_of_work(10, 32)))
     m, f, q = washer_model(par), fields_of(w), w.q
-    pt = Point(300.0, 545.0, 0.002, 297.15)
+    pt = Point(300.0, 545.0, 0.002, 297.15, 297.15)
     cold_start(w, pt, 13.0)
     newton.newton(w, pt, newton.LOAD, 300.0, -100.0, 1e-9, 40.0)
     empty, _ = timed(lambda: newton.smooth_film(w), 2000)
@@ -238,9 +280,9 @@ def profile() -> None:
         ("viscosity", lambda: gap.evaluate_viscosity(m, pt, f)),
         ("heat residual", lambda: heat.heat_residual(m, pt, f.temp, f)),
         ("film conductances", lambda: evaluate_film(m, pt, q, f)),
-        ("heat, back substitution", lambda: heat.solve_heat(m, f.heat, f.dtemp, f)),
+        ("heat, back substitution", lambda: heat_factor.solve_heat(m, f.heat, f.dtemp, f)),
         ("film, five right sides", lambda: film_solve(m, f.p, f)),
-        ("heat, factor (cold only)", lambda: heat.factor_heat(m, pt, f)),
+        ("heat, factor (cold only)", lambda: heat_factor.factor_heat(m, pt, f)),
     ]
     for name, work in parts:
         work()
@@ -248,6 +290,9 @@ def profile() -> None:
 
 
 if __name__ == "__main__":
+    if "--washer" in sys.argv:
+        washers()
+        sys.exit()
     if "--python" in sys.argv:
         python_calls()
         sweeps()

@@ -247,6 +247,14 @@ def _map_solver() -> Any:
     return solve_by_map
 
 
+@cache
+def _map_guess() -> Any:
+    """Return what guesses by look-up where a solve may start."""
+    from .map.look_up import guess_by_map
+
+    return guess_by_map
+
+
 def _told_outside() -> Any:
     """Return what says of a result that it lies outside its map."""
     from .map.look_up import told_outside
@@ -320,11 +328,14 @@ def _solve(
         if start is not None and preferred == 0.0:
             preferred = BRANCHES.get(start.branch, 0.0)
             return _prefer(params, point, fidelity, nodes, preferred, from_tables)
+        _map_guess()(params, point, preferred, state)
     ready.inp[:] = (*point, preferred)
     code = ready.step(state, 0.0, 1.0)
     status = OK if code == 0 else Status(code)
     work = ready.work
     if code >= FIRST_FAILURE:
+        if state[L.S_VALID] == L.GUESSED:
+            state[L.S_VALID] = 0.0
         estimate = work[L.AT_POSITIONS : L.N_HEAD]  # so that fields() shows it
         if np.all(np.isfinite(estimate)):
             state[L.S_POSITIONS :][:4] = estimate

@@ -19,7 +19,7 @@ from thrustwasher.errors import EnvironmentProblem
 from thrustwasher.model.registry import compiled_packages
 from thrustwasher.native import binaries
 from thrustwasher.native.compiling import emit, gate
-from thrustwasher.native.compiling.lower import is_quick
+from thrustwasher.native.compiling.lower import is_of
 from thrustwasher.native.targets import PLATFORMS, TARGETS
 
 FILES = kernel_files()
@@ -260,5 +260,5 @@ def test_every_module_listed_as_quick_is_found_by_the_names_of_its_kernels(level
         assert own
         for kernel in own:
             prefix = funcdesc.qualifying_prefix(module.__name__, kernel.__qualname__)
-            assert is_quick(funcdesc.default_mangler(prefix, ()), level)
-    assert not is_quick("_ZN12thrustwasher6washer7kernels9constants6deriveB2v1", level)
+            assert is_of(funcdesc.default_mangler(prefix, ()), level.quick)
+    assert not is_of("_ZN12thrustwasher6washer7kernels9constants6deriveB2v1", level.quick)

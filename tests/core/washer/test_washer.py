@@ -303,8 +303,9 @@ def test_a_far_face_as_warm_as_the_oil_is_that_of_the_oil():
             (BULK, {"far_face_temperature": OIL}),
         )
     )
-    assert bulk.friction_torque == oil.friction_torque == told.friction_torque
-    assert bulk.temperature == oil.temperature == told.temperature
+    assert bulk.friction_torque == told.friction_torque
+    assert bulk.friction_torque == pytest.approx(oil.friction_torque, rel=3e-9)
+    assert bulk.temperature == told.temperature == pytest.approx(oil.temperature, rel=1e-9)
     said = "without a far_face_temperature: the oil's is taken"
     assert said in bulk.warnings[0] and not oil.warnings and not told.warnings
 

@@ -34,9 +34,9 @@ def object_code(bitcode: bytes, platform: Platform, level: Level, kernel: str) -
             continue
         if function.linkage.name == "external":
             function.name = f"{function.name}_{level.name}"
-        if level.attribute and is_quick(function.name, level):
+        if level.attribute and is_of(function.name, level.quick):
             function.add_function_attribute("noinline")
-        elif level.attribute:
+        elif level.attribute and not is_of(function.name, level.free):
             function.add_function_attribute(level.attribute)
     # internal names get numbers: the compiler's hold addresses and differ
     for letter, values in (("f", module.functions), ("g", module.global_variables)):
@@ -50,9 +50,9 @@ def object_code(bitcode: bytes, platform: Platform, level: Level, kernel: str) -
     return code
 
 
-def is_quick(symbol: str, level: Level) -> bool:
-    """Tell if a function, by the name that numba gave it, is of a module that keeps all speed."""
-    names = ("".join(f"{len(p)}{p}" for p in name.split(".")) for name in level.quick)
+def is_of(symbol: str, modules: tuple[str, ...]) -> bool:
+    """Tell if a function, by the name that numba gave it, is of one of these modules."""
+    names = ("".join(f"{len(p)}{p}" for p in name.split(".")) for name in modules)
     return any(name in symbol for name in names)
 
 

@@ -65,15 +65,21 @@ def recall(w: Workspace, slot: float) -> None:
 
 
 @kernel
-def _press_gear(m: WasherModel, pt: Point, q: Array, f: Fields) -> None:
-    """Move the gear until gap 2 carries what film 1 carries; its force is nearly exponential."""
-    forces, slopes = vector(f.small, L.FORCES), square(f.small, L.STIFFNESS)
+def _lift(m: WasherModel, f: Fields) -> float:
+    """Return what film 1 carries [N]."""
+    forces = vector(f.small, L.FORCES)
     lift = forces[L.ON_WASHER] + forces[L.ON_GEAR]
     for j in range(m.n_t):
         for i in range(1, m.n_r - 1):
             k = np.uintp(j * m.n_r + i)
             lift += m.weight1[i] * m.weight_t[j] * f.p[k]
-    lift = max(lift, 1.0)
+    return float(max(lift, 1.0))
+
+
+@kernel
+def press_gear(m: WasherModel, pt: Point, q: Array, f: Fields, lift: float) -> None:
+    """Move the gear until gap 2 carries ``lift`` [N]; its force is nearly exponential."""
+    forces, slopes = vector(f.small, L.FORCES), square(f.small, L.STIFFNESS)
     for attempt in range(2):
         if attempt > 0:  # a wide tilt has left the gear far above the washer
             q[L.Z_GEAR] = q[L.Z_WASHER] + (pt.tilt - q[L.TILT_Y]) * m.outer_radius + 3.0 * m.sigma2
@@ -107,7 +113,7 @@ def cold_start(w: Workspace, pt: Point, ratio: float) -> None:
     clear(f.p)
     forget_factor(w)
     evaluate(m, pt, q, f, False)
-    _press_gear(m, pt, q, f)
+    press_gear(m, pt, q, f, _lift(m, f))
 
 
 @kernel

@@ -30,6 +30,7 @@ class Blocks(NamedTuple):
     mirrored: Array  # upper factor by columns, last first
     right: Array  # (sides / N_SIDES, n_band, N_SIDES) flat: columns of the border, in groups
     below: Array  # (n_band, sides) rows of the border, node by node
+    under: Array  # the same, flat
     rings: Array  # (sides, sides)
     flat: Array  # the same with room for the pivots
 
@@ -49,6 +50,7 @@ def blocks_of(m: WasherModel, f: Fields) -> Blocks:
         mirrored=f.factor[3 * size : border],
         right=f.factor[border:rows],
         below=matrix(f.factor[rows:rings], n, sides),
+        under=f.factor[rows:rings],
         rings=matrix(f.factor[rings : rings + sides * sides], sides, sides),
         flat=f.factor[rings:],
     )
@@ -269,11 +271,21 @@ def solve_heat(m: WasherModel, rhs: Array, x: Array, f: Fields) -> None:
         clear(ring)
         for c in range(m.n_ring):
             ring[c] = rhs[n + c]
-        for k in range(n):
-            value = z[np.uintp(k)]
-            row = b.below[np.uintp(k)]
-            for s in range(sides):
-                ring[np.uintp(s)] -= row[np.uintp(s)] * value
+        for g in range(0, sides, N_SIDES):
+            r0, r1, r2, r3 = ring[g], ring[g + 1], ring[g + 2], ring[g + 3]
+            r4, r5, r6, r7 = ring[g + 4], ring[g + 5], ring[g + 6], ring[g + 7]
+            for k in range(n):
+                value, here = z[np.uintp(k)], np.uintp(k * sides + g)
+                r0 -= b.under[here] * value
+                r1 -= b.under[here + np.uintp(1)] * value
+                r2 -= b.under[here + np.uintp(2)] * value
+                r3 -= b.under[here + np.uintp(3)] * value
+                r4 -= b.under[here + np.uintp(4)] * value
+                r5 -= b.under[here + np.uintp(5)] * value
+                r6 -= b.under[here + np.uintp(6)] * value
+                r7 -= b.under[here + np.uintp(7)] * value
+            ring[g], ring[g + 1], ring[g + 2], ring[g + 3] = r0, r1, r2, r3
+            ring[g + 4], ring[g + 5], ring[g + 6], ring[g + 7] = r4, r5, r6, r7
         dense_substitute(b.flat, ring, sides)
         for group in range(sides // N_SIDES):
             first = group * n * N_SIDES

@@ -152,6 +152,7 @@ N_HEAD = AT_POSITIONS + 4
 # Values of branch and multiplicity, also in memory.
 ANY, FILM_BRANCH, UNSTABLE, CONTACT_BRANCH = 0.0, 1.0, 2.0, 3.0
 UNKNOWN, SINGLE, MULTIPLE = 0.0, 1.0, 2.0  # is the curve single-valued in load?
+GUESSED = 2.0  # of S_VALID: what a map says of a solution; 1: a solution, 0: nothing
 
 # The rest of `work`, ``Fields``. Its tag says what the heat factor was made for: inputs, positions,
 # parameters with the grid, conductances outwards; then temperatures.

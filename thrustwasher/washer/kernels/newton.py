@@ -75,6 +75,13 @@ def make_factor(m: WasherModel, pt: Point, q: Array, temp: Array, f: Fields, rou
         clear(f.following[c])
     for _ in range(int(rounds) if m.film_step > 0 else 1):
         refine_slopes(m, pt, q, f)
+    mark_factor(pt, q, temp, f)
+    return True
+
+
+@kernel
+def mark_factor(pt: Point, q: Array, temp: Array, f: Fields) -> None:
+    """Write what a factor that is made here belongs to."""
     f.tag[L.TAG_VALID] = 1.0
     f.tag[L.TAG_OUT], f.tag[L.TAG_OUT + 1] = f.small[L.OUT_CARRIER], f.small[L.OUT_WASHER]
     f.tag[L.TAG_OUT + 2], f.tag[L.TAG_GIVEN] = f.small[L.OUT_GEAR], f.small[L.GIVEN]
@@ -82,7 +89,6 @@ def make_factor(m: WasherModel, pt: Point, q: Array, temp: Array, f: Fields, rou
     f.tag[L.TAG_OIL] = pt.oil_temperature
     copy(q, vector(f.tag, L.TAG_POSITIONS))
     copy(temp, f.tag[L.N_TAG : L.N_TAG + temp.size])
-    return True
 
 
 @kernel

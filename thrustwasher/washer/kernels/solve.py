@@ -6,12 +6,14 @@ used if it was made at exactly these, else it is made again, so that results nev
 the work happens to hold.
 """
 
-from ...numerics.arrays import are_equal, copy
+import math
+
+from ...numerics.arrays import are_equal, clear, copy
 from ...numerics.jit import Array, inlined, kernel
 from ...numerics.status import NO_BRANCH, OK, OVER_BUDGET
 from . import layout as L
-from .branch import FILM_RATIO, descend, is_clear_film, solve_cold
-from .continuation import BUDGET, go_along
+from .branch import FILM_RATIO, TOLERANCE, descend, is_clear_film, is_cool, solve_cold
+from .continuation import BUDGET, go_along, press_gear
 from .newton import (
     EXACT,
     LOAD,
@@ -21,7 +23,9 @@ from .newton import (
     film_ratio,
     is_spent,
     make_factor,
+    mark_factor,
     newton,
+    tilt_of,
 )
 from .workspace import Point, Workspace, fields_of, forget_factor, model_of, vector
 
@@ -126,6 +130,51 @@ def scan_holds(pt: Point, state: Array) -> bool:
     )
 
 
+@kernel
+def _is_flat(w: Workspace) -> bool:
+    """Tell if the load changes so little with the film that a fold may be near."""
+    return bool(w.info[L.LOAD_SLOPE] * w.par[L.D_SIGMA1] > -FLAT * w.info[L.REACHED_LOAD])
+
+
+@inlined
+def _from_guess(w: Workspace, pt: Point, state: Array) -> bool:
+    """Solve from where ``state`` guesses that the washer is; return True if it is there.
+
+    The guess is film ratio, tilts, branch, multiplicity, and at the head of the fields the rises of
+    the oil film and of the bodies. There: on a stable part of the curve, no fold near.
+    """
+    m, f, q = model_of(w), fields_of(w), w.q
+    guess, rise = state[L.S_RATIO], state[L.S_FIELDS + 1]
+    copy(vector(state, L.S_POSITIONS), q)
+    q[L.Z_WASHER] = guess * m.sigma1 + m.outer_radius * tilt_of(q)
+    q[L.Z_GEAR] = q[L.Z_WASHER] + 3.0 * m.sigma2 + (pt.tilt - q[L.TILT_Y]) * m.outer_radius
+    for k in range(f.temp.size):
+        f.temp[k] = rise
+    if m.film_step > 0:
+        for j in range(m.n_t):
+            for i in range(m.n_r):
+                f.temp[m.film_at + j * m.film_step + i] = state[L.S_FIELDS]
+    clear(f.dtemp)
+    clear(f.p)
+    forget_factor(w)
+    press_gear(m, pt, q, f, pt.load)
+    if newton(w, pt, LOAD, pt.load, NO_FLOOR, TOLERANCE, 20.0) != OK:
+        return False
+    ratio = film_ratio(w)
+    if abs(ratio - guess) > CONTINUOUS * max(1.0, 0.2 * guess) or not w.info[L.LOAD_SLOPE] < 0.0:
+        return False
+    w.found[L.BRANCH] = L.FILM_BRANCH
+    if is_clear_film(w):
+        return bool(state[L.S_BRANCH] == L.FILM_BRANCH)
+    multiplicity = state[L.S_MULTIPLICITY]
+    if multiplicity == L.SINGLE:
+        w.found[L.BRANCH] = L.FILM_BRANCH if ratio >= FILM_RATIO else L.CONTACT_BRANCH
+    else:
+        w.found[L.BRANCH] = state[L.S_BRANCH]
+    w.found[L.MULTIPLICITY] = multiplicity
+    return not _is_flat(w)
+
+
 @inlined
 def _predict(w: Workspace, pt: Point, state: Array) -> None:
     """Move the remembered solution along the curve of solutions if the load alone has changed."""
@@ -156,9 +205,11 @@ def _warm(w: Workspace, pt: Point, wanted: float, state: Array) -> bool:
     if branch == L.FILM_BRANCH and is_clear_film(w):
         return True
     ratio = film_ratio(w)
-    if abs(ratio - state[L.S_RATIO]) > CONTINUOUS or not scan_holds(pt, state):
+    if is_cool(w, pt):
+        w.found[L.MULTIPLICITY] = L.SINGLE
+    elif abs(ratio - state[L.S_RATIO]) > CONTINUOUS or not scan_holds(pt, state):
         return False
-    if w.info[L.LOAD_SLOPE] * w.par[L.D_SIGMA1] > -FLAT * w.info[L.REACHED_LOAD]:
+    elif _is_flat(w):
         # a fold may be near: the slope is needed with a heat factor made here
         forget_factor(w)
         if newton(w, pt, LOAD, pt.load, NO_FLOOR, WARM_TOLERANCE, 12.0) != OK:
@@ -188,7 +239,14 @@ def solve(w: Workspace, pt: Point, wanted: float, state: Array) -> int:
     scanned = False
     arrived = False
     status = OK
-    if state[L.S_VALID] == 1.0:
+    if state[L.S_VALID] == L.GUESSED:
+        w.found[L.MULTIPLICITY] = L.UNKNOWN
+        w.found[L.LOST], w.found[L.REGAINED] = math.nan, math.nan
+        arrived = _from_guess(w, pt, state)
+        if arrived and wanted != L.ANY and w.found[L.BRANCH] != wanted:
+            arrived = False
+        scanned = arrived and w.found[L.MULTIPLICITY] != L.UNKNOWN
+    elif state[L.S_VALID] == 1.0:
         recall_state(w, state)
         arrived = _warm(w, pt, wanted, state)
         if not arrived:
@@ -198,7 +256,7 @@ def solve(w: Workspace, pt: Point, wanted: float, state: Array) -> int:
                 if status == NO_BRANCH:
                     status = OK
                 scanned = True
-    if not arrived and not scanned:
+    if not (arrived or scanned):
         status = solve_cold(w, pt, wanted)
         scanned = w.found[L.MULTIPLICITY] != 0.0
     w.info[L.ARRIVED] = 1.0 if arrived else 0.0
@@ -218,15 +276,23 @@ def end_of_budget(w: Workspace, status: int) -> int:
 @inlined
 def keep_solution(w: Workspace, pt: Point, state: Array) -> None:
     """Write what ``solve`` has found to ``state``."""
-    if w.info[L.ARRIVED] == 0.0:  # a factor made here makes the next, warm solve quick
+    guessed = state[L.S_VALID] == L.GUESSED
+    is_cold = w.info[L.ARRIVED] == 0.0
+    is_first = guessed or (is_cold and state[L.S_VALID] == 0.0)
+    if is_first:  # it is made, as it is remembered, if there is a second solve
+        f = fields_of(w)
+        mark_factor(pt, w.q, f.temp, f)
+    elif is_cold:  # a factor made here makes the next, warm solve quick
         factor_here(w, pt)
     remember_state(w, pt, state)
+    if is_first:
+        forget_factor(w)
     state[L.S_BRANCH], state[L.S_MULTIPLICITY] = w.found[L.BRANCH], w.found[L.MULTIPLICITY]
     state[L.S_RATIO] = film_ratio(w)
     if w.info[L.SCANNED] != 0.0:
         state[L.S_SCAN_SPEED], state[L.S_SCAN_TILT] = pt.speed, pt.tilt
         state[L.S_SCAN_OIL] = pt.oil_temperature
-    elif w.info[L.ARRIVED] == 0.0:
+    elif w.info[L.ARRIVED] == 0.0 or guessed:
         state[L.S_SCAN_TILT] = -1.0
 
 

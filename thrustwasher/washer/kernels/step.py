@@ -183,16 +183,16 @@ def slide(
         return BAD_INPUT
     is_asked = inp.size > L.I_BRANCH
     wanted = inp[L.I_BRANCH] if is_asked else L.ANY
-    pt, w = point_of(par, inp), workspace_of(par, work)
     if fidelity == L.MAP:
-        w.info[L.ITERATIONS], w.info[L.FACTORED] = 0.0, 0.0
+        pt = point_of(par, inp)
+        work[L.ITERATIONS], work[L.FACTORED] = 0.0, 0.0
         work[BY_MAP] = 1.0
         status = map_step(
             par,
             inp,
             wanted,
             state,
-            w.outputs,
+            work[L.AT_OUTPUTS : L.AT_POSITIONS],
             work[MAP_WORK:BY_MAP],
             work[TABLE_AT:],
             out,
@@ -210,6 +210,17 @@ def slide(
         work[BY_MAP] = 0.0
         if wanted == L.ANY:
             wanted = state[L.S_MAP_BRANCH]
+    return _slide_on_mesh(par, inp, state, work, out, iout, dt, share, slope, wanted)
+
+
+@kernel
+def _slide_on_mesh(
+    par: Array, inp: Array, state: Array, work: Array, out: Array, iout: Ints, dt: float,
+    share: float, slope: float, wanted: float,
+) -> int:  # fmt: skip
+    """Do as `slide` where no map answers: apart, so that a look-up has no room for fields."""
+    is_asked = inp.size > L.I_BRANCH
+    pt, w = point_of(par, inp), workspace_of(par, work)
     in_time = par[L.P_THERMAL_MODE] == L.TRANSIENT
     fresh = state[L.S_VALID] != 1.0
     f = fields_of(w)
@@ -248,7 +259,7 @@ def slide(
     if in_time and (dt > 0.0 or not fresh or par[L.P_THERMAL_START] == L.FROM_OIL):
         set_held(w, dt)
     judge(pt, out, is_distressed(w, out[L.O_MEAN] - pt.oil_temperature), status, iout)
-    if fidelity == L.MAP:
+    if par[L.P_FIDELITY] == L.MAP:
         tell_outside_map(iout)
     return status
 

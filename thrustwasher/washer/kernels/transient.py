@@ -13,7 +13,7 @@ from ...numerics.jit import Array, inlined, kernel
 from ...numerics.status import MAX_ITERATIONS, NO_BRANCH, OK
 from . import ladder
 from . import layout as L
-from .branch import DESCENT, ENTRY_RATIO, FILM_RATIO, descend, settle
+from .branch import DESCENT, ENTRY_RATIO, FILM_RATIO, descend, is_cool, settle
 from .continuation import BUDGET, enter_curve, note, recall, remember, walk_down, walk_to
 from .heat import let_out
 from .newton import FILM, LOAD, NO_FLOOR, evaluate_here, is_spent, newton, smooth_film
@@ -168,6 +168,9 @@ def look_for_folds(w: Workspace, pt: Point, state: Array) -> None:
     """
     if state[L.S_MULTIPLICITY] != 0.0 and scan_holds(pt, state):
         w.found[L.MULTIPLICITY] = state[L.S_MULTIPLICITY]
+        return
+    if is_cool(w, pt):
+        w.found[L.MULTIPLICITY] = state[L.S_MULTIPLICITY] = L.SINGLE
         return
     m, f = model_of(w), fields_of(w)
     out, branch = f.small[L.OUT_CARRIER : L.OUT_SIZE], w.found[L.BRANCH]

@@ -4,6 +4,7 @@ import math
 import os
 import threading
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -37,6 +38,8 @@ from .map_plan import INPUTS
 
 OUTPUTS = (*SPEC.real_outputs[: L.O_ENERGY], "fluid_load", "contact_load")
 PLACES = (*range(L.O_ENERGY), L.O_FLUID_LOAD, L.O_CONTACT_LOAD)  # of them
+NEARLY_FLAT = 0.03  # largest d ln(load)/d(film ratio), about 0 where folds begin
+BEYOND_FOLD = 1.05  # of the load at a fold: from there on a mesh has lost its film too
 NOTHING = (math.nan,) * L.N_ALL
 OUTSIDE = {  # outside_map -> what became of points there
     "solve": "were solved by 'field', with its accuracy and time",
@@ -170,17 +173,62 @@ class _Solver:
     def __init__(self, params: WasherParams, _maps: object) -> None:
         file = map_for(params)
         data, self.path, self.stamp = file.data, str(file.path), map_file.stamp_of(file.path)
-        work, self.state = np.zeros(N_MAP_WORK), np.zeros(L.S_FIELDS)
+        self.work, self.state = np.zeros(N_MAP_WORK), np.zeros(L.S_FIELDS)
         self.numbers, self.branch, self.tilts = np.zeros(L.N_ALL), np.zeros(2), np.zeros(2)
         self.look_up_in = data
         self.look_up = bound(
-            look_up, data=data, state=self.state, w=work, out=self.numbers, branch=self.branch
+            look_up, data=data, state=self.state, w=self.work, out=self.numbers, branch=self.branch
         )
         self.covers = bound(map_covers, data=data)
-        self.tilt = bound(map_tilts, data=data, w=work, tilts=self.tilts)
+        self.tilt = bound(map_tilts, data=data, w=self.work, tilts=self.tilts)
+        self.found = np.zeros((4, L.N_ALL + 2))
+        self.folds = bound(map_folds, data=data, w=self.work, folds=self.found)
+
+    def guess(self, point: Inputs, required: float, state: Array) -> None:
+        """Write to ``state`` where the washer is, for a solve on a mesh; not where it may err.
+
+        It may where the map ends, next to folds and next to where they begin.
+        """
+        self.state[L.S_MAP_BRANCH] = 0.0
+        if self.look_up(Point(*point), required) != Status.OK:
+            return
+        branch, several = self.branch.tolist()
+        if abs(self.work[M.STEEP]) < NEARLY_FLAT:  # nan without contact
+            return
+        self.tilt()
+        if several == 2.0 and branch == L.CONTACT_BRANCH and required == L.ANY:
+            count = int(self.folds(*point[1:4]))
+            if not count or point[0] < BEYOND_FOLD * self.found[:count:2, L.N_ALL].max():
+                return
+        numbers = self.numbers.tolist()
+        state[L.S_VALID], state[L.S_BRANCH] = L.GUESSED, branch
+        state[L.S_MULTIPLICITY] = L.MULTIPLE if several == 2.0 else L.SINGLE
+        state[L.S_RATIO] = numbers[L.O_RATIO]
+        state[L.S_POSITIONS + L.TILT_X : L.S_POSITIONS + L.TILT_Y + 1] = point[2] * self.tilts
+        state[L.S_FIELDS] = numbers[L.O_FILM_TEMPERATURE] - point[3]
+        state[L.S_FIELDS + 1] = numbers[L.O_MEAN] - point[3]
 
 
 _known = Recent(_Solver)
+
+
+def _solver_if_any(params: WasherParams, maps: object) -> _Solver | None:
+    with suppress(ParameterError):
+        return _known(params, maps)
+    return None
+
+
+_known_if_any = Recent(lambda params, maps: (_solver_if_any(params, maps),))
+
+
+def guess_by_map(params: WasherParams, point: Inputs, required: float, state: Array) -> None:
+    """Write to ``state`` where a map says that the washer is; nothing without a map.
+
+    A solve on a mesh starts there in place of from nothing, and finds out if it is right.
+    """
+    (solver,) = _known_if_any(params, map_file.state_of_maps())
+    if solver is not None and params.gear_far_face != "bulk":
+        solver.guess(point, required, state)
 
 
 def _solver(params: WasherParams) -> _Solver:

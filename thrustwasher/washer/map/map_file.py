@@ -46,8 +46,21 @@ class MapFile:
 
     def made_for(self, numbers: Sequence[float]) -> bool:
         """Tell if the map was made for these parameters, in the order of the dataclass."""
-        steady = tuple(float(x) for x in numbers[:N_STEADY])
-        return tuple(self.data[L.PARAMS :][: len(steady)].tolist()) == steady
+        return _made_for(self.data, numbers)
+
+
+def _made_for(data: Array, numbers: Sequence[float]) -> bool:
+    steady = tuple(float(x) for x in numbers[:N_STEADY])
+    return tuple(data[L.PARAMS :][: len(steady)].tolist()) == steady
+
+
+def _is_for(path: Path, numbers: Sequence[float]) -> bool:
+    """Tell if a file is a map for these parameters, by its header alone."""
+    try:
+        with zipfile.ZipFile(path) as archive, archive.open(NUMBERS) as body:
+            return _made_for(np.frombuffer(body.read(8 * L.DATA), "<f8"), numbers)
+    except (OSError, *DAMAGED):
+        return False
 
 
 def pack(data: Array, metadata: dict[str, Any]) -> bytes:
@@ -73,8 +86,8 @@ def unpack(numbers: bytes) -> Array:
     body = np.frombuffer(numbers[8 * L.DATA :], "<f4") if len(numbers) % 4 == 0 else head[:0]
     if head[L.SIZE] != L.DATA + len(body) or not expected_size(head) == head[L.SIZE]:
         raise ValueError("the map is cut off")
-    data = np.concatenate([head, body.astype(np.float64)])
-    if not np.all(np.isfinite(data)):
+    data = np.concatenate([head, body])
+    if not (np.all(np.isfinite(head)) and np.all(np.isfinite(body))):
         raise ValueError("numbers in the map are not finite")
     data.flags.writeable = False
     return data
@@ -173,7 +186,11 @@ def all_maps(shipped: bool = False) -> list[MapFile]:
 
 def find_map(numbers: Sequence[float]) -> MapFile | None:
     """Return the first map made for these parameters (numbers in the dataclass's order)."""
-    found = next((m for m in all_maps() if m.made_for(numbers)), None)
+    found = None
+    for path in map_paths():
+        if found is None and _is_for(path, numbers):
+            with suppress(ParameterError):  # damaged: `thrustwasher doctor` names it
+                found = read_map(path)
     if found and found.path.is_relative_to(own_folder()):
         with suppress(OSError):  # it was of use just now
             os.utime(found.path, ns=(time.time_ns(), found.path.stat().st_mtime_ns))

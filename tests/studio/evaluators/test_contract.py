@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
+from stopping import Stop, stopping_after
 
 from thrustwasher import (
     ParameterError,
@@ -212,10 +213,6 @@ def test_the_file_of_a_shifts_row_runs_and_gives_the_same(tmp_path):
     assert [found[n] for n in figures] == pytest.approx(values.tolist(), rel=1e-9)
 
 
-class Stop(Exception):
-    pass
-
-
 def swept(kind, **how):
     """Return a sweep of the rows of a case, each complete."""
     made, rows = CASES[kind].make(), CASES[kind].rows
@@ -244,13 +241,9 @@ def test_a_sweep_is_the_same_for_any_workers(kind):
 
 @each
 def test_a_sweep_that_was_stopped_goes_on_and_ends_the_same(kind, tmp_path):
-    def stop(done, _total):
-        if done:
-            raise Stop
-
     out = tmp_path / "rows.csv"
     with pytest.raises(Stop):
-        swept(kind, workers=1, out=out, progress=stop)
+        swept(kind, workers=1, out=out, progress=stopping_after(1))
     assert not out.exists()
     counts = []
     again = swept(kind, workers=1, out=out, progress=lambda done, _: counts.append(done))

@@ -18,7 +18,6 @@ from thrustwasher.washer.kernels.step import BUDGET_IN_TIME
 PAGE = ROOT / "docs" / "real-time.md"
 # Lengths that stand in the parameters: set once from them, no larger than the arrays behind.
 LENGTHS = r"int\(par\[L\.D_(RINGS|PLACES|MODES)\]\)"
-SIMPLE = r"[\w\s.+*/()-]*"  # of names and numbers
 
 
 def kernels(tree):

@@ -37,7 +37,6 @@ POWERS = ("bearing_power", "churning_power", "pump_power", "seal_power")
 DRY = {"input_immersion": 0.0, "output_immersion": 0.0, "drum_immersion": 0.0}
 NO_SEALS = {"input_seal_diameter": 0.0, "output_seal_diameter": 0.0, "drum_seal_diameter": 0.0}
 NO_BEARINGS = {"input_bearing_count": 0, "output_bearing_count": 0, "drum_bearing_count": 0}
-NO_PUMP = {"pump_displacement": 0.0}
 
 
 def solved(changes=None, **point):

@@ -17,11 +17,14 @@ from thrustwasher.fmu.build import build
 from thrustwasher.fmu.fmu_cache import fmu_paths, source_digest
 from thrustwasher.fmu.running.loading import prune
 from thrustwasher.fmu.shell.platform_libraries import tools
-from thrustwasher.model.registry import find_spec
+from thrustwasher.model.prepare import tables_of
+from thrustwasher.model.registry import all_specs, find_spec
 from thrustwasher.native import link
 from thrustwasher.native.link import find_linker
+from thrustwasher.washer.map.map_file import VARIABLE
 
 HOME = Path(__file__).parents[1] / ".cache" / "test-fmus"
+_made = {}
 AS_COMMANDS_DO = {"local": True}  # these lie where the commands look for them
 HEADERS = Path(str(metadata.distribution("fmpy").locate_file("fmpy"))) / "c-code"
 STRICT = "-std=c99 -Wall -Wextra -pedantic -Werror".split()
@@ -31,7 +34,22 @@ def built_fmu(model, *, target="native", fmi=2, sources=None, **options):
     """Return the path of an FMU; the arguments are those of ``build``.
 
     The folder is named by all that the FMU is made of; a lock lets other processes wait for it.
+    All that is read for the name, a process reads once: sources stay as they are while tests run.
     """
+    given = (model, target, fmi, sources, repr(options), *_surroundings())
+    if given not in _made or not _made[given].is_file():
+        _made[given] = _built_fmu(model, target, fmi, sources, options)
+    return _made[given]
+
+
+def _surroundings():
+    """Return what tests change of that which an FMU is made of: folders, maps, linkers."""
+    maps = [t.paths() for t in map(tables_of, all_specs()) if t]
+    variables = (VARIABLE, "XDG_CACHE_HOME", "SOURCE_DATE_EPOCH")
+    return *map(os.environ.get, variables), repr(maps), needed.linkable()
+
+
+def _built_fmu(model, target, fmi, sources, options):
     name = find_spec(model).name
     home = HOME / _digest(target, sources, options)
     path = home / f"{target}-fmi{fmi}" / f"{name}.fmu"

@@ -15,10 +15,19 @@ def python_toy():
     return built_fmu(TOY.key, target="python", sources=TOY_SLAVES)
 
 
+def native_toy(fmi):
+    needed.linker()
+    return built_fmu(TOY.key, fmi=fmi, sources=TOY_SLAVES, local=True)
+
+
 @pytest.fixture(scope="session")
 def fmi2_toy():
-    needed.linker()
-    return built_fmu(TOY.key, sources=TOY_SLAVES, local=True)
+    return native_toy(2)
+
+
+@pytest.fixture(scope="session")
+def fmi3_toy():
+    return native_toy(3)
 
 
 @pytest.fixture(scope="session")

@@ -18,6 +18,8 @@ points = [[0.0, 253.0], [0.42, 253.0], [0.46, 188.0], [0.79, 188.0], [0.83, 250.
 points = [[0.1, 0.0], [0.11, "40 kPa"], [0.2, "40 kPa"], [0.4, "336 kPa"], [0.79, "355 kPa"],
           [0.9, "420 kPa"], [0.97, "720 kPa"]]
 """  # profiles of the default shift that suit its nominal values, not its scatter
+KEPT = 12  # runs
+_runs = {}
 slow_without_jit = pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="minutes without JIT")
 
 
@@ -70,8 +72,18 @@ def instances(scene):
 def shift(name, *, parts=None, **options):
     """Run a scene by name; ``parts`` maps a part to changed parameters, or to None to leave it.
 
-    A ``fidelity`` among the parameters is the part's level.
+    A ``fidelity`` among the parameters is the part's level. The last runs are kept: tests of a
+    file share them.
     """
+    key = repr((name, parts, options))
+    if key not in _runs:
+        while len(_runs) >= KEPT:
+            del _runs[next(iter(_runs))]
+        _runs[key] = _run(name, parts, options)
+    return _runs[key]
+
+
+def _run(name, parts, options):
     scene = load_scene(name).with_options(**options)
     changed = dict(scene.parts)
     for part, values in (parts or {}).items():

@@ -2,17 +2,11 @@
 
 import numpy as np
 import pytest
-from browser_pages import chromium, faults, opened
+from browser_pages import faults, opened
 from test_chart import GROUP, drawn, record  # noqa: F401 (fixtures)
 
 pytestmark = pytest.mark.browser
 MARKS = "#chart-washer use[role=img]"
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with chromium() as found:
-        yield found
 
 
 @pytest.fixture

@@ -69,7 +69,7 @@ PLACES = {
     },
     "a gearbox is a shift's scene or a train": {"studio.commands.efficiency": {"train"}},
     "its page writes profiles into the transmission's parameters": {
-        "studio.explore.scene_data": {"transmission"},
+        "studio.explore.scene_data": {"transmission"}
     },
     "the fit of the clutch's friction law": {
         "studio.calibration.friction.friction_fit": {"clutch"},
@@ -83,7 +83,7 @@ PLACES = {
         "studio.calibration.engagement.traced_pack": {"clutch"},
     },
     "the folds of a washer's load curve are figures of a design": {
-        "studio.evaluators.part_curve": {"washer"},
+        "studio.evaluators.part_curve": {"washer"}
     },
     "engagements are those of a wet pack": {"studio.evaluators.engagement": {"clutch"}},
 }

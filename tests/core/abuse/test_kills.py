@@ -42,8 +42,7 @@ def contents(folder):
 
 
 @pytest.mark.parametrize(
-    ("way", "name", "left"),
-    [("whole_file", "map.twm", ["map.twm"]), ("whole_folder", ".", ["b"])],
+    ("way", "name", "left"), [("whole_file", "map.twm", ["map.twm"]), ("whole_folder", ".", ["b"])]
 )
 def test_a_dead_draft_goes_when_the_next_one_is_made_and_a_living_one_stays(
     tmp_path, way, name, left

@@ -232,10 +232,7 @@ def test_a_stopped_command_names_its_journal_and_the_command_that_goes_on(
     if there:
         journal.write_text("")
     given = SimpleNamespace(command_line="thrustwasher sweep clutch --out a.csv")
-    with (
-        pytest.raises(KeyboardInterrupt),
-        going_on(given, journal, lambda *_: None) as progress,
-    ):
+    with pytest.raises(KeyboardInterrupt), going_on(given, journal, lambda *_: None) as progress:
         progress(done, 10)
         raise KeyboardInterrupt
     told = capsys.readouterr().err

@@ -176,10 +176,7 @@ TABLE = [
     ("explore washer --out /proc/x.html", "--out /proc: cannot be written"),
     ("calibrate .", "is a folder, a file with a table is required"),
     ("calibrate mesh.csv", "not known: friction_torque (is it friction?), power"),
-    (
-        "calibrate law.csv --error friction=1",
-        "--error, --bounds, --fidelity: allowed: with PART",
-    ),
+    ("calibrate law.csv --error friction=1", "--error, --bounds, --fidelity: allowed: with PART"),
     ("calibrate gearmesh mesh.csv", "fit names nothing, allowed: real parameters of GearMesh"),
     ("calibrate gearmesh mesh.csv more.csv", "allowed: [PART] DATA.csv"),
     (f"{FIT} --error friction_torque", "--error friction_torque: allowed: NAME=VALUE"),

@@ -185,10 +185,7 @@ def test_a_number_given_that_another_one_changes_is_named_with_what_counts(chang
         (lambda: boundary_friction(np.nan, 0.5), "x = nan"),
         (lambda: boundary_friction([0.1, 0.2], [0.1, 0.2, 0.3]), r"shapes \(2,\), \(3,\)"),
         (lambda: boundary_friction("a", 1), "x = 'a', numbers are required"),
-        (
-            lambda: boundary_friction(0.1, [[1.0], [0.5, 0.2]]),
-            "shear_ratio = .*numbers are",
-        ),
+        (lambda: boundary_friction(0.1, [[1.0], [0.5, 0.2]]), "shear_ratio = .*numbers are"),
         (lambda: boundary_friction(0.1, 0.5, {}), "plough_weight = {}, numbers are required"),
         (lambda: solve_clutch(UNCOOLED, load=1e3, speed=1.0), "heat_transfer"),
     ],

@@ -49,12 +49,7 @@ def washer():
 
 def shifted(fmu, step, how):
     return simulate_fmu(
-        fmu,
-        stop_time=1.5,
-        output_interval=step,
-        start_values=UPSHIFT,
-        output=FLAGS + MOTION,
-        **how,
+        fmu, stop_time=1.5, output_interval=step, start_values=UPSHIFT, output=FLAGS + MOTION, **how
     )
 
 

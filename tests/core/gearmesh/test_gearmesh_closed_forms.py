@@ -138,7 +138,7 @@ SOME = CASES[::6]
 
 
 @pytest.mark.parametrize(("options", "power", "speed"), CASES)
-def test_geometry_load_and_film_agree(options: Any, power: float, speed: float) -> None:
+def test_geometry_load_and_film_agree(options, power, speed):
     p = paper(**options, viscosity_at="inlet")
     r = solve_gearmesh(p, power=power, speed=speed, oil_temperature=OIL)
     flanks, load, width = contact(p, power, speed)
@@ -160,7 +160,7 @@ def test_geometry_load_and_film_agree(options: Any, power: float, speed: float) 
 
 
 @pytest.mark.parametrize(("options", "power", "speed"), CASES)
-def test_friction_loss_and_temperatures_agree(options: Any, power: float, speed: float) -> None:
+def test_friction_loss_and_temperatures_agree(options, power, speed):
     p = paper(**options, viscosity_at="inlet")
     r = solve_gearmesh(p, power=power, speed=speed, oil_temperature=OIL)
     flanks, load, _ = contact(p, power, speed)
@@ -183,9 +183,7 @@ def test_friction_loss_and_temperatures_agree(options: Any, power: float, speed:
 
 
 @pytest.mark.parametrize(("options", "power", "speed"), CASES)
-def test_the_surface_temperature_solves_its_own_equation(
-    options: Any, power: float, speed: float
-) -> None:
+def test_the_surface_temperature_solves_its_own_equation(options, power, speed):
     p = paper(**options)
     r = solve_gearmesh(p, power=power, speed=speed, oil_temperature=OIL)
     flanks, load, _ = contact(p, power, speed)
@@ -197,9 +195,7 @@ def test_the_surface_temperature_solves_its_own_equation(
 
 
 @pytest.mark.parametrize(("options", "power", "speed"), CASES)
-def test_stresses_of_both_steels_follow_from_the_asperity_temperature(
-    options: Any, power: float, speed: float
-) -> None:
+def test_stresses_of_both_steels_follow_from_the_asperity_temperature(options, power, speed):
     p = paper(**options)
     r = solve_gearmesh(p, power=power, speed=speed, oil_temperature=OIL)
     steel = p.steel.lower()
@@ -217,9 +213,7 @@ def test_stresses_of_both_steels_follow_from_the_asperity_temperature(
 
 
 @pytest.mark.parametrize(("options", "power", "speed"), SOME)
-def test_the_literal_reading_is_eq_3_and_eq_12_as_printed(
-    options: Any, power: float, speed: float
-) -> None:
+def test_the_literal_reading_is_eq_3_and_eq_12_as_printed(options, power, speed):
     p = GearMeshParams.preset("literal", **{**options, "load_share": 1.0})
     r = solve_gearmesh(p, power=power, speed=speed, oil_temperature=OIL)
     heat = p.partition_share * r.friction_coefficient * 30.0
@@ -243,7 +237,7 @@ def test_the_literal_reading_is_eq_3_and_eq_12_as_printed(
 
 
 @pytest.mark.parametrize(("options", "power", "speed"), SOME)
-def test_other_laws_agree_too(options: Any, power: float, speed: float) -> None:
+def test_other_laws_agree_too(options, power, speed):
     p = paper(
         **options,
         friction_law="iso",
@@ -267,7 +261,7 @@ def test_other_laws_agree_too(options: Any, power: float, speed: float) -> None:
         assert r.area_ratio == pytest.approx(area, rel=1e-11)
 
 
-def test_refused_tooth_numbers_are_those_that_interfere() -> None:
+def test_refused_tooth_numbers_are_those_that_interfere():
     for ratio in (1.0, 1.7, 2.0, 5.0, 8.0, 20.0):
         for addendum in (0.8, 1.0, 1.2):
             phi = math.radians(20.0)

@@ -176,12 +176,7 @@ def test_the_least_film_is_that_of_all_places():
 
 
 def test_pitting_counts_where_a_pair_is_alone_whatever_the_tips():
-    pair = {
-        "gear_ratio": 38 / 18,
-        "pinion_teeth": 18,
-        "normal_module": 1.5e-3,
-        "face_width": 12e-3,
-    }
+    pair = {"gear_ratio": 38 / 18, "pinion_teeth": 18, "normal_module": 1.5e-3, "face_width": 12e-3}
     tips = {"tip_diameter_pinion": 30e-3, "tip_diameter_gear": 60e-3}
     for changes in ({}, {"profile_shift_pinion": 1e-12}, tips, {"working_centre_distance": 42e-3}):
         r = solve_gearmesh(GearMeshParams(**pair, **changes), power=5e3, speed=300.0)

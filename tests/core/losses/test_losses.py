@@ -37,7 +37,6 @@ POWERS = ("bearing_power", "churning_power", "pump_power", "seal_power")
 DRY = {"input_immersion": 0.0, "output_immersion": 0.0, "drum_immersion": 0.0}
 NO_SEALS = {"input_seal_diameter": 0.0, "output_seal_diameter": 0.0, "drum_seal_diameter": 0.0}
 NO_BEARINGS = {"input_bearing_count": 0, "output_bearing_count": 0, "drum_bearing_count": 0}
-NO_PUMP = {"pump_displacement": 0.0}
 
 
 def solved(changes=None, **point):
@@ -183,10 +182,7 @@ def test_both_switches_of_reynolds_are_continuous(speed):
     """Each set's two lines meet near Re = 4000; rounded there, by 0.6 % at most."""
     for re in (2000.0, 3900.0, 4000.0, 4100.0, 8000.0):
         slow = speed * AREA / re
-        sharp = max(
-            churned(speed, 1e-3)[0] * (slow / 1e-3) ** 0.21,
-            churned(speed, 1e-6)[0],
-        )
+        sharp = max(churned(speed, 1e-3)[0] * (slow / 1e-3) ** 0.21, churned(speed, 1e-6)[0])
         assert sharp * (1.0 - 1e-12) <= churned(speed, slow)[0] <= sharp * 1.006
 
 

@@ -8,7 +8,6 @@ import math
 
 import numpy as np
 import pytest
-from sampling import sizes
 
 from thrustwasher.errors import Status
 from thrustwasher.fmu.running.direct_instance import DirectInstance
@@ -51,15 +50,14 @@ def good_inputs(spec, rng):
     )
 
 
-@sizes(5, 25)
 @pytest.mark.parametrize(("model", "changes", "fidelity"), CASES)
 @pytest.mark.slow
-def test_what_fails_leaves_no_trace(model, changes, fidelity, n):
+def test_what_fails_leaves_no_trace(model, changes, fidelity):
     rng = np.random.default_rng(7)
     k, spec, par = made(model, changes, fidelity)
     work, out, iout = np.zeros(k.NWORK), np.zeros(k.NOUT), np.zeros(k.NIOUT, np.int32)
     failures = set()
-    for _ in range(n):
+    for _ in range(25):
         state = np.zeros(k.NSTATE)
         for _ in range(int(rng.integers(0, 4))):
             assert k.step(par, good_inputs(spec, rng), state, work, out, iout, 0.0, 1e-3) == 0

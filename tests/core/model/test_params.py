@@ -20,38 +20,39 @@ from thrustwasher.units import UNITS
 from thrustwasher.washer.parameters import BODIES, MATERIAL
 
 SPECS = [find_spec(key) for key in (*MODELS, *HELPERS)]
-FIELDS = [(spec, f) for spec in SPECS for f in fields(spec.params)]
 each_model = pytest.mark.parametrize("spec", SPECS, ids=lambda s: s.key)
-each_field = pytest.mark.parametrize(("spec", "f"), FIELDS, ids=lambda x: getattr(x, "name", x))
 
 
-@each_field
-def test_every_field_says_what_it_is(spec, f):
-    assert f.metadata["help"] and f.metadata["unit"]
-    if f.metadata["kind"] in ("real", "integer"):
-        assert f.metadata["min"] <= f.default <= f.metadata["max"]
-    elif f.metadata["kind"] == "boolean":
-        assert isinstance(f.default, bool)
-    else:
-        assert f.default in f.metadata["options"]
+@each_model
+def test_every_field_says_what_it_is(spec):
+    for f in fields(spec.params):
+        about = f.metadata
+        assert about["help"] and about["unit"], f.name
+        if about["kind"] in ("real", "integer"):
+            assert about["min"] <= f.default <= about["max"], f.name
+        elif about["kind"] == "boolean":
+            assert isinstance(f.default, bool), f.name
+        else:
+            assert f.default in about["options"], f.name
 
 
-@each_field
-def test_values_out_of_range_are_refused_by_name(spec, f):
-    about, bad = f.metadata, [math.nan, "something", None]
-    if about["kind"] in ("real", "integer"):
-        low, high = about["min"], about["max"]
-        beyond = 1e-6 + 1e-8 * (high - low)  # more than rounding
-        bad += [math.inf, -math.inf, low - abs(low) - beyond, high * 1.01 + 1e-9]
-        allowed = [f"{high:g}"] if about["kind"] == "real" else []
-    else:
-        allowed = [repr(name) for name in about.get("options", ())]
-    for value in bad:
-        with pytest.raises(ParameterError) as caught:
-            spec.params(**{f.name: value})
-        message = str(caught.value)
-        assert message.startswith(f"{f.name} = {value!r}") and "allowed" in message
-        assert all(text in message for text in allowed)
+@each_model
+def test_values_out_of_range_are_refused_by_name(spec):
+    for f in fields(spec.params):
+        about, bad = f.metadata, [math.nan, "something", None]
+        if about["kind"] in ("real", "integer"):
+            low, high = about["min"], about["max"]
+            beyond = 1e-6 + 1e-8 * (high - low)  # more than rounding
+            bad += [math.inf, -math.inf, low - abs(low) - beyond, high * 1.01 + 1e-9]
+            allowed = [f"{high:g}"] if about["kind"] == "real" else []
+        else:
+            allowed = [repr(name) for name in about.get("options", ())]
+        for value in bad:
+            with pytest.raises(ParameterError) as caught:
+                spec.params(**{f.name: value})
+            message = str(caught.value)
+            assert message.startswith(f"{f.name} = {value!r}") and "allowed" in message
+            assert all(text in message for text in allowed), message
 
 
 @each_model

@@ -228,11 +228,7 @@ def test_limits_are_written_and_read_back(tmp_path):
     assert (
         again.limits
         == pack.limits
-        == {
-            "face_pressure": 2e5,
-            "power_per_area": 5e5,
-            "energy_per_area": 1e5,
-        }
+        == {"face_pressure": 2e5, "power_per_area": 5e5, "energy_per_area": 1e5}
     )
 
 

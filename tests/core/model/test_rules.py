@@ -96,12 +96,7 @@ BROKEN = {
         {"root_limit": 1e6},
         {"root_limit": 1e8, "tool_tip_radius": 0.6},
         {"load_sharing": "elastic", "film_heat": "atan"},
-        {
-            "load_sharing": "elastic",
-            "addendum": 1.5,
-            "pinion_teeth": 200,
-            "pressure_angle": 0.25,
-        },
+        {"load_sharing": "elastic", "addendum": 1.5, "pinion_teeth": 200, "pressure_angle": 0.25},
         {"load_sharing": "elastic", "tip_relief_pinion": 1e-5},
         {"youngs_modulus_gear": 1e6},
         {"density_gear": 1.0},

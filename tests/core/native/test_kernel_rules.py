@@ -84,27 +84,28 @@ MADE_OF = {
 READS_A_TABLE = ("thrustwasher.tribology.contact_table",)
 
 
-@pytest.mark.parametrize("path", FILES, ids=name_of)
-def test_imports_are_numbers_only(path):
+def test_imports_are_numbers_only():
     """Numpy, numba and math, kernels of the same model, and those that all models share."""
-    package = name_of(path).rpartition(".")[0]
-    own = [home for home in compiled_packages() if package.startswith(home)]
-    own += [other for home in own for other in MADE_OF.get(home, ())]
-    shared = ("thrustwasher.numerics", *(["thrustwasher.tribology"] if own else []))
-    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-        if isinstance(node, ast.Import):
-            assert {a.name for a in node.names} <= {"math", "numpy", "numba"}
-        elif isinstance(node, ast.ImportFrom) and node.level:
-            found = importlib.util.resolve_name("." * node.level + (node.module or ""), package)
-            assert found.startswith((package, *own, *shared)), found
-        elif isinstance(node, ast.ImportFrom):
-            reads = ["pathlib"] if name_of(path) in READS_A_TABLE else []
-            assert node.module in ("typing", "numpy.typing", "numba", "__future__", *reads)
+    for path in FILES:
+        name, package = name_of(path), name_of(path).rpartition(".")[0]
+        own = [home for home in compiled_packages() if package.startswith(home)]
+        own += [other for home in own for other in MADE_OF.get(home, ())]
+        shared = ("thrustwasher.numerics", *(["thrustwasher.tribology"] if own else []))
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.Import):
+                assert {a.name for a in node.names} <= {"math", "numpy", "numba"}, name
+            elif isinstance(node, ast.ImportFrom) and node.level:
+                found = importlib.util.resolve_name("." * node.level + (node.module or ""), package)
+                assert found.startswith((package, *own, *shared)), (name, found)
+            elif isinstance(node, ast.ImportFrom):
+                reads = ["pathlib"] if name in READS_A_TABLE else []
+                known = ("typing", "numpy.typing", "numba", "__future__", *reads)
+                assert node.module in known, name
 
 
-@pytest.mark.parametrize("path", FILES, ids=name_of)
-def test_kernels_allocate_nothing_and_never_raise(path):
-    found = [(f.name, *hit) for f in kernels_of(path) for hit in refused(f)]
+def test_kernels_allocate_nothing_and_never_raise():
+    kernels = [(path, kernel) for path in FILES for kernel in kernels_of(path)]
+    found = [(name_of(path), k.name, *hit) for path, k in kernels for hit in refused(k)]
     assert found == []
 
 

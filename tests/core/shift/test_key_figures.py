@@ -5,10 +5,9 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from scene_runs import changed, shift, slow_without_jit
+from scene_runs import changed, real_shift, shift, slow_without_jit
 
-from thrustwasher.fmu.running.direct_instance import DirectInstance
-from thrustwasher.shift import cosimulate, load_scene
+from thrustwasher.shift import load_scene
 from thrustwasher.shift.account.shift_record import record_of
 from thrustwasher.shift.account.what_happened import headline, known_texts
 from thrustwasher.shift.key_figures.comfort import comfort_figures
@@ -197,11 +196,7 @@ def test_a_downshift_under_power_changes_speeds_first_and_its_clutch_makes_the_h
 
 @pytest.fixture(scope="module")
 def bands_found():
-    scene = load_scene("planetary")
-    parts = scene.parts.items()
-    return cosimulate(
-        scene, {n: DirectInstance(p.spec, parameters=p.parameters()) for n, p in parts}
-    )
+    return real_shift("planetary")
 
 
 @slow_without_jit

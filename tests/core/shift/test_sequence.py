@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scene_runs import instances
+from scene_runs import instances, shift
 
 from thrustwasher.errors import ParameterError
 from thrustwasher.gearmesh.parameters import absent_outputs
@@ -38,9 +38,7 @@ def run(tmp_path_factory):
 
 
 def test_the_first_shift_is_the_one_it_is_alone(run):
-    alone = load_scene("planetary")
-    alone = cosimulate(alone, instances(alone))
-    mine = run.shifts[0]
+    alone, mine = shift("planetary"), run.shifts[0]
     assert [p.name for p in mine.phases] == [p.name for p in alone.phases]
     for name in ("lock_time", "slip_energy", "filled_time"):
         assert mine.figures[name] == pytest.approx(alone.figures[name], rel=2e-3)
@@ -103,8 +101,8 @@ def test_the_first_shifts_of_the_duty_cycle_are_comfortable():
     duty = load_scene("duty-cycle")
     three = replace(duty.sequence, shifts=duty.sequence.shifts[:2])
     duty = replace(duty, sequence=three, stop_time=22.0)
-    for shift in run_sequence(duty, instances(duty)).shifts:
-        assert shift.figures["peak_jerk"] <= 20.0 and "tie_up_torque" not in shift.figures
+    for found in run_sequence(duty, instances(duty)).shifts:
+        assert found.figures["peak_jerk"] <= 20.0 and "tie_up_torque" not in found.figures
 
 
 def test_steps_are_long_between_the_shifts(run):

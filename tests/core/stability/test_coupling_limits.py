@@ -35,7 +35,7 @@ ENGINE, SLIP, FORCE, RADIUS = 150.0, 50.0, 1000.0, 0.1
 @pytest.fixture(scope="module")
 def fmus():
     made = [built_fmu(s.key, target="python", sources=SOURCES, local=True) for s in (BODY, LAW)]
-    made += [built_fmu(n, target="python", local=True) for n in ("WetClutch", "ShiftTransmission")]
+    made += [built_fmu(n, local=True) for n in ("WetClutch", "ShiftTransmission")]
     return {path.stem: path for path in made}
 
 

@@ -70,12 +70,7 @@ def test_looking_ahead_over_ten_seconds_it_says_that_it_is_too_hot():
     """With inputs that run straight the heat of a step is booked in advance, at its first power."""
     first = run(10.0, 1, loads=(PRESSED,), input_profile="linear")[0]
     pack = DirectInstance(
-        SPEC,
-        parameters={
-            "initial_film": 2.5e-4,
-            "input_profile": "linear",
-            "starts_pressed": True,
-        },
+        SPEC, parameters={"initial_film": 2.5e-4, "input_profile": "linear", "starts_pressed": True}
     )
     pack.initialize(0.0, {"load": PRESSED, "speed": SLIP, "oil_temperature": OIL})
     pack.set_inputs([PRESSED, SLIP, OIL])

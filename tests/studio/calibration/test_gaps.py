@@ -1,5 +1,7 @@
 """Recordings that lack rows or values: what goes on, what is named, what is not made up."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from rigs import OIL, PACK, history
@@ -7,8 +9,12 @@ from rigs import OIL, PACK, history
 from thrustwasher import ClutchParams, ParameterError, calibrate_traces, engage_clutch
 
 
+@cache
 def stopped(scale, inertia=0.25, steps=25):
-    """Return a recording of a wheel that a pack stops, by repeated integration of its torque."""
+    """Return a recording of a wheel that a pack stops, by repeated integration of its torque.
+
+    Tests share it: they only read it.
+    """
     way = history(601) | {"speed": np.full(601, 300.0)}
     for _ in range(steps):
         made = engage_clutch(ClutchParams(friction_scale=scale), **way, oil_temperature=OIL)

@@ -13,12 +13,7 @@ import pytest
 from rigs import OIL, PACK, TRUTH, WORN, history, recorded
 from scipy.stats import binom
 
-from thrustwasher import (
-    ClutchParams,
-    ParameterError,
-    calibrate_traces,
-    engage_clutch,
-)
+from thrustwasher import ClutchParams, ParameterError, calibrate_traces, engage_clutch
 from thrustwasher.studio.calibration.engagement import pack_history, trace_fit
 from thrustwasher.studio.calibration.engagement.pack_history import walk_pack
 from thrustwasher.studio.calibration.engagement.traced_pack import traced_pack

@@ -94,8 +94,7 @@ def test_what_fails_names_part_time_and_reason():
     backwards = {"clutch_pressure": [[0.2, 0.0], [0.1, 1e5]]}
     beyond = {"engine_torque": [[0.0, 1e5]]}
     order, speed = page_runs(
-        "planetary",
-        [{"washers": "map", "profiles": p} for p in (backwards, beyond)],
+        "planetary", [{"washers": "map", "profiles": p} for p in (backwards, beyond)]
     )
     assert order["problem"].startswith("transmission: clutch_pressure")
     assert re.match(r"\w+ at t = [\d.]+ s: ", speed["problem"])

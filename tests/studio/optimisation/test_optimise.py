@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from bowls import BUDGET, LEAST, Bowl
+from stopping import Stop, stopping_after
 
 from thrustwasher import ClutchParams, load_part, optimise
 from thrustwasher.errors import ParameterError, SolveError
@@ -237,15 +238,8 @@ def test_a_search_that_was_stopped_goes_on_with_what_it_has_tried(bowl, tmp_path
     asked = {"vary": BOX, "minimise": "bowl", "workers": 1}
     whole = optimise("bowl", **asked)
 
-    class StoppedError(Exception):
-        pass
-
-    def stop(done, _total):
-        if done > 30:
-            raise StoppedError
-
-    with pytest.raises(StoppedError):
-        optimise("bowl", out=tmp_path, progress=stop, **asked)
+    with pytest.raises(Stop):
+        optimise("bowl", out=tmp_path, progress=stopping_after(31), **asked)
     assert (tmp_path / JOURNAL).exists()
     tried, solve = [], Bowl.gradient
     monkeypatch.setattr(Bowl, "gradient", lambda *a: (tried.append(1), solve(*a))[1])

@@ -10,6 +10,7 @@ import needed
 import numpy as np
 import pytest
 from stand_ins import NORMAL, Swing, linear, never, picky
+from stopping import Stop, stopping_after
 
 from thrustwasher import ParameterError, SolveError, propagate
 from thrustwasher.errors import EnvironmentProblem
@@ -17,18 +18,6 @@ from thrustwasher.studio.scatter.design import Design, make_design
 from thrustwasher.studio.scatter.evaluation import Runs
 from thrustwasher.studio.scatter.propagate import JOURNAL, study_of
 from thrustwasher.studio.scatter.target import target_of
-
-
-class Stop(Exception):
-    pass
-
-
-def stopping_after(n):
-    def progress(done, total):
-        if done >= n:
-            raise Stop
-
-    return progress
 
 
 def result_of(target, **more):

@@ -6,6 +6,7 @@ import time
 import needed
 import numpy as np
 import pytest
+from stopping import Stop, stopping_after
 
 from thrustwasher import ParameterError, run_sweep
 from thrustwasher.storage.journal import Journal
@@ -13,18 +14,6 @@ from thrustwasher.studio.sweep import run_sweep as runs
 from thrustwasher.studio.sweep.run_sweep import journal_of
 
 OVER = {"load": "10:200:10", "speed": "50:300:50"}
-
-
-class Stop(Exception):
-    pass
-
-
-def stopping_after(n):
-    def progress(done, total):
-        if done >= n:
-            raise Stop
-
-    return progress
 
 
 def stopped(out, over=OVER, after=60):

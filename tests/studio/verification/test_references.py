@@ -143,11 +143,7 @@ def test_choose_takes_the_map_with_its_measured_error(made):
 
 @pytest.mark.parametrize(
     ("box", "points", "said"),
-    [
-        ({"load": (1, 2.1e5)}, 60, "load"),
-        ({"tilt": (0.002, 0.001)}, 60, "tilt"),
-        ({}, 3, "points"),
-    ],
+    [({"load": (1, 2.1e5)}, 60, "load"), ({"tilt": (0.002, 0.001)}, 60, "tilt"), ({}, 3, "points")],
 )
 def test_a_box_outside_the_models_range_is_refused(box, points, said):
     with pytest.raises(ParameterError, match=said):

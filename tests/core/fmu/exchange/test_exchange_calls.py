@@ -5,26 +5,20 @@ import subprocess
 import sys
 from pathlib import Path
 
-import fmpy
 import numpy as np
 import pytest
 from built import built_fmu
 from exchanged import unit
 from fmpy import read_model_description
 from fmpy.fmi1 import FMICallException
-from fmpy.validation import validate_fmu
-from lxml import etree
 
 from thrustwasher.fmu.description.interface import interface
-from thrustwasher.fmu.description.model_description import description
 from thrustwasher.model.registry import all_specs
 
 SPECS = {s.key: s for s in all_specs(helpers=True)}
 UNITS = [key for key, spec in SPECS.items() if spec.exchange]
-SCHEMAS = Path(fmpy.__file__).parent / "schema"
 each_unit = pytest.mark.parametrize("key", UNITS)
 both = pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.slow)])
-each_fmi = pytest.mark.parametrize("fmi", [2, 3])
 
 
 def at_work(key):
@@ -35,21 +29,6 @@ def at_work(key):
 def moved(u):
     """Return states away from the start by parts of their nominal values."""
     return u.x() + u.nominals() * np.linspace(0.02, 0.05, u.n)
-
-
-@each_unit
-@each_fmi
-def test_the_description_keeps_to_the_schema(key, fmi):
-    schema = etree.XMLSchema(etree.parse(SCHEMAS / f"fmi{fmi}" / f"fmi{fmi}ModelDescription.xsd"))
-    shown = interface(SPECS[key])
-    tree = etree.fromstring(description(shown, fmi=fmi, guid="0", derivatives=True, exchange=True))
-    assert schema.validate(tree), schema.error_log
-
-
-@each_unit
-@both
-def test_a_validator_finds_nothing(key, fmi):
-    assert validate_fmu(str(built_fmu(key, fmi=fmi, local=True))) == []
 
 
 @each_unit

@@ -1,5 +1,6 @@
 """Units that brake one shaft: model exchange against co-simulation; rest; what a solver needs."""
 
+from functools import cache
 from importlib.metadata import version
 from itertools import pairwise
 
@@ -59,7 +60,9 @@ each_shaft = pytest.mark.parametrize(
 )
 
 
+@cache
 def run_of(name, tolerance=1e-6, method="Radau"):
+    """Return a run, which tests share: they only read it."""
     key, shaft, parameters = SHAFTS[name]
     with unit(key) as u:
         return exchanged(u, shaft, 1.0, *HEATS[key], tolerance, method, **parameters)

@@ -2,16 +2,13 @@
 
 import shutil
 import subprocess
-import tempfile
 import zipfile
 from functools import cache
-from importlib import metadata
-from pathlib import Path
 
 import needed
 import numpy as np
 import pytest
-from built import built_fmu
+from built import HEADERS, STRICT, compiled_fmu, packed, tool, with_sources
 from lxml import etree
 
 from thrustwasher.errors import EnvironmentProblem, ParameterError
@@ -28,26 +25,12 @@ from thrustwasher.native.compiling import portable
 
 FAST = "OilSump"
 NAMES = [spec.name for spec in all_specs(helpers=True)]
-STRICT = "-std=c99 -Wall -Wextra -pedantic -Werror".split()
 SAME = 1e-12  # relative to the largest output of a unit
 STEPS = 200
 each_fmi = pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.fmi3)])
 each_model = pytest.mark.parametrize(
     "name", [FAST, *(pytest.param(n, marks=pytest.mark.slow) for n in NAMES if n != FAST)]
 )
-_folder = tempfile.TemporaryDirectory(prefix="c-sources")
-
-
-def headers() -> Path:
-    return Path(str(metadata.distribution("fmpy").locate_file("fmpy"))) / "c-code"
-
-
-def tool(name):
-    return shutil.which(name) or pytest.skip(f"{name} is missing: the Debian package {name}")
-
-
-def with_sources(name, fmi):
-    return built_fmu(name, fmi=fmi, local=True, c_sources=True)
 
 
 def unpacked(fmu, folder):
@@ -56,26 +39,12 @@ def unpacked(fmu, folder):
     return folder
 
 
-@cache
-def compiled(name, fmi, compiler, *options):
-    """Return a copy of an FMU whose library is compiled from its folder sources."""
-    fmu, folder = with_sources(name, fmi), Path(tempfile.mkdtemp(dir=_folder.name))
-    own = unpacked(fmu, folder / "unpacked")
-    (library,) = (own / "binaries").rglob("*.so")
-    files = sorted((own / "sources").glob("*.c"))
-    flags = ["-shared", "-fPIC", "-DFMI3_OVERRIDE_FUNCTION_PREFIX", f"-I{headers()}"]
-    line = [tool(compiler), "-O2", *STRICT, *options, *flags, "-o", library, *files, "-lm"]
-    done = subprocess.run(list(map(str, line)), capture_output=True, text=True)
-    assert (done.returncode, done.stderr) == (0, "")
-    return packed(own, folder / fmu.name)
-
-
 @pytest.mark.parametrize("fmi", [2, 3])
 @pytest.mark.slow
 def test_the_functions_have_their_plain_names_with_any_version_of_the_headers(fmi, tmp_path):
     """Headers before 2.0.4 put the prefix in front whatever else is said."""
     own = unpacked(with_sources(FAST, fmi), tmp_path / "unpacked")
-    for header in headers().glob(f"fmi{fmi}*.h"):
+    for header in HEADERS.glob(f"fmi{fmi}*.h"):
         text = header.read_text().replace("_OVERRIDE_FUNCTION_PREFIX", "_UNKNOWN_TO_ALL")
         (tmp_path / header.name).write_text(text)
     (library,) = (own / "binaries").rglob("*.so")
@@ -86,18 +55,11 @@ def test_the_functions_have_their_plain_names_with_any_version_of_the_headers(fm
     assert f"fmi{fmi}GetVersion" in binaries.read(library.read_bytes()).exports
 
 
-def packed(folder, fmu):
-    with zipfile.ZipFile(fmu, "w") as zipped:
-        for file in sorted(f for f in folder.rglob("*") if f.is_file()):
-            zipped.write(file, file.relative_to(folder))
-    return fmu
-
-
 @pytest.mark.slow
-def test_the_sources_of_a_model_without_maps_read_no_file():
+def test_the_sources_of_a_model_without_maps_read_no_file(tmp_path):
     """Its name, identifier, start values and ranges are compiled in; resources may be empty."""
-    fmu = compiled(FAST, 2, "gcc")
-    folder = unpacked(fmu, Path(tempfile.mkdtemp(dir=_folder.name)))
+    fmu = compiled_fmu(FAST, 2, "gcc")
+    folder = unpacked(fmu, tmp_path)
     (library,) = (folder / "binaries").rglob("*.so")
     asked = {name for name, _, home in _elf_symbols(library.read_bytes(), _DYNSYM) if not home}
     assert not asked & {"fopen", "fread", "fclose", "fgetc"}
@@ -158,7 +120,7 @@ IN_FMI_3 = [pytest.param(FAST, 3, c, marks=pytest.mark.fmi3) for c in ("gcc", "c
 @pytest.mark.parametrize(("name", "fmi", "compiler"), [*BY_COMPILER, *IN_FMI_3])
 @pytest.mark.slow
 def test_what_a_compiler_makes_of_them_steps_as_the_library_does(name, fmi, compiler):
-    fmu, own = with_sources(name, fmi), compiled(name, fmi, compiler)
+    fmu, own = with_sources(name, fmi), compiled_fmu(name, fmi, compiler)
     for level in find_spec(name).levels:
         assert distance(name, run(own, name, level), run(fmu, name, level)) < SAME, level
 
@@ -169,12 +131,12 @@ def test_options_of_the_compiler_change_no_number(options):
     if "linux64" not in needed.linkable():
         pytest.skip("the options are those of Linux on x86-64")
     (level, *_) = find_spec(FAST).fidelities
-    usual, other = (compiled(FAST, 2, "gcc", *more) for more in ((), options))
+    usual, other = (compiled_fmu(FAST, 2, "gcc", *more) for more in ((), options))
     assert distance(FAST, run(other, FAST, level), run(usual, FAST, level)) == 0.0
 
 
 def test_instances_side_by_side_do_not_see_each_other():
-    own = compiled(FAST, 2, "gcc")
+    own = compiled_fmu(FAST, 2, "gcc")
     inputs, h = points(FAST)
     with Instance(own) as alone, Instance(own) as one, Instance(own) as two:
         for model in (alone, one, two):
@@ -190,7 +152,7 @@ def test_instances_side_by_side_do_not_see_each_other():
 
 
 def test_all_names_that_a_linker_sees_are_the_models_or_the_standards():
-    own = compiled(FAST, 2, "gcc")
+    own = compiled_fmu(FAST, 2, "gcc")
     (library,) = (own.parent / "unpacked").rglob("*.so")
     shown = subprocess.run(
         [tool("nm"), "-g", "--defined-only", library], capture_output=True, text=True, check=True

@@ -1,6 +1,7 @@
 """modelDescription.xml of both FMI versions against schemas and the list it is made from; plugs."""
 
 import re
+from functools import cache
 from pathlib import Path
 
 import fmpy
@@ -28,21 +29,37 @@ each_fmi = pytest.mark.parametrize("fmi", [2, 3])
 
 
 def written(spec, fmi=2, **options):
+    """Return a description, which tests share: they only read it."""
+    return tree_of(spec.name, fmi, **options)
+
+
+@cache
+def tree_of(name, fmi, **options):
+    (spec,) = (s for s in SPECS if s.name == name)
     return etree.fromstring(description(interface(spec), fmi=fmi, guid="0", **options))
+
+
+def as_built(spec, fmi, native):
+    """Return the description of an FMU for Python, or of a native one, model exchange included."""
+    return written(spec, fmi, derivatives=native, moving=native, exchange=native)
+
+
+@cache
+def schema_of(fmi, name="ModelDescription"):
+    return etree.XMLSchema(etree.parse(SCHEMAS / f"fmi{fmi}" / f"fmi{fmi}{name}.xsd"))
 
 
 @each_spec
 @each_fmi
 @pytest.mark.parametrize("native", [False, True])
 def test_the_description_keeps_to_the_schema(spec, fmi, native):
-    schema = etree.XMLSchema(etree.parse(SCHEMAS / f"fmi{fmi}" / f"fmi{fmi}ModelDescription.xsd"))
-    tree = written(spec, fmi, derivatives=native, moving=native)
+    tree, schema = as_built(spec, fmi, native), schema_of(fmi)
     assert schema.validate(tree), schema.error_log
 
 
 @each_spec
 def test_the_terminals_keep_to_the_schema_and_name_variables(spec):
-    schema = etree.XMLSchema(etree.parse(SCHEMAS / "fmi3" / "fmi3TerminalsAndIcons.xsd"))
+    schema = schema_of(3, "TerminalsAndIcons")
     tree = etree.fromstring(terminals_and_icons(interface(spec)))
     assert schema.validate(tree), schema.error_log
     members = {e.get("variableName") for e in tree.iter("TerminalMemberVariable")}
@@ -152,8 +169,9 @@ def test_every_variable_says_the_same_in_both_versions(spec):
     for scalar, variable in zip(old, new, strict=True):
         (body,) = scalar
         assert variable.tag == types.get(body.tag, body.tag)
-        of_three = {name: variable.attrib.pop(name, "false") for name in ["intermediateUpdate"]}
-        assert dict(variable.attrib) == {**scalar.attrib, **body.attrib}
+        said = dict(variable.attrib)
+        of_three = {name: said.pop(name, "false") for name in ["intermediateUpdate"]}
+        assert said == {**scalar.attrib, **body.attrib}
         is_real_output = variable.tag == "Float64" and scalar.get("causality") == "output"
         assert of_three == {"intermediateUpdate": str(is_real_output).lower()}
 
@@ -215,7 +233,7 @@ DERIVATIVES = {
 @each_fmi
 @pytest.mark.parametrize("native", [False, True])
 def test_the_flags_are_these(spec, fmi, native):
-    tree = written(spec, fmi, derivatives=native, moving=native)
+    tree = as_built(spec, fmi, native)
     flags = dict(tree.find("CoSimulation").attrib)
     assert flags.pop("modelIdentifier") == spec.name
     assert flags.pop("maxOutputDerivativeOrder") == "0"
@@ -356,8 +374,7 @@ def test_only_levels_that_there_are_stand_in_the_list(spec, fmi):
 @each_spec
 @each_fmi
 def test_plain_outputs_are_real_and_the_others_local(spec, fmi):
-    schema = etree.XMLSchema(etree.parse(SCHEMAS / f"fmi{fmi}" / f"fmi{fmi}ModelDescription.xsd"))
-    tree, shown = written(spec, fmi, plain=True), interface(spec)
+    schema, tree, shown = schema_of(fmi), written(spec, fmi, plain=True), interface(spec)
     assert schema.validate(tree), schema.error_log
     found = {e.get("name"): e.get("causality") for e in tree.find("ModelVariables")}
     types = {e[0].tag if fmi == 2 else e.tag for e in tree.find("ModelVariables")}

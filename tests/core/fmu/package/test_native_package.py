@@ -61,9 +61,11 @@ def whole(request, tmp_path_factory):
         return request.param, {n: zipped.read(n) for n in zipped.namelist()}
 
 
-@pytest.mark.parametrize("name", NAMES)
-@each_fmi
-@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "fmi"),
+    [(SMALL, 2), *(pytest.param(n, 2, marks=pytest.mark.slow) for n in NAMES if n != SMALL)]
+    + [pytest.param(n, 3, marks=pytest.mark.slow) for n in NAMES],
+)
 def test_fmpys_check_finds_nothing(name, fmi):
     assert validate(packed(name, fmi)) == []
 

@@ -186,10 +186,7 @@ def test_a_pack_too_weak_for_its_gear_is_told_first_and_the_advice_cures_it(
 
 def test_washers_without_a_tilting_couple_are_told():
     one = np.ones(3)
-    signals = {
-        "transmission.washer_load": one,
-        "transmission.washer_heat": 6.3 * one,
-    }
+    signals = {"transmission.washer_load": one, "transmission.washer_heat": 6.3 * one}
     [line] = by_rules(signals, washers=[{}])
     assert "1 N" in line and "6.3 J" in line
     assert not by_rules(signals | {"transmission.washer_load": 2.0 * one}, washers=[{}])

@@ -7,11 +7,7 @@ import pytest
 from scene_runs import instances, shift, slow_without_jit
 
 from thrustwasher.shift import cosimulate, load_scene
-from thrustwasher.shift.checks.step_error import (
-    errors_between,
-    parts_of_a_step,
-    step_error,
-)
+from thrustwasher.shift.checks.step_error import errors_between, parts_of_a_step, step_error
 from thrustwasher.shift.checks.step_estimate import StepError, excess
 from thrustwasher.shift.scene.scene import MAX_STEPS
 

@@ -1,6 +1,9 @@
 """A shift as an SSP package: valid, complete, and the same run under another master."""
 
+import io
 import re
+import zipfile
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -36,6 +39,12 @@ def packed(system):
     return zipped(files(system, tool="thrustwasher", date="2026-01-01T00:00:00Z"))
 
 
+@cache
+def package_of(name):
+    return packed(planned(name))
+
+
+@cache
 def schema(name):
     import fmpy.ssp
     from lxml import etree
@@ -48,8 +57,8 @@ def schema(name):
 def test_the_description_is_valid(name, file):
     from lxml import etree
 
-    made = files(planned(name), tool="thrustwasher", date="2026-01-01T00:00:00Z")
-    root = etree.fromstring(made[file])
+    with zipfile.ZipFile(io.BytesIO(package_of(name))) as zipped_files:
+        root = etree.fromstring(zipped_files.read(file))
     whole, inline = (schema(f"SystemStructure{n}.xsd") for n in ("Description", "ParameterValues"))
     assert whole.validate(root), whole.error_log
     sets = root.findall(".//ssv:ParameterSet", NS)
@@ -82,7 +91,7 @@ def undefined_units(root):
 @pytest.mark.parametrize("name", SCENES)
 @pytest.mark.parametrize("file", FILES)
 def test_every_set_of_values_defines_the_units_it_refers_to(name, file):
-    root = description(packed(planned(name)), file)
+    root = description(package_of(name), file)
     assert undefined_units(root) == []
     for found in root.iter(f"{{{NS['ssv']}}}ParameterSet"):
         found.remove(found.find("ssv:Units", NS))
@@ -91,7 +100,7 @@ def test_every_set_of_values_defines_the_units_it_refers_to(name, file):
 
 @pytest.mark.parametrize("file", FILES)
 def test_masters_find_the_step_in_the_notes_they_look_in(file):
-    root = description(packed(planned("planetary-sun")), file)
+    root = description(package_of("planetary-sun"), file)
     notes = {a.get("type"): a for a in root.iter(f"{{{NS['ssc']}}}Annotation")}
     places = {
         "org.openmodelica": ("FixedStepMaster", "stepSize"),
@@ -107,7 +116,7 @@ def test_masters_find_the_step_in_the_notes_they_look_in(file):
 @pytest.mark.parametrize("name", SCENES)
 def test_every_parameter_of_the_scene_that_is_used_stands_in_the_package(name):
     scene = prepared(load_scene(name))
-    found = bound(description(packed(planned(name))))
+    found = bound(description(package_of(name)))
     assert set(found) == {"command", *scene.parts}
     for part, given in scene.parts.items():
         told = found[part]
@@ -123,7 +132,7 @@ def test_every_parameter_of_the_scene_that_is_used_stands_in_the_package(name):
 
 def test_a_package_has_no_bindings_of_what_points_and_switches_overrule():
     """Six points of engine torque, pressure of pistons, a rigid shaft: see the scene's file."""
-    told = bound(description(packed(planned("planetary"))))["transmission"]
+    told = bound(description(package_of("planetary")))["transmission"]
     assert told["engine_torque_points"] == 6 and "engine_torque_6" in told
     idle = {"engine_torque", "engine_torque_7", "clutch_force", "brake_force", "vehicle_inertia"}
     assert not idle & told.keys()
@@ -176,7 +185,7 @@ def test_a_plain_package_has_connectors_of_real_numbers_and_no_booleans(file):
 @pytest.mark.parametrize("name", SCENES)
 @pytest.mark.parametrize("file", FILES)
 def test_connections_join_connectors_of_one_kind_and_unit(name, file):
-    root = description(packed(planned(name)), file)
+    root = description(package_of(name), file)
     system = root.find("ssd:System", NS)
     places = {None: system, **components(root)}
     found = {

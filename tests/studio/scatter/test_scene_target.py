@@ -24,8 +24,8 @@ LONG = 5e-3  # s, a step that keeps full runs short
 def target():
     """Return the default scene with long steps, compared with a few full runs only."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(module, "FULL_RUNS", 4)
-        patch.setattr(scene_shortcut, "FULL_RUNS", 4)
+        patch.setattr(module, "FULL_RUNS", 2)
+        patch.setattr(scene_shortcut, "FULL_RUNS", 2)
         scene = load_scene("planetary").with_options(step=LONG)
         yield target_of(scene_evaluator(scene), scene_scatter(scene))
 
@@ -67,7 +67,7 @@ def test_its_figures_are_those_of_full_runs(target, rows):
 
 def test_the_error_of_the_shortcut_is_said(target):
     assert 0.0 < max(target.evaluator.shortcut.values()) < module.SHARE
-    assert "compared with 4 full runs this errs by at most" in target.notes[0]
+    assert "compared with 2 full runs this errs by at most" in target.notes[0]
     assert target.warnings == ()
 
 

@@ -57,7 +57,8 @@ def _levels(values: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the values of an input that its own noise does not tell apart."""
     ordered = np.unique(values)
     new = np.diff(ordered, prepend=-np.inf) > SAME * np.abs(ordered).max()
-    return ordered[new]
+    found: NDArray[np.float64] = ordered[new]
+    return found
 
 
 def _groups(series: Any, apart: Inputs) -> list[tuple[str, NDArray[np.bool_]]]:

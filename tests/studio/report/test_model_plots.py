@@ -120,10 +120,27 @@ def test_every_panel_of_a_fit_names_what_it_is_over():
     slip = np.linspace(2.0, 160.0, 30)
     columns = {"speed": slip, "load": slip * 0 + 1e3, "friction": 0.1 + 0.02 * np.exp(-slip / 20.0)}
     axes = calibration_figure(calibrate(ClutchParams(), **columns)).axes
-    assert [axis.get_xlabel() for axis in axes] == ["slip speed [m/s]", "slip speed [m/s]", ""]
+    assert [axis.get_xlabel() for axis in axes] == ["slip speed [m/s]", "slip speed [m/s]"]
     columns["load"] = np.linspace(1e3, 5e3, 30)
     axes = calibration_figure(calibrate(ClutchParams(), **columns)).axes
     assert axes[2].get_xlabel() == "load [N]" and axes[0].get_legend() is not None
+
+
+def test_loads_are_told_apart_and_take_no_panel_of_their_own():
+    """Each load, which the rig holds within a percent, has its points and its fitted curve."""
+    slip = np.tile(np.geomspace(0.3, 20.0, 8), 2)
+    load = np.repeat([1500.0, 3000.0], 8) * (1.0 + 0.002 * np.cos(np.arange(16.0)))
+    torque = [
+        solve_clutch(ClutchParams(), load=n, speed=w).friction_torque
+        for n, w in zip(load, slip, strict=True)
+    ]
+    data = {"load": load, "speed": slip, "friction_torque": torque}
+    found = calibrate("clutch", data, fit=["friction_scale"])
+    left, residuals = calibration_figure(found).axes
+    assert left.get_legend_handles_labels()[1] == ["1.5 kN", "3 kN"]
+    curves = [line for line in left.lines if line.get_linestyle() == "-"]
+    assert [len(line.get_xdata()) for line in curves] == [8, 8]
+    assert "speed" in residuals.get_xlabel()
 
 
 def test_branches_of_the_curve_differ_in_more_than_colour():

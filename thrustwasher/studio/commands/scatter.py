@@ -203,7 +203,7 @@ def say(result: "ScatterResult", folder: Path | None) -> None:
     spread = ("deviation", "by gradient")
     heads = ("figure", "nominal", "5 %", "50 %", "95 %", *spread, "outside", DECIDED)
     first = [name for name in LEADING if name in result.figures and result.model == "train"]
-    rows = [heads]
+    rows: list[tuple[str, ...]] = [heads]
     for name in dict.fromkeys((*first, *result.figures)):
         band = result.figures[name]
         rows.append(_lost_row(band) if first and name == "efficiency" else _row(name, band))

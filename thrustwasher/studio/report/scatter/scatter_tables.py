@@ -62,7 +62,7 @@ def confidence_table(result: Study) -> Table:
         rows.append((title, *cells, scale.number(band.mean), spread))
     heads = ("", *LEVELS.values(), "mean", "standard deviation")
     title = f"95 % confidence of the quantiles; {NONE}: these runs give no bound"
-    return Table(heads, rows, numbers=(1, 2, 3, 4, 5), title=title, folded=True)
+    return Table(heads, rows, numbers=(1, 2, 3, 4, 5), title=title, folded=True, stays=True)
 
 
 def probability_table(result: Study) -> Table:
@@ -218,7 +218,9 @@ def nearest_tables(result: Study, names: Sequence[str], files: Files) -> list[Ta
         ]
         heads = ("", "nominal", *(f"nearest to {words}" for words in LEVELS.values()))
         title = f"{title_of(name, band)}: {band_words(band)}"
-        tables.append(Table(heads, rows, numbers=(1, 2, 3, 4), title=title, folded=True))
+        tables.append(
+            Table(heads, rows, numbers=(1, 2, 3, 4), title=title, folded=True, stays=True)
+        )
     return tables
 
 

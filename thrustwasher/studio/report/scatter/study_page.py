@@ -231,7 +231,7 @@ def _figure_section(result: Study, names: Sequence[str]) -> Section:
     shown = [tables.figure_table(result, names), *chance]
     if len(names) < len(result.figures):
         title = f"All {len(result.figures)} figures"
-        shown.append(replace(tables.figure_table(result), title=title, folded=True))
+        shown.append(replace(tables.figure_table(result), title=title, folded=True, stays=True))
     shown.append(tables.confidence_table(result))
     title = "Figures and their bands"
     return Section("figures", title, texts=steady_texts(result), tables=shown)
@@ -262,7 +262,7 @@ def decided_sections(result: Study, names: Sequence[str]) -> list[Section]:
     whole = tables.matrix_table(result, list(result.figures))
     if matrix and whole and len(matrix.rows) < len(whole.rows):
         title = f"Total indices of all {len(whole.rows)} figures"
-        shown.append(replace(whole, title=title, folded=True))
+        shown.append(replace(whole, title=title, folded=True, stays=True))
     return [Section("decides", "Dominant inputs", texts=texts, plots=tiles, tables=shown)]
 
 

@@ -4,8 +4,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "thrustwasher"
-FOLDERS = ("numerics", "tribology", "tribology/holding", "*/kernels", "*/kernels/map")
-FOLDERS += ("*/kernels/whole_curve",)
+FOLDERS = ("numerics", "tribology", "tribology/holding", "*/kernels", "*/kernels/*")
 
 
 def kernel_files():

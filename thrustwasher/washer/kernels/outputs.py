@@ -353,7 +353,7 @@ def fill_fields(par: Array, inp: Array, work: Array, rows: Array) -> None:
             k = j * m.n_r + i
             carrier = f.temp[m.carrier_at + j * m.carrier_step + i]
             washer = f.temp[m.washer_at + j * m.washer_step + i]
-            oil, gear = 0.5 * (carrier + washer), np.nan
+            oil, gear = 0.5 * (carrier + washer), math.nan
             if m.film_step > 0:
                 oil = f.temp[m.film_at + j * m.film_step + i]
             if i >= m.i_g:

@@ -53,7 +53,7 @@ from .plant import (
     learn,
     was_rougher,
 )
-from .reversals import calm, chatters, count_repeats, watch
+from .reversals import ROW, calm, chatters, count_repeats, watch
 from .sampling import held_over
 from .work import book
 
@@ -70,11 +70,14 @@ EARLY = 5.0  # steps of slip in which the pack's own torque hardly changes it
 FEELS = 12.0  # steps of slip after which it is stuck no more
 TURNS = 1.2  # times the mean change of the slip: by more a shaft that was at rest changes none
 EASILY = 1.9  # times the torque that is to be held: with that a pack that was stuck ends its slip
-VAGUE, BADLY = 0.03, 0.15  # relative error of the inertia: above it the slip is ended in part
+VAGUE = 0.1  # relative error of the inertia, times 1 + age: above it the slip is ended in part
+BADLY = 0.15  # relative error above which it is so in a smaller part
 STEADY, CAREFUL, SLOWEST = 1.0, 0.5, 0.3  # share of the slip that is ended in a step
-LOUD, LOUDER = 0.03, 0.1  # torque by noise over capacity: above it the same
+LOUD = 0.05  # torque by noise over capacity, times 1 + age: above it the same
+LOUDER = 0.1  # of the capacity: above it the slip is ended in the smaller part
 REACH = 4.0  # steps of the last kind in which a slip that is to be ended must be gone
 STRANGE = 0.05  # of the slip that capacity makes in a step: what outside torques may leave
+SWINGS = 0.3  # of the capacity: a change of outside torques in a step that may leave its slip
 LARGE = 0.05  # of the largest slip: more is not held
 ANSWERS, SAID = 4.0, 34.0  # steps after the last question: an answer may come, it is told
 EXACT = 1e-6  # third difference of the slip over its change in a step: speeds are exact
@@ -249,13 +252,12 @@ def gain_of(coupling: Coupling, mem: Array, made: float) -> float:
 
     ``made``: slip that the capacity makes in a step [rad/s].
     """
-    gain = STEADY
-    if not is_given(coupling, mem) and mem[M.ERROR] > VAGUE:
+    late, loud, gain = 1.0 + age_of(coupling, mem), 2.3 * mem[M.NOISE], STEADY
+    if not is_given(coupling, mem) and late * mem[M.ERROR] > VAGUE:
         gain = CAREFUL if mem[M.ERROR] <= BADLY else SLOWEST
-    loud = 2.3 * mem[M.NOISE] / max(made, 1e-300)
-    if mem[M.CAREFUL] > 0.0 or loud > LOUDER:
+    if mem[M.CAREFUL] > 0.0 or loud > LOUDER * made:
         return min(gain, SLOWEST)
-    return min(gain, CAREFUL) if loud > LOUD else gain
+    return min(gain, CAREFUL) if late * loud > LOUD * made else gain
 
 
 @kernel
@@ -320,20 +322,38 @@ def expected(coupling: Coupling, mem: Array, slip: float, h: float) -> float:
 
 
 @kernel
+def _largest_change(mem: Array) -> float:
+    """Return the largest change of the torque from step to step, of the last five [N m]."""
+    newer = max(abs(mem[M.TORQUE] - mem[M.TORQUE + 1]), abs(mem[M.TORQUE + 1] - mem[M.TORQUE + 2]))
+    older = abs(mem[M.TORQUE + 2] - mem[M.TORQUE + 3])
+    return max(newer, max(older, abs(mem[M.TORQUE + 3] - mem[M.TORQUE + 4])))
+
+
+@kernel
 def _verify(coupling: Coupling, mem: Array, slip: float, made: float) -> None:
-    """Doubt what is known while the slip of a pack that holds is not small."""
+    """Doubt what is known while the slip of a pack that holds is not small.
+
+    Outside torques that swing leave a slip, and the pack's own torque swings with them: such a slip
+    is told, and refutes nothing.
+    """
     age = age_of(coupling, mem)
     if not mem[M.HELD] > 3.0 + age:
         return
     slid = max(
         mem[M.MOST_SLIP], 4.0 * (1.0 + age) * made
     )  # a pack may have been stuck from the start
-    most = min(STRANGE * (1.0 + age) * (2.0 + age) * made, LARGE * slid)
-    if abs(slip) > most + 4.0 * mem[M.NOISE]:
-        mem[M.DOUBT] += 1.0
-    else:
+    steps, enough = 0.5 * (1.0 + age) * (2.0 + age), 6.0 + 2.0 * age
+    most, beyond = LARGE * slid, abs(slip) - 4.0 * mem[M.NOISE]
+    if beyond <= min(2.0 * STRANGE * steps * made, most):
         mem[M.DOUBT] = max(0.0, mem[M.DOUBT] - 0.5)
-    if mem[M.DOUBT] > 6.0 + 2.0 * age:
+        return
+    change = min(SWINGS * mem[M.CAPACITY], _largest_change(mem))
+    mem[M.DOUBT] += 1.0
+    if beyond * mem[M.CAPACITY] <= steps * made * change and beyond <= most:
+        if mem[M.DOUBT] > enough - 2.0:
+            mem[M.DOUBT] = enough - 2.0
+            mem[M.CHATTER] = mem[M.COUNT] + ROW
+    elif mem[M.DOUBT] > enough:
         refuse(coupling, mem)
 
 

@@ -1,5 +1,8 @@
 """A pack holds in drivelines that it is not told of; the drivelines know nothing of its code."""
 
+import math
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from drivelines import KnownPlant, exact, long_hold, outside_steps, released, run, two_inertias
@@ -84,6 +87,28 @@ def test_a_swinging_engine_is_followed_to_the_change_of_its_torque_over_a_step(c
         bound = (1 + 2 * case.delay) * case.host**2 * case.max_outside_rate
         bounds.append(max_late_slip(made, found.sampled) * made.first / bound)
     assert max(bounds) < 1.6
+
+
+def rippled(seed):
+    """Two inertias whose outside torque swings by 0.2 times the capacity in 8 to 30 steps."""
+    case, rng = two_inertias(seed, "constant", tail=200), np.random.default_rng([seed, 4])
+    period = case.host * math.exp(rng.uniform(math.log(8.0), math.log(30.0)))
+    swing = 0.2 * case.profile.top * case.inertia1 / case.inertia
+    return replace(case, swing=swing, rate=2.0 * math.pi / period)
+
+
+@several()
+def test_a_fast_ripple_is_held_as_by_a_unit_that_knows_the_driveline(cases):
+    """It does not refute the driveline; of slip it leaves at most twice what steps leave."""
+    good = []
+    for seed in range(cases):
+        case = rippled(seed)
+        made = run(case, Unit(case))
+        known = run(case, KnownPlant(case.inertia, case.delay, case.gain))
+        if known.locked[-60:].all():
+            slip, least = (np.abs(one.slip[-60:]).max() for one in (made, known))
+            good.append(slip <= 2.0 * least)
+    assert len(good) > 0.7 * cases and share(good) >= 0.9
 
 
 @several(30)

@@ -8,7 +8,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-__version__ = "0.24.0"
+__version__ = "0.25.0"
 
 if TYPE_CHECKING:
     from .clutch.engagement import Engagement, engage_clutch

@@ -92,7 +92,7 @@ def test_a_slip_that_is_held_too_long_for_what_was_given_is_said_with_what_was_e
     plant = held(1)
 
     def slip_of(n, torque):
-        return plant(n, torque) if n < 250 else 0.4 * np.sin(0.2 * (n - 250))
+        return plant(n, torque) if n < 250 else 2.0 * np.sin(0.2 * (n - 250))
 
     told = [text for text in warned(slip_of, TOLD) if "REFUTED" in text]
     found = re.search(r"the slip is (\S+) rad/s where at most (\S+) rad/s were expected", told[0])

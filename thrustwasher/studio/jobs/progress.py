@@ -1,6 +1,7 @@
 """What shows the progress of a call: a function of the caller's, or a line on the terminal."""
 
 import sys
+from typing import Any
 
 from ...cli.common._progress import time_left
 from ...errors import ParameterError
@@ -26,7 +27,7 @@ def shown(progress: bool | Progress | None, label: str) -> Progress | None:
         from tqdm.auto import tqdm
     except ImportError:
         return time_left(f"{label}:") if sys.stderr.isatty() else None
-    bars = []
+    bars: list[Any] = []
 
     def show(done: int, total: int) -> None:
         if not bars:  # what was done before does not count for the pace

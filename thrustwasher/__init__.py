@@ -6,9 +6,11 @@
 0.258
 """
 
+import logging
 from typing import TYPE_CHECKING, Any
 
 __version__ = "0.25.0"
+logging.getLogger(__name__).addHandler(logging.NullHandler())
 
 if TYPE_CHECKING:
     from .clutch.engagement import Engagement, engage_clutch
@@ -132,8 +134,13 @@ def __getattr__(name: str) -> Any:
     if name not in _HOME_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from importlib import import_module
+    from types import FunctionType
 
     value = getattr(import_module(f".{_HOME_OF[name]}", __name__), name)
+    if isinstance(value, FunctionType):
+        from .logs import warning
+
+        value = warning(value, __name__)
     globals()[name] = value
     return value
 

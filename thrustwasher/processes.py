@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from .errors import EnvironmentProblem
+from .logs import Carrying, keep_from, unloaded, wanted_level
 
 # What a terminal sends to all processes of a command: Ctrl-C, and its end where there is one.
 FOR_PARENTS = {signal.SIGINT, getattr(signal, "SIGHUP", signal.SIGINT)}
@@ -35,10 +36,16 @@ def refuse_import_by_worker() -> None:
 
 @contextmanager
 def local_processes(n: int) -> Iterator[Executor]:
-    """Give ``n`` fresh processes; whatever happens they are gone at the end."""
+    """Give ``n`` fresh processes; whatever happens they are gone at the end.
+
+    What they log comes back by ``logs.Carrying`` and ``logs.unloaded``.
+    """
     refuse_import_by_worker()
     executor = ProcessPoolExecutor(
-        n, mp_context=multiprocessing.get_context("spawn"), initializer=_settle_in
+        n,
+        mp_context=multiprocessing.get_context("spawn"),
+        initializer=_settle_in,
+        initargs=(wanted_level(),),
     )
     try:
         with _interrupts_held():
@@ -64,7 +71,9 @@ def runner(n: int) -> Iterator[Run]:
         return
     try:
         with local_processes(n) as pool:
-            yield lambda job, tasks, chunksize: pool.map(job, tasks, chunksize=chunksize)
+            yield lambda job, tasks, chunksize: map(
+                unloaded, pool.map(Carrying(job), tasks, chunksize=chunksize)
+            )
     except BrokenProcessPool:
         raise EnvironmentProblem(
             "a worker process has ended before its work was done (too little memory?); what is "
@@ -85,8 +94,12 @@ def _interrupts_held() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _settle_in() -> None:
-    """Prepare a worker: to stop is the parent's business, and without a parent there is no work."""
+def _settle_in(level: int) -> None:
+    """Prepare a worker: to stop is the parent's business, and without a parent there is no work.
+
+    So is what it logs, from ``level`` on.
+    """
+    keep_from(level)
     for number in FOR_PARENTS:
         signal.signal(number, signal.SIG_IGN)
     parent = multiprocessing.parent_process()

@@ -137,16 +137,21 @@ class Tabled(Shown):
         ------
         EnvironmentProblem : there is no pandas; the message says how to get it
         """
-        try:
-            from pandas import DataFrame
-        except ImportError:
-            raise EnvironmentProblem(
-                f"{type(self).__name__}.to_pandas needs the package pandas: pip install pandas"
-            ) from None
         columns, words = self._columns(), self._words()
-        frame = DataFrame(dict(columns))
+        frame = pandas_for(self).DataFrame(dict(columns))
         frame.attrs["units"] = {name: words[name].unit for name in columns if name in words}
         return frame
+
+
+def pandas_for(result: object) -> Any:
+    """Return pandas; EnvironmentProblem: there is none, with how to get it."""
+    try:
+        import pandas
+    except ImportError:
+        raise EnvironmentProblem(
+            f"{type(result).__name__}.to_pandas needs the package pandas: pip install pandas"
+        ) from None
+    return pandas
 
 
 def public_names(result: Any) -> list[str]:

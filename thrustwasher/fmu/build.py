@@ -1,5 +1,6 @@
 """From a model's list, binaries and documents to an FMU file."""
 
+import logging
 import os
 from collections.abc import Mapping, Sequence
 from importlib import metadata
@@ -104,6 +105,7 @@ def build(
             files |= _icons(shown, folder, 3)
         path = Path(out) / f"{target}-fmi{fmi}" / f"{spec.name}.fmu"
         write(path, zipped(files, first=DESCRIPTION))
+        logging.getLogger(__name__).info("built %s", path)
         paths.append(path)
     return paths
 

@@ -2,14 +2,13 @@
 
 import hashlib
 import os
-import sys
 import time
 from collections.abc import Iterable
 from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
 
-from ..native.files import code_folder, keep_sum, kept, stamp
+from ..native.files import code_folder, keep_sum, kept, stamp, to_stderr
 
 KEPT = 3  # versions
 STUDIO = "studio"  # nothing of it goes into an FMU
@@ -34,7 +33,7 @@ def fmu_paths(models: Iterable[str], target: str) -> dict[str, Path]:
             keep_sum(paths[model], paths[model].read_bytes())
         took = f"{time.perf_counter() - began:.0f} s"
         again = f", {', '.join(damaged)} again: not as it was built in {folder}" if damaged else ""
-        print(f"built {', '.join(missing)} in {took}{again}", file=sys.stderr)
+        to_stderr(f"built {', '.join(missing)} in {took}{again}")
         prune(folder.parent, KEPT)
     with suppress(OSError):
         os.utime(folder)

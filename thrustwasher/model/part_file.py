@@ -32,6 +32,7 @@ from typing import Any, TypeVar
 
 from ..errors import ParameterError, Suggesting, within
 from ..face_load import LIMITED, over_limits
+from ..logs import warn
 from ..units import exact_quantity, format_quantity
 from .levels import level_named
 from .oil import Oil, oil_doubts, refuse_two_ways, sheet_oil
@@ -212,7 +213,9 @@ class PartFile:
         more = {name: value for name, value in inputs.items() if name not in known}
         result = model.solve(self.params, **point.values, **{"fidelity": self.fidelity, **more})
         over = self.over_limits(result)
-        return replace(result, warnings=(*point.warnings, *over, *result.warnings))
+        found = replace(result, warnings=(*point.warnings, *over, *result.warnings))
+        warn(found, __name__)
+        return found
 
     def over_limits(self, result: Any) -> list[str]:
         """Return a line for each limit of its faces that a result passes, at its worst moment."""

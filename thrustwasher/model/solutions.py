@@ -8,7 +8,18 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 
 from ..errors import Status
 from ..face_load import LIMITED
-from ..shown import Card, Line, Shown, Tabled, Words, column_lines, plain, public_names, text_of
+from ..shown import (
+    Card,
+    Line,
+    Shown,
+    Tabled,
+    Words,
+    column_lines,
+    pandas_for,
+    plain,
+    public_names,
+    text_of,
+)
 from .point import Point
 from .record import Model
 from .registry import find_model
@@ -28,10 +39,38 @@ class AtPoint(Shown):
 
     __slots__ = ()
     warnings: tuple[str, ...]
+    status: Status
 
     def request(self) -> Asked:
         """Return model, parameters and point that it is the solution of."""
         raise NotImplementedError(type(self).__name__)
+
+    def to_pandas(self) -> Any:
+        """Return inputs and results that are numbers as a ``pandas.Series``, NaN where none is.
+
+        Units [SI] are in ``attrs["units"]``, the status by name in ``attrs["status"]``.
+
+        Raises
+        ------
+        EnvironmentProblem : there is no pandas; the message says how to get it
+        """
+        pandas = pandas_for(self)
+        key, _, point = self.request()
+        model = find_model(key)
+        words = words_at_points(model)
+        given = {name: point.get(name) for name in (s.name for s in model.inputs())}
+        found = {**given, **scalars(self)}
+        numbers = {
+            name: math.nan if value is None else float(value)
+            for name, value in found.items()
+            if name in words and (value is None or _is_number(value))
+        }
+        series = pandas.Series(numbers, name=key, dtype=float)
+        series.attrs = {
+            "units": {name: words[name].unit for name in numbers},
+            "status": self.status.name,
+        }
+        return series
 
     def _card(self) -> Card:
         key, params, point = self.request()
@@ -138,6 +177,10 @@ def scalars(result: object) -> dict[str, Any]:
     """Return what of ``to_dict()`` is no array, no parameters, and nothing else that is large."""
     shown = ((name, getattr(result, name)) for name in public_names(result))
     return {name: plain(value) for name, value in shown if _is_small(value)}
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def _is_small(value: object) -> bool:

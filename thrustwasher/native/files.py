@@ -8,6 +8,7 @@ one of this process, and that is said.
 import atexit
 import hashlib
 import io
+import logging
 import mmap
 import os
 import shutil
@@ -24,6 +25,7 @@ from functools import cache
 from pathlib import Path
 
 from ..errors import EnvironmentProblem, naming
+from ..logs import is_heard
 from .drafts import draft_in, flush
 from .ownership import doubt_of
 
@@ -39,8 +41,15 @@ SUM = ".sha256"  # ends the name of the file that holds another one's checksum
 
 
 def to_stderr(message: str) -> None:
-    """Say a line of progress where it does not mix with results."""
-    print(message, file=sys.stderr, flush=True)
+    """Say a line of progress where it does not mix with results.
+
+    Where somebody listens to INFO of the caller's logger it goes there instead.
+    """
+    log = logging.getLogger(sys._getframe(1).f_globals["__name__"])
+    if is_heard(log, logging.INFO):
+        log.info("%s", message, stacklevel=2)
+    else:
+        print(message, file=sys.stderr, flush=True)
 
 
 def write(path: Path, data: bytes, mode: int = 0o644) -> None:

@@ -1,5 +1,6 @@
 """Results fill their fields when they are read; nobody can tell."""
 
+import logging
 import pickle
 from dataclasses import FrozenInstanceError, fields, replace
 
@@ -51,6 +52,7 @@ def test_a_result_is_frozen_and_has_no_other_names(solve):
 
 
 def test_fields_are_made_once_and_texts_only_if_they_are_read(monkeypatch):
+    monkeypatch.setattr(logging.getLogger("thrustwasher"), "propagate", False)  # nobody listens
     made, plain = [], {n: getattr(clutch_solve, n) for n in ("_fields", "_warnings")}
     for name, function in plain.items():
         monkeypatch.setattr(

@@ -366,7 +366,6 @@ def test_its_picture_is_a_figure_that_a_notebook_shows(name, made):
 def test_what_has_columns_gives_them_to_pandas(name, made):
     result = made(name)
     if not isinstance(result, Tabled):
-        assert not hasattr(result, "to_pandas")
         return
     needed.package("pandas")
     frame, columns = result.to_pandas(), result._columns()
@@ -374,6 +373,18 @@ def test_what_has_columns_gives_them_to_pandas(name, made):
     for column, values in columns.items():
         assert frame[column].tolist() == pytest.approx(list(values), nan_ok=True)
     assert set(frame.attrs["units"]) <= set(frame)
+
+
+def test_a_point_is_a_series_of_its_numbers(made):
+    needed.package("pandas")
+    result = made("ClutchResult")
+    series = result.to_pandas()
+    assert series.name == "clutch" and series.dtype == float
+    assert series["friction_torque"] == result.friction_torque and "regime" not in series
+    assert {"load", "speed", "oil_temperature"} <= {*series.index}
+    assert series.attrs["units"].keys() == {*series.index}
+    assert series.attrs["units"]["friction_torque"] == "N.m"
+    assert series.attrs["status"] == result.status.name
 
 
 def test_the_columns_have_units(made):

@@ -137,6 +137,16 @@ def test_csv_has_units_in_its_head_full_precision_and_empty_cells_for_failures(t
 
 
 @pytest.mark.slow
+def test_polars_reads_the_parquet_file(tmp_path):
+    needed.package("pyarrow")
+    polars = pytest.importorskip("polars")
+    out = tmp_path / "map.parquet"
+    table = run_sweep("clutch", {"load": (1e3, 2e3)}, at={"speed": 2.0}, out=out)
+    read = polars.read_parquet(out)
+    assert read["friction_torque"].to_list() == table["friction_torque"].tolist()
+    assert read["status"].to_list() == ["OK", "OK"]
+
+
 def test_parquet_holds_the_same_numbers_and_null_for_failures(tmp_path):
     parquet = needed.package("pyarrow.parquet")
     out = tmp_path / "map.parquet"

@@ -10,7 +10,6 @@ raise: the instantiation then returns NULL.
 
 import _ctypes
 import ctypes
-import logging
 import os
 import sys
 import traceback
@@ -24,6 +23,7 @@ from pythonfmu.enums import Fmi2Status
 
 from ...errors import EnvironmentProblem, ParameterError, SolveError, Status
 from ...model.registry import find_spec
+from ...native.files import to_stderr
 from ..description.interface import LOG_CATEGORIES, interface
 from ..model_kernels import content_digest, package_version
 from ..running.core import Core, Mode
@@ -103,7 +103,7 @@ class Slave(Fmi2Slave):  # type: ignore[misc]
                 f"{cure}build the FMU again"
             )
             # pythonfmu drops messages unless the host has logging on
-            logging.getLogger("thrustwasher").error("%s", problem)
+            to_stderr(str(problem))
             raise problem
         self.core = Core(interface(spec))
 

@@ -51,7 +51,7 @@ class FunctionEvaluator:
     @property
     def identity(self) -> dict[str, str]:
         """The function by its name and code; what that calls cannot be compared."""
-        code, own = getattr(self.function, "__code__", None), b""
+        code, own = getattr(inspect.unwrap(self.function), "__code__", None), b""
         if code:  # not by the text of code within it, which has an address
             plain = [c for c in code.co_consts if isinstance(c, str | int | float)]
             own = code.co_code + repr(plain).encode()

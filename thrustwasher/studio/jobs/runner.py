@@ -13,6 +13,7 @@ from types import TracebackType
 from typing import Any, Generic, Self, TypeVar
 
 from ...errors import EnvironmentProblem, ParameterError
+from ...logs import Carrying, unloaded
 from ...processes import local_processes, refuse_import_by_worker, usable_cores
 from .cluster import dask_cluster
 
@@ -147,8 +148,10 @@ class Runner:
     def _hand_out(self, work: Work[Job, Answer], executor: Executor, *, here: bool) -> None:
         """Have jobs done by the executor, some ahead of each worker; with ``here`` by this too."""
         jobs = work.open_jobs(self._others + here)
-        solve = partial(_solve_packed, pickle.dumps((work.solve, work.context)))
-        waiting: dict[Future[Answer], Job] = {}
+        solve: Any = partial(_solve_packed, pickle.dumps((work.solve, work.context)))
+        of_cluster = self.cluster is not None  # which hands over what its workers log by itself
+        solve = solve if of_cluster else Carrying(solve)
+        waiting: dict[Future[Any], Job] = {}
         try:
             while True:
                 for job in islice(jobs, AHEAD * self._others - len(waiting)):
@@ -160,7 +163,8 @@ class Runner:
                     return
                 done, _ = wait(waiting, 0.0 if own else None, FIRST_COMPLETED)
                 for future in done:
-                    work.take(waiting.pop(future), future.result())
+                    answer = future.result() if of_cluster else unloaded(future.result())
+                    work.take(waiting.pop(future), answer)
         except BaseException:
             for future in waiting:
                 future.cancel()

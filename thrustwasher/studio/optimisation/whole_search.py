@@ -16,6 +16,7 @@ from ...storage.journal import Journal
 from ...storage.whole_files import new_folder, whole_folder
 from ...units import format_quantity
 from ..evaluators.make import evaluator
+from ..jobs.progress import shown
 from ..jobs.runner import Progress, check_workers
 from ..scatter.design import MOST_SEED
 from .confirmation import AGAIN, MORE, active_bounds, best_design, costs_of, front_designs
@@ -65,7 +66,7 @@ def optimise(
     reached: str = "below",
     workers: int | None = None,
     out: str | Path | None = None,
-    progress: Progress | None = None,
+    progress: bool | Progress | None = None,
     finish: Callable[[Optimum, Path], None] | None = None,
 ) -> Optimum:
     """Return the design of a part or a gear shift with the minimum or maximum of a figure.
@@ -88,7 +89,8 @@ def optimise(
     workers : processes; None: one per core where they pay
     out : folder for the journal while it runs, then for ``best.toml`` and, of a front,
         ``front.csv`` and ``front-NN.toml``
-    progress : called with designs tried and planned
+    progress : True: a bar of tqdm, or a line, on the terminal; or called with designs tried and
+        planned
     finish : called with the result and the folder before it is complete
 
     Raises
@@ -105,6 +107,7 @@ def optimise(
     """
     began = time.perf_counter()
     check_workers(workers, None)
+    show = shown(progress, "optimise")
     for name, value, low, high in (
         ("points", points, 3, MOST_POINTS),
         ("seed", seed, 0, MOST_SEED),
@@ -143,7 +146,7 @@ def optimise(
             planned=_planned(problem, budget, points),
             workers=workers,
             journal=journals[-1] if journals else None,
-            progress=progress,
+            progress=show,
         ) as pool:
             return search(Means(pool, budget, points, seed))
 

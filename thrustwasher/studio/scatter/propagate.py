@@ -10,6 +10,7 @@ from ...errors import ParameterError, SolveError
 from ...storage.journal import Journal
 from ...storage.whole_files import new_folder, whole_folder
 from ..evaluators.make import scattering
+from ..jobs.progress import shown
 from ..jobs.runner import Progress, check_workers
 from .design import LEAST_RUNS, MOST_RUNS, ROWS, ROWS_OF_PART, make_design, rounded_runs
 from .evaluation import Runs
@@ -40,7 +41,7 @@ def propagate(
     workers: int | None = None,
     cluster: Any = None,
     out: str | Path | None = None,
-    progress: Progress | None = None,
+    progress: bool | Progress | None = None,
     finish: Callable[[ScatterResult], None] | None = None,
 ) -> ScatterResult:
     """Return what the scatter of inputs makes of the figures of a part, a scene or a function.
@@ -64,7 +65,7 @@ def propagate(
     cluster : address of a Dask scheduler, e.g. "tcp://10.0.0.1:8786", or a client of it, instead
     out : folder for ``sample.csv``, ``figures.csv``, ``series.csv``; a journal lies there until the
         study is done, and the same call goes on from it
-    progress : called as progress(runs done, runs in all)
+    progress : True: a bar of tqdm, or a line, on the terminal; or called with runs done and all
     finish : called with the result while the journal is still there, for your own files: if
         that fails, the same call goes on with all runs done
 
@@ -92,6 +93,7 @@ def propagate(
     """
     began = time.perf_counter()
     check_workers(workers, cluster)
+    show = shown(progress, "scatter")
     if indices not in INDICES:
         raise ParameterError(f"indices = {indices!r}, allowed: True, False, 'all'")
     if reached not in REACHED:
@@ -108,7 +110,7 @@ def propagate(
             settings = {"runs": study.design.n, "seed": seed, "indices": indices}
             with new_folder(folder):
                 journal = Journal(folder / JOURNAL, study.identity(**settings), "scatter")
-        numbers, codes = study.run(journal, workers=workers, cluster=cluster, progress=progress)
+        numbers, codes = study.run(journal, workers=workers, cluster=cluster, progress=show)
         solved = Runs(study, numbers, codes)
         if (solved.base_codes > 0).all():
             if folder is not None:

@@ -19,6 +19,7 @@ from ...storage.tables.given import columns_given, is_table
 from ..evaluators.evaluator import Evaluator
 from ..evaluators.evaluator import Rows as Points
 from ..evaluators.make import evaluator, is_at_points
+from ..jobs.progress import shown
 from ..jobs.rows import Rows
 from ..jobs.runner import Progress, Runner, Work, check_workers
 from .run_plan import RunPlan, make_run_plan
@@ -43,7 +44,7 @@ def run_sweep(
     out: str | Path | None = None,
     workers: int | None = None,
     cluster: Any = None,
-    progress: Progress | None = None,
+    progress: bool | Progress | None = None,
     keep: bool = True,
 ) -> SweepTable:
     """Return the outputs of a model over all combinations of some inputs and parameters.
@@ -65,7 +66,7 @@ def run_sweep(
         the same call goes on from there
     workers : processes on this machine; None: as many as there are cores where that pays, 1: none
     cluster : address of a Dask scheduler, e.g. "tcp://10.0.0.1:8786", or a client of it, instead
-    progress : called as progress(points done, points in all)
+    progress : True: a bar of tqdm, or a line, on the terminal; or called with points done and all
     keep : False: with ``out``, the columns are there alone, and memory does not grow with them
 
     Returns
@@ -95,7 +96,8 @@ def run_sweep(
     check_workers(workers, cluster)
     target = None if out is None else check_output(out)
     plan = _plan(model, over or {}, at or {}, points, params, fidelity)
-    return run_planned(plan, target, workers=workers, cluster=cluster, progress=progress, keep=keep)
+    show = shown(progress, "sweep")
+    return run_planned(plan, target, workers=workers, cluster=cluster, progress=show, keep=keep)
 
 
 def run_planned(

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.contour import ContourSet
 
 from thrustwasher import propagate
 from thrustwasher.cli import main
@@ -65,6 +66,8 @@ def test_lines_of_equal_loss_have_numbers_and_the_last_tick_is_whole():
     axis = loss_map_figure(found, [(150.0, 500.0)]).axes[0]
     written = {text.get_text() for text in axis.texts}
     assert {"100", "200", "500", "1000", "2000"} <= written
+    (lines,) = (c for c in axis.collections if isinstance(c, ContourSet))
+    assert {f"{level:g}" for level in lines.levels} <= written
     assert axis.get_xlim()[1] == 12000.0 and 12000.0 in axis.get_xticks()
 
 

@@ -55,7 +55,7 @@ def scene_values(scene: Scene, step: float) -> Row:
         "linings": [row for pack in PACKS for row in _lining(pack, parts[pack])],
         "warm": [row for pack in PACKS for row in _warmth(pack, parts[pack])],
         "washers": [{}] if washer else [],
-        "maps": [*_map(washer)],
+        "maps": [*map_rows(washer)] if washer and washer.fidelity == "map" else [],
         "dry": [*_dry(washer)],
         **part_rows({name: (part.spec, part.params) for name, part in parts.items()}),
     }
@@ -187,10 +187,8 @@ def _warmth(pack: str, part: Part) -> Iterator[Row]:
         yield own | {"hot": clutch_layout.HOT_LIMIT, "WARMTH": WARMTH}
 
 
-def _map(washer: Part | None) -> Iterator[Row]:
-    """Yield the box of a washer that is solved by its map."""
-    if washer is None or washer.fidelity != "map":
-        return
+def map_rows(washer: Part) -> Iterator[Row]:
+    """Yield the box of a washer's map, and what becomes of points outside."""
     from ...washer.kernels.regime_and_status import LEAST_TILT
     from ...washer.map.look_up import OF_BOX, OUTSIDE, WasherMap
 

@@ -34,6 +34,8 @@ def beyond(spec: ModelSpec, columns: Mapping[str, Any]) -> list[Beyond]:
     """Return the outputs that are beyond a bound in some rows."""
     found = []
     for s, sign, bound, advice in _bounds(spec):
+        if s.name not in columns:  # of a mesh that is not there
+            continue
         values = columns[s.name]
         rows = sign * values > sign * bound  # never of a failed row, which has nan
         if rows.any():

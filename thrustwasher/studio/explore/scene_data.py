@@ -20,6 +20,7 @@ from ...model.registry import kernel_of
 from ...model.spec import ModelSpec
 from ...model.toml_tables import quantity
 from ...native.library import web_functions, web_module
+from ...shift.checks.rule_data import map_rows
 from ...shift.cosim.schedule import Correct, Pull, Schedule, Step
 from ...shift.cosim.system import System
 from ...shift.key_figures.comfort import COMFORT
@@ -202,6 +203,7 @@ def _washer(scene: Scene, name: str, result: ShiftResult) -> dict[str, Any]:
         numbers = _numbers(part, tables.level)
         found["map"] = {"at": kernel.TABLE["AT"], "numbers": numbers}
         found["map"]["table"] = _packed(table.tobytes())
+        found["map"]["boxes"] = [*map_rows(part)]
     outputs = [s.name for s in part.spec.outputs]
     rows = np.column_stack([result.signals[f"{name}.{output}"] for output in outputs])
     needed = {outputs.index(k.output) for k in wired(scene.parts) if k.source == name}

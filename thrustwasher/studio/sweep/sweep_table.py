@@ -1,6 +1,7 @@
 """The rows of a sweep as columns, and as a file."""
 
 import json
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
@@ -30,6 +31,7 @@ ADVICE = {
     "slip_left": "it has not run out, there is no slip_time: a longer duration, more load or faces",
 }
 SUFFIXES = (".csv", ".parquet")
+NUMBERED = re.compile(r"[a-z]+_\d+_")  # begin names of a mesh or shaft, which may not be there
 CHUNK = 10_000  # rows made into text, or a group of Parquet, at a time
 
 
@@ -134,11 +136,17 @@ def make_table(
     numbers, flags = _parted(numbers, flags, len(real))
     rows = slice(first, first + len(flags))
     columns, units = {name: column[rows] for name, column in plan.shown.items()}, dict(plan.units)
+    sets = [plan.spec.absent(params) for params in plan.params if params is not None]
+    common = frozenset.intersection(*sets) if sets else frozenset()
+    nowhere = {name for name in common if NUMBERED.match(name)}
     for i, signal in enumerate(real):
-        columns[signal.name], units[signal.name] = numbers[:, i], signal.unit
+        if signal.name not in nowhere:
+            columns[signal.name], units[signal.name] = numbers[:, i], signal.unit
     failed = flags[:, -1] >= FIRST_FAILURE
     for i, signal in enumerate(whole[:-1]):
         column = flags[:, i]
+        if signal.name in nowhere:
+            continue
         if signal.type in NAMED:
             names = np.array(["", *NAMED[signal.type]], object)
             columns[signal.name] = names[np.where(failed, 0, column)]

@@ -8,6 +8,7 @@
 ``ranking_plot``     what one percent more of each parameter changes
 ``trace_plot``       recordings over time: measured, fitted, what is left
 ``train_plot``       a gear train: losses by source, and over torque of either sign
+``contours``         lines of equal value over a map, each with its number
 ``reducer_plots``    a reducer's report: loss map with operating points, sources, lives
 ``sweep_plot``       the first outputs of a sweep over what is varied
 ``washer_plots``     the washer: maps over its annulus, its load curve with the folds

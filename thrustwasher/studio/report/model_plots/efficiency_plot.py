@@ -8,6 +8,7 @@ from matplotlib.patches import Rectangle
 
 from ..palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, RPM, SKY
 from ..style import heading, label, new_figure, styled
+from .contours import numbered_contours
 
 MOST_LINES = 8  # of a map: more stand too close for their numbers
 SOURCES = {
@@ -40,8 +41,7 @@ def efficiency_figure(found: Any) -> Figure:
     everywhere = running.min() if len(running) else 0.0  # of which a picture shows nothing
     further = grid["warnings"] > everywhere
     if min(percent.shape) > 1 and np.isfinite(percent).sum() > 2:
-        lines = axes[0].contour(rpm, torque, percent.T, levels=_levels(percent), colors=BLACK)
-        _named_apart(axes[0], lines)
+        numbered_contours(axes[0], rpm, torque, percent.T, _levels(percent), BLACK)
         _quadrants(axes[0], rpm, torque, percent)
         _hatch(axes[0], rpm, torque, further)
     else:
@@ -78,22 +78,6 @@ def efficiency_figure(found: Any) -> Figure:
         with_room.legend(loc="upper center" if both else "upper left", reverse=True)
     heading(figure, found.heading)
     return figure
-
-
-def _named_apart(axis: Any, lines: Any) -> None:
-    """Write the percents at their lines; one that would lie on another is left out."""
-    named = axis.clabel(lines, fmt="%g", inline=False, fontsize=8)
-    axis.figure.canvas.draw()
-    taken: list[Any] = []
-    box = axis.get_window_extent()
-    for text in sorted(named, key=lambda t: -float(t.get_text())):
-        text.set_bbox({"boxstyle": "square,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.85})
-        own = text.get_window_extent()
-        own = own.expanded(1.15, 1.3)
-        if not box.contains(*own.min) or not box.contains(*own.max) or own.count_overlaps(taken):
-            text.set_visible(False)
-        else:
-            taken.append(own)
 
 
 def _middle(values: Any) -> int:

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from ..palette import BLACK, BLUE, GREY, ORANGE, RED, RPM
 from ..style import label, legend_below, new_figure, styled
+from .contours import numbered_contours
 from .train_plot import SOURCES
 
 WIDE, HIGH = 5.3, 4.0  # inch of a tile
@@ -26,29 +27,13 @@ def loss_map_figure(found: Any, points: Sequence[tuple[float, float]]) -> Figure
     known = loss[np.isfinite(loss)]
     wanted = [d * s for d in 10.0 ** np.arange(-2, 9) for s in LEVELS]
     levels = [x for x in wanted if known.min() < x < known.max()] or [float(np.median(known))]
-    lines = axis.contour(rpm, torque, loss, levels=levels, colors=BLUE)
-    axis.clabel(lines, fmt="%g", fontsize=8, manual=_on_diagonal(rpm, torque, loss, levels))
+    numbered_contours(axis, rpm, torque, loss, levels, BLUE)
     axis.axhline(0.0, color=GREY, linewidth=0.8)
     for number, (m, w) in enumerate(points, 1):
         axis.plot([RPM * w], [m], "o", color=RED, clip_on=False, zorder=5)
         axis.annotate(f"{number}", (RPM * w, m), (5, 5), textcoords="offset points", color=RED)
-    axis.set(xlim=(rpm[0], rpm[-1]), ylim=(torque[0], torque[-1]))
     label(axis, "Loss [W]", "speed [rpm]", "torque [N·m]")
     return figure
-
-
-def _on_diagonal(x: Any, y: Any, loss: Any, levels: Sequence[float]) -> list[tuple[float, float]]:
-    """Return a place on each line that crosses the map's upper diagonal, for its number."""
-    share = np.linspace(0.0, 1.0, len(x))
-    rows = np.interp(share, np.linspace(0.0, 1.0, len(y)), np.arange(len(y))).round().astype(int)
-    along = loss[rows, np.arange(len(x))]
-    found = []
-    for level in levels:
-        above = along >= level
-        if above.any() and not above.all():
-            i = int(np.flatnonzero(~above)[-1])
-            found.append((float(x[i]), float(y[rows[i]])))
-    return found
 
 
 @styled

@@ -263,7 +263,8 @@ function showWarnings(found, washers = "") {
   const head = found
     ? `Warnings of this run: ${all.length || "none"}`
     : "The run failed; the line at the top says why";
-  const later = found && washers ? ["Warnings about the washers follow with their own solution."] : [];
+  const later =
+    found && washers === "recorded" ? ["Warnings about the washers follow with their own solution."] : [];
   byId("warnings").replaceChildren(
     el("h2", { id: "warnings-head" }, head),
     el("ul", {}, ...all.map((text) => el("li", { class: "warning" }, text))),

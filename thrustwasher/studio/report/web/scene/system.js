@@ -379,13 +379,15 @@ export class Model {
       locks = changes
         .filter(({ kind, time: t }) => kind === `${shift.engaging}_locked` && shift.start <= t && t <= until)
         .map(({ time: t }) => t),
-      solved = (name) => washers === "" || !(name in about.washers);
+      solved = (name) => washers !== "recorded" || !(name in about.washers),
+      maps = Object.values(about.washers).flatMap(({ map }) => map?.boxes ?? []);
     const warnings = draw
       ? []
       : warningsOf({
           ...{ about, profiles, shift, time, signals, changes, locks, until, solved },
           held: figures.lock_time,
           flare: [figures.flare ?? null, flareTime ?? null],
+          maps: washers === "map" ? maps : about.warnings.values.maps,
         });
     return {
       warnings,

@@ -63,11 +63,11 @@ function scopeOf({ about, shift, until, time, signals, solved = () => true }, mo
 /**
  * Return the warnings of a run in the order of Python's, those that every run of the scene has among them.
  * @param {any} run about, profiles, shift, time, signals, changes, locks, held, until, flare; solved(part): whether a
- * part was solved by its own fidelity level
+ * part was solved, not recorded; maps: boxes of the maps that it was solved by
  * @returns {any[]}
  */
 export function warningsOf(run) {
-  const { about, shift, changes, locks, held, flare } = run,
+  const { about, shift, changes, locks, held, flare, maps } = run,
     { always, kinds } = about.warnings,
     free = held === null ? freeFrom(run) : about.stop_time,
     turns = free < about.stop_time;
@@ -80,6 +80,7 @@ export function warningsOf(run) {
     flare_time: flare[1],
     sticks: turns,
     turns_from: turns ? free : null,
+    maps,
   });
   const found = [
     ...always.map((text) => given(text, kinds - 1)),

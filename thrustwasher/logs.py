@@ -25,9 +25,8 @@ def is_heard(log: logging.Logger, level: int) -> bool:
     return False
 
 
-def warn(result: Any, module: str, stacklevel: int = 2) -> None:
-    """Log the warnings of a result, if it has any and somebody listens, as those of a module."""
-    log = logging.getLogger(module)
+def warn(result: Any, log: logging.Logger, stacklevel: int = 2) -> None:
+    """Log the warnings of a result, if it has any and somebody listens."""
     if is_heard(log, logging.WARNING):
         for text in getattr(result, "warnings", ()):
             log.warning("%s", text, stacklevel=stacklevel + 1)
@@ -39,10 +38,12 @@ def warning(function: Callable[..., Any], package: str) -> Callable[..., Any]:
     The package's own calls take the function itself, or a warning would come twice.
     """
 
+    log = logging.getLogger(function.__module__)
+
     @wraps(function)
     def call(*args: Any, **given: Any) -> Any:
         result = function(*args, **given)
-        warn(result, function.__module__, 2)
+        warn(result, log, 2)
         return result
 
     call.__module__ = package  # where it is found, also by pickle

@@ -21,6 +21,7 @@ Presets are such files, in ``data/parts/MODEL/NAME.toml``. What a file leaves ou
 """
 
 import json
+import logging
 import math
 import re
 from collections.abc import Iterator, Mapping
@@ -214,7 +215,7 @@ class PartFile:
         result = model.solve(self.params, **point.values, **{"fidelity": self.fidelity, **more})
         over = self.over_limits(result)
         found = replace(result, warnings=(*point.warnings, *over, *result.warnings))
-        warn(found, __name__)
+        warn(found, logging.getLogger(__name__))
         return found
 
     def over_limits(self, result: Any) -> list[str]:

@@ -253,7 +253,7 @@ def _point_table(found: Sequence[OperatingPoint]) -> Table:
         ]
         for i, p in enumerate(found, 1)
     ]
-    return Table([*heads, "loss", "loss"], rows, range(1, 8))
+    return Table([*heads, "loss of the power", "loss"], rows, range(1, 8))
 
 
 def _loss_table(found: Sequence[OperatingPoint]) -> Table:

@@ -37,7 +37,6 @@ def warning(function: Callable[..., Any], package: str) -> Callable[..., Any]:
 
     The package's own calls take the function itself, or a warning would come twice.
     """
-
     log = logging.getLogger(function.__module__)
 
     @wraps(function)

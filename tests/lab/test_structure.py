@@ -67,7 +67,11 @@ PLACES = {
         "train.solve": {"gearmesh", "losses"},
         "train.train_file": {"gearmesh"},
     },
-    "a gearbox is a shift's scene or a train": {"studio.commands.efficiency": {"train"}},
+    "a gearbox is a shift's scene or a train, which has a report of its own": {
+        "studio.commands.efficiency": {"train"},
+        "studio.commands._reducer_report": {"train"},
+        "studio.report.reducer_report": {"train"},
+    },
     "its page writes profiles into the transmission's parameters": {
         "studio.explore.scene_data": {"transmission"}
     },

@@ -26,6 +26,7 @@ from thrustwasher.model.registry import find_model
 from thrustwasher.model.spec import CHURNING_REGIMES
 
 SAME = 1e-10  # the C libraries differ in the last bit
+SOLVED = 2e-9  # a solution ends at 1e-9; Python begins where a map says, a page from nothing
 BESIDE_FOLDS = 1e-8
 RESULTS = ["friction_torque", "temperature", "film_thickness", "temperature_max", "film_ratio"]
 RESULTS += ["friction_coefficient", "oil_flow", "oil_heat", "contact_load", "fluid_load"]
@@ -53,7 +54,7 @@ def test_a_hundred_points_of_the_washer_are_those_of_python():
         wanted = solve_washer(WasherParams(), **dict(zip(NAMES, point, strict=True)))
         assert got["code"] == 0 and got["outputs"]["branch"] == wanted.branch
         beside = got["outputs"]["film_ratio"] < 3.0
-        assert apart(got["outputs"], wanted) <= (BESIDE_FOLDS if beside else SAME), point
+        assert apart(got["outputs"], wanted) <= (BESIDE_FOLDS if beside else SOLVED), point
 
 
 NAMES = ("load", "speed", "tilt", "oil_temperature", "far_face_temperature")

@@ -70,7 +70,7 @@ def test_the_washers_film_is_lost_with_a_probability(tmp_path, capsys):
 @pytest.mark.slow
 def test_the_folder_has_page_tables_and_the_nearest_runs_as_parts(part, tmp_path, capsys):
     folder = tmp_path / "new" / "out"
-    status, out, err = said(capsys, part, "--runs", "64", "--out", folder)
+    status, out, err = said(capsys, part, "--runs", "64", "--files", "--out", folder)
     assert status == 0 and "friction_torque" in out and f"Report: {folder}" in out
     assert "scatter: 256 runs" in err
     with (folder / "sample.csv").open(newline="") as stream:
@@ -91,7 +91,7 @@ def test_the_folder_has_page_tables_and_the_nearest_runs_as_parts(part, tmp_path
 @pytest.mark.slow
 def test_an_earlier_study_leaves_no_files_among_the_new_and_the_users_stay(part, tmp_path, capsys):
     folder = tmp_path / "out"
-    words = "--runs", "8", "--no-indices", "--out", folder
+    words = "--runs", "8", "--no-indices", "--files", "--out", folder
     assert said(capsys, part, *words)[0] == 0
     earlier = folder / "friction_torque-95.toml"
     own = {"mine-95.toml": earlier.read_text(), "friction_torque-5.toml": "x", "series.csv": "x"}
@@ -109,7 +109,7 @@ def test_an_earlier_study_leaves_no_files_among_the_new_and_the_users_stay(part,
 @pytest.mark.slow
 def test_a_target_that_its_own_study_would_replace_is_refused(part, tmp_path, capsys):
     folder = tmp_path / "out"
-    words = "--runs", "8", "--no-indices", "--out", folder
+    words = "--runs", "8", "--no-indices", "--files", "--out", folder
     assert said(capsys, part, *words)[0] == 0
     status, _, err = said(capsys, folder / "friction_torque-95.toml", *words)
     assert status == 2 and "which the study would replace; choose another folder" in err

@@ -72,10 +72,11 @@ class Measured:
         """Return exact derivatives over parameters, (n, names), if the model has them here."""
         plan = self.plan
         assert plan.rows is not None
-        flat = {plan.evaluator.part.flat_name(name): x for name, x in changes.items()}
+        own = plan.evaluator.part.flat_name
+        flat = {own(name): x for name, x in changes.items()}
         rows = replace(plan.rows, held={**plan.rows.held, **flat})
         wanted = list(zip(self.row.tolist(), self.output, strict=True))
-        slopes: Array | None = plan.evaluator.slopes(rows, wanted, [*flat])
+        slopes: Array | None = plan.evaluator.slopes(rows, wanted, [own(name) for name in names])
         return slopes
 
     def drawn_over(self, output: str) -> dict[str, tuple[str, Array]]:

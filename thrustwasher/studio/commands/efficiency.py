@@ -189,7 +189,7 @@ def _largest(found: Any) -> list[str]:
 
 
 def _worst(found: Any) -> list[dict[str, float]]:
-    """Return the point of most power, and those where a limit is least, each once."""
+    """Return the point of most power, and those where a margin is smallest, each once."""
     import numpy as np
 
     c = found.columns

@@ -30,7 +30,7 @@ MAP_TEXT = (
 BAND_TEXT = "In brackets: 5 to 95 % of {} runs with the scatter of the inputs, point {}."
 NO_BAND = "Without bands: the file has no [scatter]."
 LIFE_TEXT = "Basic rating life L10h of ISO 281: nine of ten bearings reach it. Bars: 5 to 95 %."
-LIMIT_TEXT = "The margin is a safety, or a life over the required one; what is least limits first."
+LIMIT_TEXT = "The margin is a safety, or a life over the required one; the smallest limits first."
 
 
 @dataclass(frozen=True)
@@ -178,7 +178,7 @@ def _percent(share: float) -> str:
 def _limits(
     scene: "TrainScene", found: Sequence[OperatingPoint]
 ) -> list[tuple[float, str, str, int]]:
-    """Return margin, what it is of, its value in words and the point; the least first."""
+    """Return margin, what it is of, its value in words and the point; the smallest first."""
     rows, required = [], scene.part.params.required_life
     for number, point in enumerate(found, 1):
         for end, words in SAFETIES.items():

@@ -27,8 +27,10 @@ def is_heard(log: logging.Logger, level: int) -> bool:
 
 def warn(result: Any, log: logging.Logger, stacklevel: int = 2) -> None:
     """Log the warnings of a result, if it has any and somebody listens."""
+    if not is_heard(log, logging.WARNING):
+        return  # texts are made when they are read
     texts = getattr(result, "warnings", ())
-    if isinstance(texts, tuple) and is_heard(log, logging.WARNING):
+    if isinstance(texts, tuple):
         for text in texts:
             log.warning("%s", text, stacklevel=stacklevel + 1)
 

@@ -1,4 +1,4 @@
-"""A plugin of pytest: each file of tests has 40 s of processor time, what is left is skipped."""
+"""A plugin of pytest: each file of tests has so much processor time, what is left is skipped."""
 
 import signal
 import time
@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 
-LIMIT = 40.0  # s
 _used: defaultdict[Path, float] = defaultdict(float)
 _cut: set[str] = set()  # tests that were stopped
 
@@ -17,10 +16,15 @@ def _stop(*_: object) -> None:
     pytest.skip("cut off")
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Take the limit."""
+    parser.addoption("--cut-off", type=float, default=40.0, help="processor time of a file [s]")
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_call(item: pytest.Item) -> Iterator[None]:
     """Run a test until the time of its file is up."""
-    left, began = LIMIT - _used[item.path], time.process_time()
+    left, began = item.config.getoption("--cut-off") - _used[item.path], time.process_time()
     if left <= 0.0:
         _stop()
 

@@ -23,6 +23,8 @@ if TYPE_CHECKING:  # not every command needs numpy
     import numpy as np
     from numpy.typing import NDArray
 
+    from .part_file import PartFile
+
 Scaled = tuple[float, float, str]  # low, high, "linear" or "log"
 Values = dict[str, float]
 
@@ -184,6 +186,10 @@ class Model(ABC):
     def flat(self, where: str, _table: dict[str, Any], _folder: Path | None) -> dict[str, Any]:
         """Return the table of a part file for that of a scene; ``folder`` of files it names."""
         raise NotImplementedError(where)
+
+    def nested(self, part: PartFile) -> Iterable[str]:
+        """Return the lines of the file of such a scene, but its box and scatter."""
+        raise NotImplementedError(part.name)
 
     def own_names(self, _source: str | None) -> Callable[[str], str]:
         """Return what gives names and texts the words of a part's file or preset."""

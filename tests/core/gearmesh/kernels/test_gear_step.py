@@ -278,7 +278,7 @@ def random_mesh(rng):
         changes["bulk_conductance"] = float(rng.choice([0.0, 10.0]))
     else:
         changes |= {"load_sharing": "rigid", "material_gear": "as-pinion"}
-        if changes["friction_law"] == "mixed":
+        if changes["friction_law"] in {"mixed", "efficiency"}:
             changes["friction_law"] = "iso"
     changes["permissible_film_ratio"] = float(rng.choice([0.0, 0.3]))
     unit = slopes_mesh(str(rng.choice(list(SPEC.levels))), **changes)

@@ -211,7 +211,7 @@ def _limits(found: Any) -> list[str]:
     for name in LEAST:
         if name not in c or np.isnan(c[name]).all():
             continue
-        end = name if name.endswith("_safety") else "_life"
+        end = name if name.endswith("_safety") else "life"  # "middle.left.life" too
         i = int(np.nanargmin(c[name]))
         own = [n for n in c if n != name and n.endswith(end)]
         of = next(n for n in own if c[n][i] == c[name][i]).removesuffix(end).rstrip("._")

@@ -178,7 +178,10 @@ def format_quantity(value: float, unit: str, *, difference: bool = False, digits
     if unit == "K" and not difference:
         return f"{_rounded(value - 273.15, digits)} {_PRETTY['degC']}"
     shown, factor = display_unit(value, unit)
-    text = _rounded(value / factor, digits)
+    whole = (
+        shown == "h" and 10.0 ** (digits - 1) <= abs(value / factor) < 1e12
+    )  # lives: no exponent
+    text = f"{value / factor:.0f}" if whole else _rounded(value / factor, digits)
     return text if shown == "1" else f"{text} {shown}"
 
 

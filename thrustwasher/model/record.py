@@ -23,8 +23,6 @@ if TYPE_CHECKING:  # not every command needs numpy
     import numpy as np
     from numpy.typing import NDArray
 
-    from .part_file import PartFile
-
 Scaled = tuple[float, float, str]  # low, high, "linear" or "log"
 Values = dict[str, float]
 
@@ -187,7 +185,7 @@ class Model(ABC):
         """Return the table of a part file for that of a scene; ``folder`` of files it names."""
         raise NotImplementedError(where)
 
-    def nested(self, part: PartFile) -> Iterable[str]:
+    def nested(self, part: Any) -> Iterable[str]:
         """Return the lines of the file of such a scene, but its box and scatter."""
         raise NotImplementedError(part.name)
 

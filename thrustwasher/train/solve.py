@@ -284,4 +284,4 @@ def _slower(params: Any, mesh: int) -> float:
 
 def hours(life: float) -> str:
     """Return a life [s] in words."""
-    return f"{life / 3600.0:.4g} h"
+    return format_quantity(life, "s") if life >= 3.6e3 else f"{life / 3600.0:.4g} h"

@@ -103,10 +103,10 @@ def _force(p: Any, start: str, shaft: str) -> Iterator[str]:
     own = {name: getattr(p, start + name) for name in FORCE}
     if own == NO_FORCE:
         return
-    pairs = (("radial", ("position", "radial", "direction")), ("axial", ("axial",)))
-    pairs = (*pairs, ("moment", ("moment", "moment_direction")))
+    sizes = {"radial": ("position", "radial", "direction"), "axial": ("axial",)}
+    sizes["moment"] = ("moment", "moment_direction")
     yield from ("", f"[[train.shafts.{_key(shaft)}.forces]]")
-    for size, names in pairs:
+    for size, names in sizes.items():
         if own[size]:
             yield from (_line(n, start + n, own[n]) for n in names)
 

@@ -212,9 +212,9 @@ def loss_changes(
     )
     if par[L.P_FRICTION_LAW] == L.EFFICIENCY:
         smooth = work[L.F_SMOOTH_SIGN]
-        way, steep = way_of_power(par, torque)
+        way, turn = way_of_power(par, torque)
         turns = way * (1.0 - smooth) * (1.0 + smooth) / work[L.W_WIDTH] * seed[L.I_SPEED]
-        turns += smooth * steep * seed[L.I_LOAD]
+        turns += smooth * turn * seed[L.I_LOAD]
         dmean = hottest = known_friction(par, work[L.W_WAY])[1] * turns
     by_body, hot_by_body, scuffs_by_body = friction_changes(
         par, line, turning, 0.0, 0.0, 0.0, viscosity, steep, work

@@ -13,8 +13,6 @@ from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import (
     floored,
     floored_slope,
-    smoothstep,
-    smoothstep_slope,
     soft_least,
     soft_most,
 )
@@ -84,8 +82,8 @@ def _law(par: Array, load: float, rolling: float, oil: float) -> float:
 def way_of_power(par: Array, load: float) -> tuple[float, float]:
     """Return the sign of a torque [N m], smooth through 0 over the least line load, its slope."""
     width = 2.0 * LEAST_LINE_LOAD / par[L.D_LINE]
-    s = abs(load) / width
-    return math.copysign(smoothstep(s), load), smoothstep_slope(s) / width
+    s = min(max(load / width, -1.0), 1.0)
+    return 0.5 * s * (3.0 - s * s), 1.5 * (1.0 - s * s) / width
 
 
 @kernel

@@ -33,6 +33,7 @@ OPTIONS = {
 GRID = 33  # torques, and speeds, of a gear train: lines of a map without kinks
 LOSS_MAP = ".vtlm"
 RPM = 9.549296585513721  # of a rad/s
+NEAR = 1.01  # of the smallest margin: as good as that
 LEAST = ("pitting_safety", "root_safety", "scuffing_safety", "bearing_life")
 
 
@@ -189,12 +190,14 @@ def _largest(found: Any) -> list[str]:
 
 
 def _worst(found: Any) -> list[dict[str, float]]:
-    """Return the point of most power, and those where a margin is smallest, each once."""
+    """Return the point of most power, and those where a margin is clearly smaller, each once."""
     import numpy as np
 
     c = found.columns
-    places = [int(abs(c["torque"] * c["speed"]).argmax())]
-    places += [int(np.nanargmin(c[n])) for n in LEAST if n in c and not np.isnan(c[n]).all()]
+    most = int(abs(c["torque"] * c["speed"]).argmax())
+    known = [n for n in LEAST if n in c and not np.isnan(c[n]).all()]
+    least = {n: int(np.nanargmin(c[n])) for n in known}
+    places = [most, *(i for n, i in least.items() if not c[n][most] <= NEAR * c[n][i])]
     names = ("torque", "speed", "oil_temperature")
     return [{n: float(c[n][i]) for n in names} for i in dict.fromkeys(places)]
 

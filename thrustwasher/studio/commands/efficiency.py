@@ -21,12 +21,12 @@ EXAMPLES = (
     "thrustwasher efficiency planetary --gear first --over torque=-50:150:50 --out efficiency.csv",
 )
 VALUES = "NAME=VALUES, e.g. torque=-100:250:50 or speed=1000rpm:4000rpm:n7"
-USUAL = {"torque": "25:250:n10", "speed": "1000 rpm:4000 rpm:n7"}
+USUAL = {"torque": "25:250:n10", "speed": "1000 rpm:4000 rpm:n13"}
 OPTIONS = {
     "--over NAME=VALUES ...": "torque [N m] and speed [rad/s] of the input: torque=50:250:50 "
     "(start:stop:step), speed=1000rpm:4000rpm:n7 (7 values, even), torque=-50,200 (coasting: "
     "against the speed), of a gear train oil_temperature=40degC,80degC too; default "
-    "torque=25:250:n10, speed=1000rpm:4000rpm:n7, of a gear train 33 each, up to the ends of its "
+    "torque=25:250:n10, speed=1000rpm:4000rpm:n13, of a gear train 33 each, up to the ends of its "
     "[box]",
     "--gear NAME": "first: the brake holds, second: the clutch holds; default first",
 }

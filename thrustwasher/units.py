@@ -31,7 +31,6 @@ _MEANT: dict[str, list[str]] = _TABLES["meant"]
 _EXACT = {
     "m": ("nm", "mm"),
     "K": ("degC",),
-    "rad": ("deg",),
     "1/m2": ("1/mm2",),
     "m2/s": ("mm2/s",),
 }
@@ -179,7 +178,10 @@ def format_quantity(value: float, unit: str, *, difference: bool = False, digits
     if unit == "K" and not difference:
         return f"{_rounded(value - 273.15, digits)} {_PRETTY['degC']}"
     shown, factor = display_unit(value, unit)
-    text = _rounded(value / factor, digits)
+    whole = (
+        shown == "h" and 10.0 ** (digits - 1) <= abs(value / factor) < 1e12
+    )  # lives: no exponent
+    text = f"{value / factor:.0f}" if whole else _rounded(value / factor, digits)
     return text if shown == "1" else f"{text} {shown}"
 
 
@@ -227,7 +229,8 @@ def exact_quantity(value: float, unit: str, *, difference: bool = False) -> str 
     """
     if unit == "1":
         return value
-    shown = (_readable(value, unit, _DISPLAY.get(unit, [unit])), *_EXACT.get(unit, ()), unit)
+    readable = _readable(value, unit, _DISPLAY.get(unit, [unit]))
+    shown = ("deg",) if unit == "rad" else (readable, *_EXACT.get(unit, ()), unit)
     for digits in range(1, 18):
         texts = (
             f"{_plain_number((value - (0.0 if difference else offset)) / factor, digits)} {other}"

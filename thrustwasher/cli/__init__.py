@@ -184,8 +184,10 @@ class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """Raise instead of printing the usage and leaving; name what was probably meant."""
         wrong = re.search(r"unrecognized arguments: (--[\w-]+)|invalid choice: '([^']*)'", message)
-        hint = ""
-        if wrong and wrong[2]:
+        hint, file = "", re.search(r"unrecognized arguments: (\S+\.toml)", message)
+        if file and "--part" in self._option_string_actions:
+            hint = f"; did you mean --part {file[1]}?"
+        elif wrong and wrong[2]:
             known = re.findall(r"'([^']*)'", message)[1:]
             hint = suggestion(wrong[2], known, "; did you mean {}?")
         elif wrong:

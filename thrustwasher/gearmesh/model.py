@@ -45,7 +45,7 @@ class GearMesh(Model):
                 low=-1e9,
                 high=1e9,
                 start=7500.0,
-                help="transmitted power, of which the size counts",
+                help="power at the pinion; below 0 the gear drives (law efficiency)",
             )
         },
         extra={

@@ -186,7 +186,7 @@ RULES = (
     Rule(
         "film_heat = 'atan', allowed: without helix_angle ({helix_angle} rad), internal "
         "({internal}), addendum_gear ({addendum_gear}), a gear of another material and "
-        "friction_law = 'mixed': the paper has a spur pair; use film_heat = 'loss'"
+        "friction_law = 'mixed' or 'efficiency': the paper has a spur pair; use film_heat = 'loss'"
     ),
     Rule(
         "contact_limit = {contact_limit} Pa, contact_limit_gear = {contact_limit_gear} Pa, "
@@ -262,5 +262,9 @@ RULES = (
     Rule(
         "pressure_viscosity = {pressure_viscosity} 1/Pa, allowed: 0 (by base_oil and viscosity) or "
         "1e-09 .. 1e-07 1/Pa"
+    ),
+    Rule(
+        "efficiency_back = {efficiency_back}, allowed: 0 (as efficiency) or 0.01 .. 1; a pair that "
+        "locks itself when the gear drives has none"
     ),
 )

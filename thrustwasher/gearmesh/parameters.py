@@ -29,6 +29,7 @@ FRICTION_LAWS = {
     "only)",
     "schlenk": "mean coefficient fitted to loss tests of gears; below 1 m/s no more than "
     "boundary_friction",
+    "efficiency": "what efficiency and efficiency_back lose (film_heat loss only)",
 }
 BASE_OILS = {
     "mineral": "mineral oil; also where the base is not known",
@@ -136,9 +137,12 @@ def _relief_length(gear: str) -> Any:
 
 OF_ATAN = (("film_heat", "atan"),)
 OF_LOSS = (("film_heat", "loss"),)
-BY_FILM = tuple(("friction_law", law) for law in ("li-seireg", "iso", "mixed", "schlenk"))
+BY_FILM = tuple(
+    ("friction_law", law) for law in ("li-seireg", "iso", "mixed", "schlenk", "efficiency")
+)
 BY_SPEED = tuple(("friction_law", law) for law in ("mixed", "schlenk"))
 BY_SCALE = tuple(("friction_law", law) for law in ("iso", "mixed", "schlenk"))
+BY_EFFICIENCY = (("friction_law", "efficiency"),)
 BY_STIFFNESS = (("load_sharing", "elastic"),)
 TRANSIENT = (("thermal_mode", "transient"),)
 BY_ROOT = (("root_limit", ">", 0.0),)
@@ -535,6 +539,25 @@ class GearMeshParams:
         3e9,
         "nominal stress number of the gear's root (0: as root_limit)",
         read_by=BY_ROOT,
+    )
+    efficiency: float = quantity(
+        0.98,
+        "1",
+        0.01,
+        1.0,
+        "power out over power in, the pinion drives",
+        tunable=True,
+        read_by=BY_EFFICIENCY,
+    )
+    efficiency_back: float = quantity(
+        0.0,
+        "1",
+        0.0,
+        1.0,
+        "power out over power in, the gear drives (0: as efficiency)",
+        at_zero="efficiency",
+        tunable=True,
+        read_by=BY_EFFICIENCY,
     )
     holding: str = holding_choice("the mesh")
     coupling_inertia: float = coupling_inertia()

@@ -34,7 +34,7 @@ FASTEST = 100.0  # m/s at the pitch line; faster gears have losses that are not 
 def doubts_of_parameters(p: GearMeshParams) -> list[str]:
     """Return what contradicts itself in parameters."""
     found = [*_teeth(p), *_flanks(p), *_roughness(p), *_fouling(p), *_load_factor(p)]
-    return [*found, *_materials(p), *_root(p), *_oil(p), *outside_of_pair(p)]
+    return [*found, *_materials(p), *_root(p), *_oil(p), *_locking(p), *outside_of_pair(p)]
 
 
 def doubts_of_point(
@@ -48,7 +48,7 @@ def doubts_of_point(
         ]
     if abs(speed) < 2.0 * LEAST_SPEED:
         return [f"speed = {speed:g} rad/s: the film is that of {LEAST_SPEED:g} rad/s"]
-    found = _stretched(p, par, field, speed)
+    found = [*_stretched(p, par, field, speed), *_lossy(p, field)]
     found += [*_slow(p, par, speed), *outside_of_point(p, par, torque, abs(speed))]
     rise = float(field[k.F_BULK] + field[k.F_FLASH_MAX]) - oil
     if field[k.F_SCUFFING_SAFETY] <= 0.0:
@@ -83,6 +83,18 @@ def _slow(p: GearMeshParams, par: Any, speed: float) -> list[str]:
             f"takes {LEAST_ROLLING:g} m/s: the formulas have no bound towards standstill"
         )
     return found
+
+
+def _lossy(p: GearMeshParams, field: Any) -> list[str]:
+    """Return a line on an efficiency that asks for more friction than teeth without a film have."""
+    mean = field[k.F_MEAN_FRICTION]
+    if p.friction_law != "efficiency" or mean <= p.f0:
+        return []
+    return [
+        f"mean_friction = {mean:.3g} is what the efficiency means, above f0 = {p.f0:g}, that of "
+        "teeth without any film: other losses are in it (bearings, churning), or it is not that of "
+        "these teeth"
+    ]
 
 
 def _stretched(p: GearMeshParams, par: Any, field: Any, speed: float) -> list[str]:
@@ -246,6 +258,22 @@ def _oil(p: GearMeshParams) -> list[str]:
     return [
         "base_oil = 'ester': no standard gives its pressure coefficient, that of a polyalphaolefin "
         "is taken for the films (an estimate); give pressure_viscosity"
+    ]
+
+
+def _locking(p: GearMeshParams) -> list[str]:
+    """Return a line on friction that locks the pair one way, of an efficiency below a half."""
+    if p.friction_law != "efficiency":
+        return []
+    names = ("efficiency", "efficiency_back")
+    drives, back = p.efficiency, p.efficiency_back or p.efficiency
+    return [
+        f"{name} = {value:g}, below 0.5: with the same friction the other way the pair is "
+        f"self-locking; {other} = {there:g} is taken all the same"
+        for name, value, other, there in zip(
+            names, (drives, back), names[::-1], (back, drives), strict=True
+        )
+        if value < 0.5
     ]
 
 

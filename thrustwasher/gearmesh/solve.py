@@ -150,7 +150,7 @@ def prepare(params: GearMeshParams, fidelity: str) -> Any:
 
 
 def pinion_torque(power: float, speed: float) -> float:
-    """Return the size of the pinion's torque [N m], or refuse a torque without bound."""
+    """Return the pinion's torque [N m], or refuse one without bound."""
     if power == 0.0:
         return 0.0
     largest = LOAD.high or 0.0
@@ -159,7 +159,7 @@ def pinion_torque(power: float, speed: float) -> float:
             f"speed = {speed!r} rad/s, allowed: from {abs(power) / largest:g} rad/s on for power = "
             f"{power:g} W (the pinion's torque power/speed is at most {largest:g} N.m)"
         )
-    return abs(power / speed)
+    return power / speed
 
 
 def under_torque(point: dict[str, float]) -> dict[str, float]:
@@ -171,7 +171,7 @@ def under_torque(point: dict[str, float]) -> dict[str, float]:
 def at_power(inputs: dict[str, float]) -> dict[str, float]:
     """Return the point of a gear mesh with these inputs: the pinion's torque as a power."""
     rest = {n: v for n, v in inputs.items() if n != "load"}
-    return {"power": abs(inputs["load"] * inputs["speed"]), **rest}
+    return {"power": inputs["load"] * inputs["speed"], **rest}
 
 
 def solve_gearmesh(
@@ -189,7 +189,8 @@ def solve_gearmesh(
     Parameters
     ----------
     params : the pair, its surfaces, oil, steel and laws
-    power : transmitted [W], -1e9 .. 1e9; only its size counts
+    power : at the pinion [W], -1e9 .. 1e9; below 0 the gear drives, which counts for the
+        friction_law "efficiency" alone
     speed : of the pinion [rad/s], -5000 .. 5000; the loss torque takes its sign. 0 is allowed
         without power only: the torque power/speed would have no bound (1e7 N m is the largest)
     oil_temperature : of the oil [K], 233.15 .. 473.15; the gears' bodies are as warm as they get
@@ -223,8 +224,9 @@ def solve_gearmesh(
     speed = check_number("speed", speed, "rad/s", SPEED.low or 0.0, SPEED.high or 0.0)
     oil = check_number("oil_temperature", oil_temperature, "K", OIL.low or 0.0, OIL.high or 0.0)
     ready, work = _ready(params, fidelity), np.zeros(k.NWORK)
-    torque = pinion_torque(power, speed)
+    torque = abs(pinion_torque(power, speed))
     drive, state = torque * abs(speed), np.zeros(k.NSTATE)
+    work[k.W_WAY] = math.copysign(1.0, power)
     par = shared(ready.par, torque, work)
     status = Status(solve_point(par, torque, speed, oil, drive, state, 0.0, work))
     if not np.isfinite(work[: k.N_FIELD]).all():

@@ -527,6 +527,14 @@ def _span(meta: Any) -> str:
 
 
 def _lines(part: PartFile) -> Iterator[str]:
+    if part.names:  # nested, as it was read
+        yield from find_model(part.spec.key).nested(part)
+    else:
+        yield from _flat_lines(part)
+    yield from _tables(part)
+
+
+def _flat_lines(part: PartFile) -> Iterator[str]:
     yield f"model = {json.dumps(part.spec.key)}"
     yield f"name = {json.dumps(part.name)}  # of its FMU: letters, digits and _"
     for key in ("description", "notes"):
@@ -547,6 +555,9 @@ def _lines(part: PartFile) -> Iterator[str]:
         if m["kind"] == "real":
             value = exact_quantity(value, m["unit"], difference=bool(m.get("relative")))
         yield f"{f.name} = {json.dumps(value)}  # {m['help']}; {_span(m)}"
+
+
+def _tables(part: PartFile) -> Iterator[str]:
     yield ""
     yield "[box]  # the inputs that it is meant for: [low, high], or one value"
     for s in part.spec.inputs:
@@ -563,4 +574,4 @@ def _lines(part: PartFile) -> Iterator[str]:
         yield ""
         yield "[scatter]  # what is not named here is taken as known"
         for name, law in part.scatter.items():
-            yield f"{key_text(name)} = {value_text(law)}"
+            yield f"{key_text(part.own_name(name))} = {value_text(law)}"

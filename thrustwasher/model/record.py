@@ -185,6 +185,10 @@ class Model(ABC):
         """Return the table of a part file for that of a scene; ``folder`` of files it names."""
         raise NotImplementedError(where)
 
+    def nested(self, part: Any) -> Iterable[str]:
+        """Return the lines of the file of such a scene, but its box and scatter."""
+        raise NotImplementedError(part.name)
+
     def own_names(self, _source: str | None) -> Callable[[str], str]:
         """Return what gives names and texts the words of a part's file or preset."""
         return str

@@ -5,6 +5,7 @@
 ``train_signals`` inputs and outputs, what a figure of them is called
 ``model``         its record
 ``train_file``    a scene ``[train]``: shafts and meshes by name, made into a part
+``train_text``    such a scene as text
 ``solve``         forces, losses and limits at one operating point
 ``train_map``     efficiency, losses by source and limits over torque, speed, oil temperature
 ``kernels``       compiled code

@@ -81,5 +81,11 @@ class GearTrain(Model):
 
         return flat_part(where, table, folder)
 
+    def nested(self, part: Any) -> Iterable[str]:
+        """Return the lines of the file of a train, but its box and scatter."""
+        from .train_text import train_lines
+
+        return train_lines(part)
+
 
 MODEL = GearTrain()

@@ -186,7 +186,7 @@ def doubts_of_point(
 
 
 def _of_meshes(params: Any, point: Mapping[str, float], shown: Mapping[str, Any]) -> Iterator[str]:
-    speed = point["speed"]
+    speed, forward = point["speed"], point["torque"] * point["speed"] >= 0.0
     for i in range(int(params.meshes)):
         pair, words = pair_of(params, i), f"mesh {i + 1}: "
         drives = getattr(params, f"mesh_{i + 1}_driver") == "pinion"
@@ -196,7 +196,7 @@ def _of_meshes(params: Any, point: Mapping[str, float], shown: Mapping[str, Any]
         if abs(pinion) > params.speed_smoothing:
             own = solve_gearmesh(
                 pair,
-                power=min(power, 1e9),
+                power=min(power, 1e9) * (1.0 if drives == forward else -1.0),
                 speed=max(min(pinion, 5e3), -5e3),
                 oil_temperature=point["oil_temperature"],
                 throw=False,
@@ -284,4 +284,4 @@ def _slower(params: Any, mesh: int) -> float:
 
 def hours(life: float) -> str:
     """Return a life [s] in words."""
-    return f"{life / 3600.0:.4g} h"
+    return format_quantity(life, "s") if life >= 3.6e3 else f"{life / 3600.0:.4g} h"

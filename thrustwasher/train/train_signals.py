@@ -77,7 +77,7 @@ def _of_bearing(i: int, k: int) -> list[Signal]:
         "axial_force": ("N", 1e3, "axial force that it takes"),
         "load": ("N", 1e3, "equivalent load P of ISO 281"),
         "loss": ("W", 10.0, "heat"),
-        "life": ("s", 1e7, "basic rating life L10h of ISO 281, at most 1e12 s"),
+        "life": ("s", 1e7, "basic rating life L10h of ISO 281 (at most 1e12 s)"),
     }
     return [
         _out(f"{name}_{key}", unit, nominal, f"{words}{text}{NO_SHAFT}")

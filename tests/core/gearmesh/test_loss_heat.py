@@ -324,7 +324,7 @@ def test_what_cannot_be_is_refused_in_one_line(ratio):
 
 
 def test_mixed_friction_needs_the_heat_of_the_loss():
-    with pytest.raises(ParameterError, match="friction_law = 'mixed': the paper has a spur pair"):
+    with pytest.raises(ParameterError, match="friction_law = 'mixed' or 'efficiency': the paper"):
         GearMeshParams.preset("paper", friction_law="mixed")
 
 

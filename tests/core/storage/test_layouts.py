@@ -6,6 +6,7 @@ import pytest
 from tests.needed import package
 from thrustwasher.errors import ParameterError
 from thrustwasher.storage.tables.heads import Wanted
+from thrustwasher.storage.tables.table import numbers as known_numbers
 from thrustwasher.storage.tables.table_file import read_table
 
 TRIBOMETER = """PCX 7 Test File
@@ -211,3 +212,10 @@ def test_a_kind_that_is_not_read_is_refused_with_those_that_are(name, data, what
 
 def test_a_table_in_text_is_read_by_the_name_of_a_log(tmp_path):
     assert numbers(table_of(tmp_path, "a;b\n1;2\n", "rig.asc")) == {"a": [1.0], "b": [2.0]}
+
+
+def test_times_of_day_are_seconds_and_nan_is_not_measured(tmp_path):
+    text = "Time,load,speed [rpm]\n10:00:01.250,1,NaN\n10:00:01.500,2,30\n"
+    table = table_of(tmp_path, text)
+    assert known_numbers(table.columns[0], table, "s") == [36001.25, 36001.5]
+    assert known_numbers(table.columns[2], table, "rad/s") == [None, pytest.approx(np.pi)]

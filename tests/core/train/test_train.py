@@ -52,6 +52,17 @@ def test_coasting_loses_as_much_as_driving_at_the_same_load():
     assert math.isnan(rest.efficiency) and rest.flow == "at rest"
 
 
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_known_efficiencies_of_the_meshes_multiply_whichever_gear_drives(way):
+    """The pinion of the first mesh and the gear of the second are nearer to the input."""
+    known = {"friction_law": "efficiency", "efficiency": 0.98, "efficiency_back": 0.96}
+    params = no_losses_of_shafts(
+        meshes=2, mesh_2_driver="gear", **alike(1, **known), **alike(2, **known)
+    )
+    r = solve_train(params, torque=way * 120.0, speed=400.0)
+    assert r.efficiency == pytest.approx(0.98 * 0.96, rel=1e-12)
+
+
 def test_turned_both_ways_round_the_teeth_lose_the_same():
     one, other = (solve_train(TrainParams(), torque=t, speed=4 * t) for t in (100.0, -100.0))
     assert one.efficiency == pytest.approx(other.efficiency, abs=1e-3)  # by other bearing loads

@@ -38,10 +38,38 @@ def test_the_example_is_the_built_in_one_and_what_a_train_is_by_default():
         assert getattr(mine.params, name) == pytest.approx(getattr(plain, name), rel=1e-3)
 
 
-def test_as_a_part_file_it_gives_the_same_numbers(tmp_path):
-    mine = load_part(SCENE)
-    again = load_part(written(tmp_path, part_text(mine)))
-    assert again.params == mine.params and again.box == mine.box
+PUSHED = TEXT.replace(
+    "[train.meshes.first]",
+    """[[train.shafts.differential.forces]]
+position = "160 mm"
+radial = "3 kN"
+direction = "33.3 deg"
+axial = "0.5 kN"
+
+[train.meshes.first]""",
+)
+
+
+@pytest.mark.parametrize("text", [TEXT, PUSHED], ids=["plain", "pushed"])
+def test_written_again_it_is_nested_with_the_same_names_and_numbers(tmp_path, text):
+    mine = load_part(written(tmp_path, text))
+    again = part_text(mine)
+    found = load_part(written(tmp_path, again))
+    assert found.params == mine.params and found.box == mine.box and found.names == mine.names
+    assert found.scatter == mine.scatter and found.description == mine.description
+    assert "[train.meshes.second]" in again and 'helix_angle = "22 deg"' in again
+    assert "mesh_1" not in again
+    assert ('direction = "33.3 deg"' in again) == ("33.3" in text)
+
+
+def test_bearings_with_names_of_their_own_keep_them(tmp_path):
+    ends = "bearings.left = { type = 'ball', position = '0 mm', diameter = '60 mm', C = '35 kN' }\n"
+    ends += ends.replace("left", "right").replace("0 mm", "90 mm", 1)
+    first, last = TEXT.index("bearings = ["), TEXT.index("]\n", TEXT.index("bearings = [")) + 2
+    mine = load_part(written(tmp_path, TEXT[:first] + ends + TEXT[last:]))
+    found = load_part(written(tmp_path, part_text(mine)))
+    assert found.names == mine.names and "rotor.right." in found.names
+    assert found.params == mine.params
 
 
 def test_shafts_are_a_chain_from_the_input_whatever_their_order(tmp_path):

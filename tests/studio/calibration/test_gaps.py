@@ -79,3 +79,12 @@ def test_a_piece_in_which_an_output_is_missing_counts_by_the_others():
     found = calibrate_traces(PACK, given, fit=["friction_scale"], errors=errors)
     assert found["friction_scale"].value == pytest.approx(0.9, rel=1e-4)
     assert found.points.output.count("temperature") < found.points.output.count("friction_torque")
+
+
+def test_a_recording_whose_second_row_is_pressed_does_not_start_under_load():
+    whole = stopped(0.9)
+    first = int(np.argmax(whole["load"] > 0.0)) - 1
+    data = {n: x[first::5] if np.ndim(x) else x for n, x in whole.items()}
+    data["load"] = np.concatenate([[0.0], np.full(len(data["load"]) - 1, data["load"].max())])
+    found = calibrate_traces(PACK, data, fit=["friction_scale"])
+    assert not any("starts under load" in text for text in found.warnings)

@@ -2,12 +2,14 @@
 
 import csv
 import json
+from pathlib import Path
 
 import pytest
 from scene_runs import slow_without_jit
 
 from thrustwasher.cli import main
 
+EXAMPLES = Path(__file__).parents[3] / "examples"
 SCENE = 'base = "planetary"\n[transmission]\nwashers = 0\n'
 
 
@@ -25,6 +27,21 @@ def test_the_map_goes_to_a_file_a_picture_and_json(tmp_path, capsys):
     for row, point in zip(rows, told["points"], strict=True):
         assert float(row["efficiency [1]"]) == point["efficiency"] and 0.8 < point["efficiency"] < 1
     assert plot.stat().st_size > 10_000
+
+
+def test_bearings_with_names_of_their_own_are_told(tmp_path, capsys):
+    text = (EXAMPLES / "ev-reducer.toml").read_text("utf-8")
+    first = text.index("bearings = [")
+    last = text.index("]\n", first) + 2
+    end = "bearings.{} = {{ type = 'ball', position = '{} mm', diameter = '60 mm', C = '9 kN' }}\n"
+    ends = end.format("left", 0) + end.format("right", 90)
+    mine = tmp_path / "mine.toml"
+    mine.write_text(text[:first] + ends + text[last:], "utf-8")
+    over = ["--over", "torque=100", "--over", "speed=3000rpm"]
+    assert main(["efficiency", str(mine), *over]) == 0
+    assert "h: rotor.left, at 100" in capsys.readouterr().out
+    assert main(["train", str(mine)]) == 2
+    assert f"did you mean --part {mine}?" in capsys.readouterr().err
 
 
 @slow_without_jit

@@ -43,6 +43,22 @@ def test_the_picture_comes_first_then_what_it_rests_on():
     assert of_a_part.sections[0].anchor == "spread"
 
 
+def test_a_train_leads_with_the_power_lost_and_has_lives_in_hours():
+    """Efficiencies of 97.6 to 97.72 % differ in the third digit of the loss."""
+    share = 0.976 + 0.0012 * np.linspace(0.0, 1.0, 64)
+    figures = {
+        "efficiency": band(share, "1", "what comes out over what goes in (-1: nothing)", 0.9),
+        "bearing_life": band(3.6e7 * (1.0 + np.linspace(0.0, 1.0, 64)), "s", "minimum life", 0.9),
+    }
+    sample = {name: share for name in figures} | {s.name: share for s in SOURCES}
+    page = scatter_page(
+        study(kind="part", series={}, model="train", figures=figures, sample=sample, nearest={})
+    )
+    lost, life = page.cards[0], page.cards[1]
+    assert (lost.name, lost.value) == ("power lost, of what goes in", "2.29 .. 2.39 %")
+    assert life.value == "10500 .. 19500 h"
+
+
 def test_a_figure_stands_with_band_range_and_probability():
     row = figure_table(study()).rows[0]
     assert row[0] == "shift duration, start until clutch locks [s]"

@@ -50,6 +50,7 @@ POISSON = 0.3
 LEAST_LIMIT = 2e7  # Pa, of a contact limit that is given
 COEFFICIENT_AT = 311.15  # K, 38 degC
 LEAST_COEFFICIENT = 1e-9  # 1/Pa, of the viscosity, that is given
+LEAST_EFFICIENCY = 0.01  # that is given
 LEAST_CONTACT = 0.1  # contact ratio of helical teeth
 LEAST_TOTAL = 1.01  # contact and overlap ratio together where the first is below 1
 RIM = 4.0  # transverse modules from a ring's pitch circle to its outside; an estimate
@@ -175,6 +176,18 @@ def pressure_viscosity(par: Array) -> float:
 
 
 @kernel
+def derive_efficiency(par: Array, at_pinion: bool) -> None:
+    """Fill what a mesh loses over the power of one shaft, where that feeds in and where it is fed.
+
+    ``at_pinion``: of the pinion's shaft, else the gear's.
+    """
+    drives, back = par[L.P_EFFICIENCY], par[L.P_EFFICIENCY_BACK]
+    back = back if back > 0.0 else drives
+    par[L.D_LOST_IN] = 1.0 - (drives if at_pinion else back)
+    par[L.D_LOST_OUT] = 1.0 / (back if at_pinion else drives) - 1.0
+
+
+@kernel
 def derive(par: Array) -> int:
     """Fill the constants behind the parameters; return 0, or NOT_FINITE."""
     derive_geometry(par)
@@ -190,6 +203,7 @@ def derive(par: Array) -> int:
     by_speed = math.sqrt(par[L.D_V1]) / (math.sqrt(par[L.D_V1]) + math.sqrt(par[L.D_V2]))
     constant = par[L.P_HEAT_PARTITION] == L.CONSTANT_SHARE
     par[L.D_SHARE] = par[L.P_PARTITION_SHARE] if constant else by_speed
+    derive_efficiency(par, True)
     derive_factors(par)
     derive_limits(par)
     derive_root(par)
@@ -397,6 +411,8 @@ def broken_rule(par: Array) -> int:
         return 25
     if 0.0 < par[L.P_PRESSURE_VISCOSITY] < LEAST_COEFFICIENT:
         return 26
+    if 0.0 < par[L.P_EFFICIENCY_BACK] < LEAST_EFFICIENCY:
+        return 27
     if 0.0 < par[L.P_ADDENDUM_GEAR] < 0.3:
         return 9
     if 0.0 < par[L.P_NORMAL_MODULE] < 1e-4:
@@ -436,7 +452,8 @@ def broken_rule(par: Array) -> int:
     own_addendum = par[L.P_ADDENDUM_GEAR] > 0.0
     beyond = beyond or (own_addendum and par[L.P_ADDENDUM_GEAR] != par[L.P_ADDENDUM])
     beyond = beyond or not is_standard(par) or has_own_material(par)
-    if is_paper and (beyond or par[L.P_FRICTION_LAW] == L.MIXED_FRICTION):
+    law = par[L.P_FRICTION_LAW]
+    if is_paper and (beyond or law == L.MIXED_FRICTION or law == L.EFFICIENCY):
         return 7
     rule = sharing_rule(par, approach + recess, pitch_of(par))
     return rule if rule > 0 else root_rule(par, approach + recess)

@@ -23,8 +23,8 @@ P_LOAD_SHARING, P_STIFFNESS_AT_ENDS, P_TIP_RELIEF_PINION, P_TIP_RELIEF_GEAR = ra
 P_TIP_RELIEF_LENGTH_PINION, P_TIP_RELIEF_LENGTH_GEAR, P_BASE_OIL, P_FRICTION_SCALE = range(76, 80)
 P_BOUNDARY_FRICTION, P_MATERIAL_GEAR, P_YOUNGS_MODULUS_GEAR, P_POISSON_RATIO_GEAR = range(80, 84)
 P_CONDUCTIVITY_GEAR, P_HEAT_CAPACITY_GEAR, P_DENSITY_GEAR, P_CONTACT_LIMIT_GEAR = range(84, 88)
-P_ROOT_LIMIT_GEAR, P_HOLDING, P_COUPLING_INERTIA, P_COUPLING_AGE, P_FIDELITY = range(88, 93)
-N_PARAM = 93
+P_ROOT_LIMIT_GEAR, P_EFFICIENCY, P_EFFICIENCY_BACK, P_HOLDING, P_COUPLING_INERTIA = range(88, 93)
+P_COUPLING_AGE, P_FIDELITY, N_PARAM = range(93, 96)
 # end of places
 # Constants that derive() adds: geometry per unit of speed and torque, surface, material; then what
 # a mesh heated by its loss needs: section, loads per torque, limits, body, extremes of the path.
@@ -90,8 +90,10 @@ N_PARAM = 93
     D_HOT_SHARE,
     D_HOT_FILM,
     D_ALPHA,
+    D_LOST_IN,
+    D_LOST_OUT,
     D_PLACES,
-) = range(N_PARAM, N_PARAM + 62)
+) = range(N_PARAM, N_PARAM + 64)
 # The line of action: positions from the pitch point in base pitches, shares of the load that the
 # pair there bears, shares of the loss; D_PLACES is the number of positions. Where the loss heats,
 # also lengths and, per root of load and speed, flash of a friction of 1, film, mean pressure; then
@@ -174,9 +176,9 @@ NSTATE = S_MEMORY + N_MEMORY
 # the position at hand, the constants there; then, for both heats, the number of the hottest.
 W_HOTTEST, W_HERE, W_LOCAL, W_PLACE = N_FIELD, 2 * N_FIELD, 3 * N_FIELD, 3 * N_FIELD + D_POSITION
 # Where the loss heats: how the step began (HELD and so on), the bodies over the oil then [K],
-# duration [s]; speed over which the torque rises [rad/s]; friction of every position, in mixed
-# friction the contact's share.
-W_BEGAN, W_FROM, W_DURATION, W_WIDTH, W_FRICTION = range(W_PLACE + 1, W_PLACE + 6)
+# duration [s]; speed over which the torque rises [rad/s]; the way of the power, from 1, in at the
+# load's shaft, to -1, out there; friction of every position, in mixed friction the contact's share.
+W_BEGAN, W_FROM, W_DURATION, W_WIDTH, W_WAY, W_FRICTION = range(W_PLACE + 1, W_PLACE + 7)
 W_CONTACT, W_PAR = W_FRICTION + N_PATH, W_FRICTION + 2 * N_PATH
 # Where stiffness shares the load: all constants with the shares at the load at hand; scratch for
 # solving the point again with others.
@@ -195,7 +197,7 @@ NO_LIMIT, NO_DATA = 1000.0, -1.0
 # Numbers of the enumerations.
 FIELD, FINE = 3, 4  # fidelity; 1 and 2 were simpler and run as FIELD
 ROUGH = 1  # surface
-LI_SEIREG, ISO, CONSTANT, MIXED_FRICTION, SCHLENK = range(1, 6)  # friction_law
+LI_SEIREG, ISO, CONSTANT, MIXED_FRICTION, SCHLENK, EFFICIENCY = range(1, 7)  # friction_law
 LOSS = 1  # film_heat, 2 is the paper's
 QUASI_STEADY = 1  # thermal_mode, 2 is transient
 STEADY_START = 1  # thermal_start, 2 is the oil's temperature

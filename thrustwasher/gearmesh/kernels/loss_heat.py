@@ -24,7 +24,15 @@ from .mesh_point import (
     viscosity_follows,
 )
 from .micropitting import fill_micropitting, micropitting_change
-from .path_friction import fill_friction, film_change, film_scale, friction_changes, is_uniform
+from .path_friction import (
+    fill_friction,
+    film_change,
+    film_scale,
+    friction_changes,
+    is_uniform,
+    known_friction,
+    way_of_power,
+)
 from .path_of_contact import flanks_at
 
 HALVINGS = 52
@@ -202,6 +210,12 @@ def loss_changes(
     dmean, hottest, scuffs = friction_changes(
         par, line, turning, load, faster, thin, viscosity, held, work
     )
+    if par[L.P_FRICTION_LAW] == L.EFFICIENCY:
+        smooth = work[L.F_SMOOTH_SIGN]
+        way, turn = way_of_power(par, torque)
+        turns = way * (1.0 - smooth) * (1.0 + smooth) / work[L.W_WIDTH] * seed[L.I_SPEED]
+        turns += smooth * turn * seed[L.I_LOAD]
+        dmean = hottest = known_friction(par, work[L.W_WAY])[1] * turns
     by_body, hot_by_body, scuffs_by_body = friction_changes(
         par, line, turning, 0.0, 0.0, 0.0, viscosity, steep, work
     )

@@ -1,7 +1,8 @@
 # mypy: disable-error-code="no-any-return"
 """Friction along the path of contact, and how it changes with load, speed and viscosities.
 
-All changes given are relative. The laws "constant" and "iso" have one friction for the whole path.
+All changes given are relative. The laws "constant", "iso", "schlenk" and "efficiency" have one
+friction for the whole path.
 """
 
 import math
@@ -9,7 +10,12 @@ import math
 import numpy as np
 
 from ...numerics.jit import Array, kernel
-from ...numerics.smoothing import floored, floored_slope, soft_least, soft_most
+from ...numerics.smoothing import (
+    floored,
+    floored_slope,
+    soft_least,
+    soft_most,
+)
 from . import layout as L
 from .contact import (
     BOUNDARY_SPEED,
@@ -19,6 +25,7 @@ from .contact import (
     li_seireg,
     schlenk_and_slopes,
 )
+from .mesh_point import LEAST_LINE_LOAD
 from .path_of_contact import LOSS_LUBRICANT, SCUFFING_LUBRICANT, flanks_at, loss_over_scuffing
 
 LEAST_ROLLING = 0.1  # m/s, below it the standard's mean friction would grow without bound; estimate
@@ -72,15 +79,39 @@ def _law(par: Array, load: float, rolling: float, oil: float) -> float:
 
 
 @kernel
+def way_of_power(par: Array, load: float) -> tuple[float, float]:
+    """Return the sign of a torque [N m], smooth through 0 over the least line load, its slope."""
+    width = 2.0 * LEAST_LINE_LOAD / par[L.D_LINE]
+    s = min(max(load / width, -1.0), 1.0)
+    return 0.5 * s * (3.0 - s * s), 1.5 * (1.0 - s * s) / width
+
+
+@kernel
+def known_friction(par: Array, way: float) -> tuple[float, float]:
+    """Return the mean coefficient [-] that loses what the efficiency says, its slope over ``way``.
+
+    The loss over the power of the shaft at hand is that coefficient times D_LOSS; both ways of
+    power blend where the friction passes through zero.
+    """
+    lost, drop = par[L.D_LOST_IN], par[L.D_LOST_OUT]
+    mean, slope = 0.5 * (lost + drop) / par[L.D_LOSS], 0.5 * (lost - drop) / par[L.D_LOSS]
+    return mean + slope * way, slope
+
+
+@kernel
 def mean_friction(
-    par: Array, line: float, turning: float, oil: float
+    par: Array, line: float, turning: float, oil: float, way: float
 ) -> tuple[float, float, float]:
     """Return the mean coefficient [-] that the loss feels, and two slopes.
 
-    By Schlenk's law, that against scuffing, or the constant one. The slopes are those over the
-    logarithm of the law at a speed that is held, and over the part of it that the speed makes.
+    By Schlenk's law, that against scuffing, the constant one, or that of the efficiency. The slopes
+    are those over the logarithm of the law at a speed that is held, and over the part of it that
+    the speed makes. ``way`` of the power as in ``layout.W_WAY``.
     """
     law = par[L.P_FRICTION_LAW]
+    if law == L.EFFICIENCY:
+        mu, _ = known_friction(par, way)
+        return mu, 0.0, 0.0
     if law == L.CONSTANT:
         return par[L.P_CONSTANT_FRICTION], 0.0, 0.0
     scale = par[L.P_FRICTION_SCALE]
@@ -165,7 +196,9 @@ def fill_friction(
     friction of the flash is that against scuffing, of the law "constant" the constant one; where
     friction is local its mean is that.
     """
-    mean, work[L.F_FRICTION_SLOPE], work[L.F_SPEED_SLOPE] = mean_friction(par, line, turning, oil)
+    mean, work[L.F_FRICTION_SLOPE], work[L.F_SPEED_SLOPE] = mean_friction(
+        par, line, turning, oil, work[L.W_WAY]
+    )
     place = int(par[L.D_HOTTEST])
     work[L.W_PLACE], work[L.F_FRICTION], work[L.F_MEAN_FRICTION] = float(place), mean, mean
     if is_uniform(par):
@@ -275,7 +308,7 @@ def _shared_changes(
 ) -> tuple[float, float]:
     """Return the changes of the mixed friction; ``change`` of film, shear rate, pressure, alpha."""
     scale, place = film_scale(par, line, turning, viscosity), int(work[L.W_PLACE])
-    standard, _, _ = mean_friction(par, line, turning, work[L.F_BULK_VISCOSITY])
+    standard, _, _ = mean_friction(par, line, turning, work[L.F_BULK_VISCOSITY], work[L.W_WAY])
     contact, more, sheared, grows, here, there = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for k in range(int(par[L.D_PLACES])):
         film = par[np.uintp(L.D_PATH_FILM + k)] * scale

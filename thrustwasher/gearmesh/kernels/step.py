@@ -17,6 +17,7 @@ from .constants import derive as derive
 from .load_sharing import shared, shared_at
 from .mesh_point import LEAST_LINE_LOAD
 from .operating_point import point_changes, solve_point
+from .path_friction import way_of_power
 
 N_PARAM, NPAR, NINP, NSTATE, NWORK = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE, L.NWORK
 NOUT, NIOUT, W_TOLD, W_STATES = L.NOUT, L.NIOUT, L.W_TOLD, L.W_STATES
@@ -52,6 +53,7 @@ def solve_risen(
     ``risen``: the part of the friction that acts, with its sign.
     """
     pressed = soft_size(load, 2.0 * LEAST_LINE_LOAD / par[L.D_LINE])
+    work[L.W_WAY] = way_of_power(par, load)[0] * risen
     status = solve_point(par, load, speed, oil, pressed * risen * speed, state, dt, work)
     work[L.F_SMOOTH_SIGN] = risen
     work[L.F_TORQUE] = work[L.F_MEAN_FRICTION] * par[L.D_LOSS] * pressed * risen

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from ...errors import ParameterError
-from .table import is_unit, plain_unit
+from .table import UNMEASURED, is_unit, plain_unit
 
 Cells = Callable[[int, int], list[str]]
 """Gives the cells of a row, parted as the row of a head is."""
-MISSING = ("", "-", "--", "nan", "n/a", "na", "#n/a", "null", "none", "inf", "-inf")
+MISSING = (*UNMEASURED, "inf", "-inf")
 SHORT = 8  # characters of a unit that is not known here
 SHOWN = 60  # characters of a line that a message quotes
 _NUMBER = re.compile(

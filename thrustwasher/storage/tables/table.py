@@ -11,6 +11,9 @@ from ...errors import ParameterError
 from ...units import UNITS, parse_quantity, unit_size
 
 LONGEST = 2_000_000  # rows; a larger file is none of measured points
+UNMEASURED = ("", "-", "--", "nan", "n/a", "na", "#n/a", "null", "none")  # in lower case
+CLOCK = re.compile(r"(\d{1,2}):(\d\d):(\d\d(?:[.,]\d+)?)")
+CLOCKED = ("", "hh:mm:ss", "hh:mm:ss.fff", "h:m:s")
 MANY = 2_000  # rows from which a column is converted as a whole, rounded once in long double
 
 
@@ -139,7 +142,9 @@ def is_unit(text: str) -> bool:
 def numbers(
     column: Column, table: Table, unit: str, *, name: str = "", difference: bool = False
 ) -> list[float | None]:
-    """Return a column in the SI unit ``unit``; None where a cell is empty.
+    """Return a column in the SI unit ``unit``; None where a cell is empty, NaN or n/a.
+
+    A time of day, such as 10:00:01.250, is seconds since midnight.
 
     Raises
     ------
@@ -153,8 +158,13 @@ def numbers(
     found: list[float | None] = []
     for text, line in zip(column.cells, table.lines, strict=True):
         place = f"{table.path}, line {line}: {name}"
-        if not text:
+        if text.lower() in UNMEASURED:
             found.append(None)
+            continue
+        clock = CLOCK.fullmatch(text) if unit == "s" and column.unit in CLOCKED else None
+        if clock:
+            hours, minutes, seconds = (float(x.replace(",", ".")) for x in clock.groups())
+            found.append(3600.0 * hours + 60.0 * minutes + seconds)
             continue
         try:
             float(text)

@@ -21,18 +21,19 @@ EXAMPLES = (
     "thrustwasher efficiency planetary --gear first --over torque=-50:150:50 --out efficiency.csv",
 )
 VALUES = "NAME=VALUES, e.g. torque=-100:250:50 or speed=1000rpm:4000rpm:n7"
-USUAL = {"torque": "25:250:n10", "speed": "1000 rpm:4000 rpm:n7"}
+USUAL = {"torque": "25:250:n10", "speed": "1000 rpm:4000 rpm:n13"}
 OPTIONS = {
     "--over NAME=VALUES ...": "torque [N m] and speed [rad/s] of the input: torque=50:250:50 "
     "(start:stop:step), speed=1000rpm:4000rpm:n7 (7 values, even), torque=-50,200 (coasting: "
     "against the speed), of a gear train oil_temperature=40degC,80degC too; default "
-    "torque=25:250:n10, speed=1000rpm:4000rpm:n7, of a gear train 33 each, up to the ends of its "
+    "torque=25:250:n10, speed=1000rpm:4000rpm:n13, of a gear train 33 each, up to the ends of its "
     "[box]",
     "--gear NAME": "first: the brake holds, second: the clutch holds; default first",
 }
 GRID = 33  # torques, and speeds, of a gear train: lines of a map without kinks
 LOSS_MAP = ".vtlm"
 RPM = 9.549296585513721  # of a rad/s
+NEAR = 1.01  # of the smallest margin: as good as that
 LEAST = ("pitting_safety", "root_safety", "scuffing_safety", "bearing_life")
 
 
@@ -189,12 +190,14 @@ def _largest(found: Any) -> list[str]:
 
 
 def _worst(found: Any) -> list[dict[str, float]]:
-    """Return the point of most power, and those where a margin is smallest, each once."""
+    """Return the point of most power, and those where a margin is clearly smaller, each once."""
     import numpy as np
 
     c = found.columns
-    places = [int(abs(c["torque"] * c["speed"]).argmax())]
-    places += [int(np.nanargmin(c[n])) for n in LEAST if n in c and not np.isnan(c[n]).all()]
+    most = int(abs(c["torque"] * c["speed"]).argmax())
+    known = [n for n in LEAST if n in c and not np.isnan(c[n]).all()]
+    least = {n: int(np.nanargmin(c[n])) for n in known}
+    places = [most, *(i for n, i in least.items() if not c[n][most] <= NEAR * c[n][i])]
     names = ("torque", "speed", "oil_temperature")
     return [{n: float(c[n][i]) for n in names} for i in dict.fromkeys(places)]
 
@@ -211,7 +214,7 @@ def _limits(found: Any) -> list[str]:
     for name in LEAST:
         if name not in c or np.isnan(c[name]).all():
             continue
-        end = name if name.endswith("_safety") else "_life"
+        end = name if name.endswith("_safety") else "life"  # "middle.left.life" too
         i = int(np.nanargmin(c[name]))
         own = [n for n in c if n != name and n.endswith(end)]
         of = next(n for n in own if c[n][i] == c[name][i]).removesuffix(end).rstrip("._")

@@ -62,7 +62,7 @@ def reference_gearmesh(
     fine = solve_gearmesh(
         params, power=power, speed=speed, oil_temperature=oil_temperature, fidelity="fine"
     )
-    torque = pinion_torque(power, speed)
+    torque = abs(pinion_torque(power, speed))
     if params.film_heat == "loss":
         return _of_loss(params, torque, speed, oil_temperature)
     par = prepare(params, "fine")

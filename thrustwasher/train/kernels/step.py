@@ -6,6 +6,7 @@ import math
 import numpy as np
 
 from ...gearmesh.kernels import layout as G
+from ...gearmesh.kernels.constants import derive_efficiency
 from ...gearmesh.kernels.mesh_point import viscosity_at
 from ...gearmesh.kernels.step import broken_rule as broken_pair
 from ...gearmesh.kernels.step import derive as derive_pair
@@ -56,6 +57,7 @@ def derive_mesh(par: Array, mesh: int) -> None:
     ratio, distance = pair[G.P_GEAR_RATIO], pair[G.D_CENTRE]
     pinion = distance / (ratio + 1.0)
     drives = par[np.uintp(own + L.A_DRIVER)] == L.PINION
+    derive_efficiency(pair, drives)  # of the driver's power, as the chain gives it
     par[np.uintp(at + L.E_RATIO)] = ratio if drives else 1.0 / ratio
     par[np.uintp(at + L.E_DRIVER)] = pinion if drives else distance - pinion
     par[np.uintp(at + L.E_DRIVEN)] = distance - pinion if drives else pinion

@@ -11,7 +11,7 @@ from ....clutch.kernels import pack_outputs, rates
 from ....clutch.solve import prepare
 from ....errors import ParameterError, Status
 from ....numerics.jit import Array
-from ..traces.binned import Run
+from ..traces.binned import OFF, Run
 from ..traces.traced import History
 from .traced_pack import TracedPack
 
@@ -29,11 +29,16 @@ class Way:
     slip: Array  # [rad/s]
 
 
+def starts_engaged(run: Run, load: Array) -> bool:
+    """Return whether a run begins under ``load`` [N], not at the point before it rises."""
+    return bool(run.engaged[0] and load[0] > OFF * np.max(load))
+
+
 def walk_pack(params: TracedPack, fidelity: str, run: Run) -> History | Status:
     """Return torque, temperature and slip along a run, (m,) each, or why there are none."""
     load = pressing_force(params, run)
     pack = params.pack()
-    if run.engaged[0] and not pack.starts_pressed:
+    if starts_engaged(run, load) and not pack.starts_pressed:
         pack = replace(pack, starts_pressed=True)
     par, begin = prepare(pack, fidelity), run.inputs["speed"]
     warm = _start_temperature(run)

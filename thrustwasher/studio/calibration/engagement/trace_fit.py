@@ -26,7 +26,7 @@ from ..traces.recording import SLOW, Traces, measured_part, pieces
 from ..traces.trace_problem import fit_traces, size_text
 from ..traces.trace_result import TraceCalibration
 from ..traces.traced import Traced
-from .pack_history import SLIDES, slip_by_torque, walk_pack
+from .pack_history import SLIDES, slip_by_torque, starts_engaged, walk_pack
 from .recorded import COLUMNS, MEASURED, NEEDED, completed, read_recordings
 from .slip_scatter import slip_scatter
 from .traced_pack import OF_RIG, TRACED, TracedPack, traced_pack
@@ -387,7 +387,7 @@ def _plan(
             doubts.append(
                 f"{run.name} lasts {lasts:.4g} s: if time is in ms, name the column time [ms]"
             )
-        if run.engaged[0] and not rig.starts_pressed:
+        if starts_engaged(run, run.inputs["load"]) and not rig.starts_pressed:
             force = format_quantity(float(run.inputs["load"][0]), "N", digits=3)
             doubts.append(
                 f"{run.name}: a recording starts under load ({force} at {run.time[0]:.6g} s): film "

@@ -21,6 +21,8 @@ from .decides import (
     signed,
     verdict,
 )
+from .lost_power import NAME as EFFICIENCY
+from .lost_power import other_ends, with_lost_power
 from .study_data import Study
 from .words import (
     LOST,
@@ -86,6 +88,9 @@ def scatter_page(result: Study, files: tables.Files | None = None) -> Page:
     files : scene or part files of the runs nearest to quantiles, by figure and quantile, as the
         page links them; None: there are none
     """
+    result = with_lost_power(result)
+    if files and result.model == "train":
+        files = {n: other_ends(x) if n == EFFICIENCY else x for n, x in files.items()}
     chosen = main_figures(result, MOST_FIGURES)
     return Page(
         title=f"Uncertainty: {result.target}",
@@ -141,7 +146,10 @@ def _subtitle(result: Study) -> str:
 
 def setting_words(result: Study) -> str:
     """Return what of a part does not scatter: level, operating point, oil."""
-    return ", ".join(f"{named(name)} {value}" for name, value in result.setting.items())
+    return ", ".join(
+        value if value.startswith(f"{name} ") else f"{named(name)} {value}"  # "oil ISO VG 46, .."
+        for name, value in result.setting.items()
+    )
 
 
 def _verdicts(result: Study, names: Sequence[str]) -> list[str]:
@@ -192,16 +200,16 @@ def chance_cards(result: Study, names: Sequence[str] = ()) -> list[Card]:
 
 
 def _cards(result: Study, names: Sequence[str]) -> list[Card]:
-    cards = chance_cards(result)
+    chances, cards = chance_cards(result), list[Card]()
     washers = [name for name in names if name in washer_figures(result)][:2]
     others = [name for name in names if name not in washers]
-    for name in [*washers, *others][: max(MOST_CARDS - len(cards), 4)]:
+    for name in [*washers, *others][: max(MOST_CARDS - len(chances), 4)]:
         band = result.figures[name]
         scale = band_scale(band)
         nominal = padded((band.nominal - scale.zero) / scale.size, scale.digits)
         note = "; ".join([f"5 .. 95 %; nominal {nominal} {scale.unit}".strip(), *loose_words(band)])
         cards.append(Card(title_of(name, band), band_words(band), note))
-    return cards
+    return [*cards, *chances] if result.model == "train" else [*chances, *cards]
 
 
 def band_sections(result: Study) -> list[Section]:

@@ -15,6 +15,7 @@ NONE = "\N{EN DASH}"
 LOW, MIDDLE, HIGH = 0.05, 0.5, 0.95
 BAND = "5 .. 95 %"  # the head of a column
 MOST_DIGITS = 6
+LIFE = 1e5  # s
 LOST = "film_lost"
 LOST_TEXTS = {
     "part": "the asperities carry: the contact branch, or a film ratio below 3 where there are no "
@@ -83,9 +84,9 @@ def scale_of(unit: str, values: Iterable[float | None], *, relative: bool = Fals
     """Return the unit for values as large as these [SI]."""
     if unit == "K" and not relative:
         return Scale("°C", 1.0, CELSIUS)
-    if unit == "s":  # times stay in seconds
-        return Scale("s")
     largest = max((abs(v) for v in values if v is not None and math.isfinite(v)), default=0.0)
+    if unit == "s":  # times of a run stay in seconds, lives are hours
+        return Scale("h", 3600.0) if largest >= LIFE else Scale("s")
     shown, size = display_unit(largest, unit)
     return Scale("" if shown == "1" else shown, size)
 

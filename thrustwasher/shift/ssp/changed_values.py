@@ -75,7 +75,7 @@ def _value(path: str, params: Any, name: str, text: str, start: float) -> Any:
     """Return a value; a time that counts from the ``start`` of the run [s] as the scene's."""
     about = next(f for f in fields(params) if f.name == name)
     value = of_field(path, about.default, about.metadata).check(text)
-    return value + start if "instant" in about.metadata else value
+    return float(value) + start if "instant" in about.metadata else value
 
 
 def _with_value(part: Part, path: str, name: str, text: str) -> Part:

@@ -121,6 +121,7 @@ int begin(Instance *m, double start_time) {
         return fail(m, "%s s, allowed: a finite number", text.text);
     }
     m->now.time = start_time;
+    if (RUN_START >= 0) m->now.par[AT_LEAST_ONE(RUN_START + 1) - 1] = start_time; /* profiles count from it */
     return GOOD;
 }
 

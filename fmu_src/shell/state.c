@@ -203,6 +203,7 @@ static int is_sound(const Snap *s) {
     good &= s->exchange <= HAS_EXCHANGE && (s->exchange || s->mode < CONTINUOUS);
     good &= (s->dirty == 0 || s->dirty == 1) && (s->prepared == 0 || s->prepared == 1);
     good &= s->n_early >= 0 && is_finite(s->row_end);
+    good &= RUN_START < 0 || is_finite(s->par[AT_LEAST_ONE(RUN_START + 1) - 1]);
     good &= s->latch >= 0 && s->latch <= STATUS_NOT_IN_MAP;
     for (int i = 0; i < N_VARIABLES; i++) {
         const Variable *v = &VARIABLES[i];

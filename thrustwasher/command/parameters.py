@@ -14,7 +14,9 @@ from ..model.toml_tables import spec_beside
 class CommandParams:
     """A ramp from ``before`` to ``after``."""
 
-    start: float = quantity(0.1, "s", -1e6, 1e6, "time the ramp starts")
+    start: float = quantity(
+        0.1, "s", -1e6, 1e6, "time the ramp starts, from the run's start", instant=True
+    )
     duration: float = quantity(0.3, "s", 0.0, 1e3, "duration of the ramp (0: a step)")
     before: float = quantity(0.0, "1", 0.0, 1.0, "command before the ramp")
     after: float = quantity(1.0, "1", 0.0, 1.0, "command after the ramp")

@@ -30,6 +30,7 @@ Python FMU and the native FMU call the same code:
 ``NINP .. NIOUT``      lengths of ``inp``, ``state``, ``work``, ``out``, ``iout``
 ``NRATES``             NINP where ``inp`` may have rates behind the inputs; else it is left out
 ``NSEED``              NINP and tunable parameters ``sens`` knows; left out where there are none
+``RUN_START``          where in ``par`` the run's start [s] lies: ``instant`` ones count from it
 ``derive(par)``        fill ``par[N_PARAM:]``; return a status; called once per parameter change
 ``broken_rule(par)``   number of the first broken rule between parameters, 0 if there is none
 ``step(...)``          ``step(par, inp, state, work, out, iout, t, dt)`` returns a status

@@ -30,7 +30,8 @@ def quantity(default: float, unit: str, low: float, high: float, text: str, **ex
     ``tunable=True``: an FMU's host may change it between two steps. ``overrides``, ``belongs_to``:
     see ``model.idle``; ``read_by``, ``read_with``, ``only_for``: ``model.unread``; ``decides``:
     ``held_choices``. ``at_zero``: what counts where the value is 0, the name of a parameter or
-    input, or a function of all parameters; else the one parameter it ``overrides``.
+    input, or a function of all parameters; else the one parameter it ``overrides``. ``instant``: a
+    time that counts from the run's start.
     """
     meta = {"kind": "real", "unit": unit, "min": low, "max": high}
     return field(default=default, metadata=_described(meta, text, extra))

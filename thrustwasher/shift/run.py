@@ -224,6 +224,7 @@ def check_instances(scene: Scene, instances: Mapping[str, Stepping]) -> None:
             continue
         names = [n for n in part.parameters() if n != "fidelity"]
         expected = dict(zip(names, as_numbers(part.params), strict=True))
+        expected |= {n: x for n, x in part.parameters().items() if isinstance(x, float)}
         expected["fidelity"] = list(part.spec.fidelities).index(part.fidelity) + 1.0  # from 1 on
         found = capable(instance).get(list(expected))
         for key, has in zip(expected, found, strict=True):

@@ -162,10 +162,22 @@ def _profile(
     time, value = f"{text}: time of point", f"{text}: value of point"
     n, points = range(1, POINTS + 1), f"{name}_points"
     return {
-        points: count(0, 0, POINTS, f"number of points of the {text} over time", **more),
+        points: count(
+            0,
+            0,
+            POINTS,
+            f"number of points of the {text} over time, which counts from the run's start",
+            **more,
+        ),
         **{
             f"{name}_time_{i}": quantity(
-                0.0, "s", -1e6, 1e6, f"{time} {i}", read_by=((points, ">=", max(i, 2)),)
+                0.0,
+                "s",
+                -1e6,
+                1e6,
+                f"{time} {i}",
+                read_by=((points, ">=", max(i, 2)),),
+                instant=True,
             )
             for i in n
         },
@@ -219,7 +231,13 @@ class _TransmissionParams:
         150.0, "N.m", -1e5, 1e5, "engine torque once it is on", read_by=NO_POINTS
     )
     engine_start_time: float = quantity(
-        0.0, "s", -1e9, 1e9, "time the engine torque is turned on", read_by=NO_POINTS
+        0.0,
+        "s",
+        -1e9,
+        1e9,
+        "time the engine torque is turned on, from the run's start",
+        read_by=NO_POINTS,
+        instant=True,
     )
     load_torque: float = quantity(250.0, "N.m", 0.0, 1e6, "load torque at load_speed, grows as w^2")
     load_speed: float = quantity(100.0, "rad/s", 1e-3, 1e4, "output speed load_torque belongs to")

@@ -11,7 +11,8 @@ IntArray = NDArray[np.int32]
 # places: P_ of parameters
 P_START, P_DURATION, P_BEFORE, P_AFTER, P_LEAD, P_FIDELITY, N_PARAM = range(0, 7)
 # end of places
-NPAR = N_PARAM
+RUN_START = N_PARAM  # in `par`: the time [s] that the ramp's counts from, put in by the shell
+NPAR = RUN_START + 1
 NINP, NSTATE, NWORK, NOUT, NIOUT = 0, 0, 1, 1, 1
 
 
@@ -33,7 +34,7 @@ def step(
     dt: float,
 ) -> int:
     """Give the command at the end of the step, ``lead`` ahead of time."""
-    begin, duration = par[P_START], par[P_DURATION]
+    begin, duration = par[RUN_START] + par[P_START], par[P_DURATION]
     before, after = par[P_BEFORE], par[P_AFTER]
     time = t + dt + par[P_LEAD]
     value = before

@@ -4,6 +4,7 @@ In FMI 3.0 a parameter has a second name with a dot, an alias. FMI 2.0 knows non
 are listed in an annotation of the vendor. The plain names stay in both.
 """
 
+import re
 from collections.abc import Iterable
 from fnmatch import fnmatchcase
 
@@ -23,8 +24,43 @@ def groups(spec: ModelSpec, names: Iterable[str]) -> dict[str, list[str]]:
     return found
 
 
+def listed_groups(spec: ModelSpec, names: Iterable[str]) -> dict[str, str]:
+    """Return the names of parameters by group, in one text; of a whole body a pattern."""
+    return {
+        group: f"{group}_*" if _is_numbered(group) else " ".join(own)
+        for group, own in groups(spec, names).items()
+    }
+
+
+def repeated(spec: ModelSpec, names: Iterable[str]) -> set[str]:
+    """Return the variables that mean the same as one of the first body of their kind.
+
+    Examples
+    --------
+    >>> from thrustwasher.model.registry import find_spec
+    >>> names = "mesh_1_hand", "mesh_2_hand", "shaft_1_bearing_1_life", "shaft_1_bearing_2_life"
+    >>> sorted(repeated(find_spec("train"), names))
+    ['mesh_2_hand', 'shaft_1_bearing_2_life']
+    """
+    bodies = tuple(f"{group}_" for group in GROUPS.get(spec.key, ()) if _is_numbered(group))
+    found = set(names)
+    first = {name: re.sub(r"_\d_", "_1_", name) for name in found}
+    return {
+        name
+        for name, same in first.items()
+        if name.removeprefix("der(").startswith(bodies) and same != name and same in found
+    }
+
+
+def _is_numbered(group: str) -> bool:
+    """Tell if a group is one of several bodies alike: mesh_2."""
+    return group[-1].isdigit()
+
+
 def grouped_names(spec: ModelSpec, names: Iterable[str]) -> dict[str, str]:
-    """Return the second name of each parameter that is in a group.
+    """Return the second name of each parameter in a group, but for one of several bodies alike.
+
+    mesh_1.hand says no more than mesh_1_hand.
 
     Examples
     --------
@@ -35,5 +71,6 @@ def grouped_names(spec: ModelSpec, names: Iterable[str]) -> dict[str, str]:
     return {
         name: f"{group}.{name.removeprefix(f'{group}_').removesuffix(f'_{group}')}"
         for group, own in groups(spec, names).items()
+        if not _is_numbered(group)
         for name in own
     }

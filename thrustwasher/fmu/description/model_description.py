@@ -15,7 +15,7 @@ from ...templates import filled
 from ...units import UNITS, exponents
 from ..model_kernels import package_version
 from ..package.model_sources import PACKAGE
-from .groups import grouped_names, groups
+from .groups import grouped_names, listed_groups, repeated
 from .interface import Interface, Variable
 
 HERE = Path(__file__).parent
@@ -65,6 +65,7 @@ def description(
     if own:  # the indicators, which are no variables in FMI 2, come last
         found += tuple(v for v in shown.exchanged if fmi == 3 or v.store != "sign")
     hidden = {v.name for v in shown.outputs if plain and v.type != "Real"}
+    told = repeated(shown.spec, [v.name for v in found])
     if plain:
         found = tuple(_plain(shown, v, fmi) for v in found)
 
@@ -72,7 +73,7 @@ def description(
         is_there = v.store == "out" or (moving and v.causality == "input")
         return {"intermediateUpdate": "true"} if is_there and fmi == 3 else {}
 
-    return filled(
+    text = filled(
         HERE / "modelDescription.xml.jinja",
         shown=shown,
         fmi=fmi,
@@ -87,17 +88,18 @@ def description(
         exchange=own,
         structure=structure(shown, hidden, fmi if own else 0),
         enumerations={} if plain else shown.listed,
-        groups=groups(shown.spec, names),
+        groups=listed_groups(shown.spec, names),
         second_names=grouped_names(shown.spec, names),
         variables=[
             (
                 v,
-                head_attributes(v, v.name in hidden) | between(v),
+                head_attributes(v, v.name in hidden, v.name in told) | between(v),
                 value_attributes(v) | _span(shown, v) | _base(shown, v, fmi),
             )
             for v in found
         ],
     )
+    return text.replace(b"&#39;", b"'")  # every attribute stands in double quotes
 
 
 def terminals_and_icons(shown: Interface, *, icon: bool = True) -> bytes:
@@ -186,12 +188,12 @@ def types(found: tuple[Variable, ...]) -> list[tuple[str, Attributes]]:
     return [(name, REAL_TYPES[name]) for name in sorted(filter(None, used))]
 
 
-def head_attributes(v: Variable, is_hidden: bool = False) -> Attributes:
-    """Return what a variable of any type says of itself."""
+def head_attributes(v: Variable, is_hidden: bool = False, is_told: bool = False) -> Attributes:
+    """Return what a variable of any type says of itself; ``is_told``: another one says it too."""
     return {
         "name": v.name,
         "valueReference": v.reference,
-        "description": v.help,
+        "description": None if is_told else v.help,
         "causality": "local" if is_hidden else v.causality,
         "variability": v.variability,
         "initial": v.initial,
@@ -202,19 +204,30 @@ def value_attributes(v: Variable) -> Attributes:
     """Return what a variable says of its value: unit, range, nominal and start."""
     if v.type == "Boolean":
         return {"start": None if v.start is None else str(bool(v.start)).lower()}
-    kind = float if v.type == "Real" else int
-    numbers = {"min": v.low, "max": v.high, "nominal": v.nominal, "start": v.start}
+    kind = _short if v.type == "Real" else int
+    nominal = None if v.causality == "parameter" else v.nominal
+    numbers = {"min": v.low, "max": v.high, "nominal": nominal, "start": v.start}
     shown = {name: None if x is None else kind(x) for name, x in numbers.items()}
     if v.type != "Real":
         return {"declaredType": v.type_name, **shown, "nominal": None}
-    relative = "true" if v.relative else None
+    relative, own = "true" if v.relative else None, display_unit(v)
+    is_usual = own == REAL_TYPES.get(declared_type(v) or "", {}).get("displayUnit")
     return {
         "declaredType": declared_type(v),
         "unit": v.unit,
-        "displayUnit": display_unit(v),
+        "displayUnit": None if is_usual else own,
         "relativeQuantity": relative,
         **shown,
     }
+
+
+def _short(number: float) -> str:
+    """Return the shortest text of a number that is read as the same one."""
+    exact = repr(float(number)).removesuffix(".0")
+    found = [text for text in (exact, f"{number:g}") if float(text) == number]
+    return min(
+        (re.sub(r"e([+-])0*", lambda e: f"e{e[1].strip('+')}", text) for text in found), key=len
+    )
 
 
 def _span(shown: Interface, v: Variable) -> Attributes:

@@ -62,6 +62,7 @@ class Core:
         self._arrays = {name: getattr(self, name) for name in (*ARRAYS, "work")}
         handed = {name: a for name, a in self._arrays.items() if name != "rates"}
         told = getattr(kernel, "W_TOLD", -1)
+        self._run_start = getattr(kernel, "RUN_START", -1)
         self.told = self.work[told : told + N_FIGURES] if told >= 0 else np.zeros(0)
         self._step = bound(kernel.step, **handed | {"inp": taken})
         self._undo = self.state.copy(), self.out.copy(), self.iout.copy()
@@ -228,6 +229,8 @@ class Core:
         if not isfinite(start_time):
             raise ParameterError(f"start time = {start_time!r} s, allowed: a finite number")
         self.time, self.mode = start_time, Mode.INITIALIZING
+        if self._run_start >= 0:
+            self.par[self._run_start] = start_time
 
     def leave_initialization(self) -> None:
         """Check the parameters and solve the start point; after a failure the mode stays."""

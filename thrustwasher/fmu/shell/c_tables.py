@@ -243,6 +243,7 @@ def _header(shown: Interface, lists: dict[str, tuple[str, list[str]]]) -> str:
         **{name: getattr(kernel, name) for name in SIZES},
         "NRATES": getattr(kernel, "NRATES", 0),
         "NSEED": seed_length(kernel),
+        "RUN_START": getattr(kernel, "RUN_START", -1),
         **{name: getattr(exchange, name, 0) for name in EXCHANGE_SIZES},
         "HAS_EXCHANGE": int(exchange is not None),
         "NEEDS_STEPS": int(bool(shown.spec.exchange and shown.spec.exchange.steps)),

@@ -11,6 +11,7 @@ from ...model.levels import level_named
 from ...model.prepare import check_together
 from ...model.spec import ModelSpec
 from ...model.toml_tables import number
+from ...model.unread import unread
 from ...transmission.bearings import BEARINGS
 from ...transmission.parameters import profile_points
 from ...transmission.vehicle import Vehicle
@@ -40,10 +41,19 @@ class Part:
     """Parameters that the scene and its oil give it, which nobody gave for this part."""
     asked: str = field(default="", compare=False)
     """Name by which the level was requested; it may be that of one that is gone."""
+    start: float = 0.0
+    """When the scene starts [s]; its times, those in ``params`` too, are those of one clock."""
 
     def parameters(self) -> dict[str, Any]:
-        """Return all parameters by name, the fidelity among them, as an FMU takes them."""
+        """Return all parameters by name, the fidelity among them, as an FMU takes them.
+
+        There times count from the start of the run.
+        """
         values = {f.name: getattr(self.params, f.name) for f in fields(self.params)}
+        if self.start:
+            for f in fields(self.params):
+                if "instant" in f.metadata and not unread(self.params, f.name, self.fidelity):
+                    values[f.name] -= self.start
         return {**values, "fidelity": self.fidelity}
 
     def at(self, level: str) -> "Part":
@@ -241,7 +251,10 @@ class Scene:
             torque_age=MASTERS[self.master].torque_age,
             ring_mesh="ring_mesh" in self.parts,
         )
-        parts = {**self.parts, "transmission": replace(gearbox, params=params)}
+        parts = {
+            **self.parts,
+            "transmission": replace(gearbox, params=params, start=self.start_time),
+        }
         # The transmission looks ahead by itself: packs that say where they are now couple to it
         # with second order.
         # Stick and slip are decided in it alone.

@@ -49,7 +49,7 @@ def changed(scene: Scene, settings: Mapping[str, str]) -> Scene:
             )
         part, name = known[path]
         if part == SOURCE:
-            own[COMMAND[name]] = _value(path, SOURCE_SPEC.params, name, text)
+            own[COMMAND[name]] = _value(path, SOURCE_SPEC.params, name, text, scene.start_time)
             continue
         parts[part] = _with_value(parts[part], path, name, text)
     for path in settings:  # when all are set: one may switch another one on
@@ -71,13 +71,15 @@ def _paths(part: str, name: str) -> list[str]:
     return [f"{part}.{name}", *([shown_as(part, name)] if is_shown else [])]
 
 
-def _value(path: str, params: Any, name: str, text: str) -> Any:
+def _value(path: str, params: Any, name: str, text: str, start: float) -> Any:
+    """Return a value; a time that counts from the ``start`` of the run [s] as the scene's."""
     about = next(f for f in fields(params) if f.name == name)
-    return of_field(path, about.default, about.metadata).check(text)
+    value = of_field(path, about.default, about.metadata).check(text)
+    return float(value) + start if "instant" in about.metadata else value
 
 
 def _with_value(part: Part, path: str, name: str, text: str) -> Part:
-    value = _value(path, part.params, name, text)
+    value = _value(path, part.params, name, text, part.start)
     return replace(part, params=replace(part.params, **{name: value}))
 
 

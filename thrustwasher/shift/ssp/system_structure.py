@@ -147,7 +147,8 @@ def _source(scene: Scene) -> Part:
         after=scene.shift_to,
         lead=scene.step,
     )
-    return Part(spec=SOURCE_SPEC, fidelity=SOURCE_SPEC.default_fidelity, params=params)
+    level = SOURCE_SPEC.default_fidelity
+    return Part(spec=SOURCE_SPEC, fidelity=level, params=params, start=scene.start_time)
 
 
 def _component(

@@ -25,7 +25,7 @@ LEAST_SHARE = 1e-9  # of the step: shorter returns to zero slip are rounding
 def next_break(par: Array, work: Array, t: float, s: float, end: float) -> float:
     """Return the end of the interval that begins at ``s``: the next instant known beforehand."""
     found = end
-    instant = par[L.P_ENGINE_START_TIME] - t
+    instant = par[L.D_RUN_START] + par[L.P_ENGINE_START_TIME] - t
     if s < instant < found:
         found = instant
     point = next_point(par, L.P_ENGINE_PROFILE, t + s, t + end)
@@ -51,7 +51,7 @@ def begin_stretch(par: Array, work: Array, t: float, s: float, end: float) -> No
             slope = (profile(par, L.P_ENGINE_PROFILE, t + end) - start) / (end - s)
         start -= slope * s
     else:
-        on = t + middle >= par[L.P_ENGINE_START_TIME]
+        on = t + middle >= par[L.D_RUN_START] + par[L.P_ENGINE_START_TIME]
         start, slope = par[L.P_ENGINE_TORQUE] if on else 0.0, 0.0
     slope += work[L.W_ENGINE_RATE]
     work[L.W_ENGINE_START], work[L.W_ENGINE_SLOPE] = start + work[L.W_ENGINE_GIVEN], slope

@@ -57,7 +57,8 @@ P_CLUTCH_PROFILE, P_ENGINE_PROFILE = P_CLUTCH_PRESSURE_POINTS, P_ENGINE_TORQUE_P
 # Of a bearing, from D_BEARINGS on: torque per torque in the driven gear's teeth, slip per speed of
 # driven gear and carrier, share of its torque that stands against the driven gear itself.
 BEARING_TORQUE, BEARING_DRIVEN, BEARING_CARRIER, BEARING_OWN, N_TURNING = range(5)
-NPAR = D_BEARINGS + 2 * N_TURNING
+D_RUN_START = D_BEARINGS + 2 * N_TURNING  # time [s] that those of profiles count from: the shell's
+NPAR = D_RUN_START + 1
 
 (
     I_CLUTCH,

@@ -24,16 +24,17 @@ HALVINGS = 60
 def profile(par: Array, first: int, t: float) -> float:
     """Return the value at ``t`` [s] of the points at ``par[first:]``: number, times, values.
 
-    Straight between points, constant before the first and after the last; 0 without points.
+    Times count from the run's start. Straight between points, constant before the first and after
+    the last; 0 without points.
     """
-    n = int(par[np.uintp(first)])
+    n, run = int(par[np.uintp(first)]), par[L.D_RUN_START]
     times, values = first + 1, first + 1 + L.MAX_POINTS
     if n == 0:
         return 0.0
-    if t <= par[np.uintp(times)]:
+    if t <= run + par[np.uintp(times)]:
         return par[np.uintp(values)]
     for i in range(1, n):
-        a, b = par[np.uintp(times + i - 1)], par[np.uintp(times + i)]
+        a, b = run + par[np.uintp(times + i - 1)], run + par[np.uintp(times + i)]
         if t < b:
             low, high = par[np.uintp(values + i - 1)], par[np.uintp(values + i)]
             return low + (high - low) * ((t - a) / (b - a))
@@ -44,7 +45,7 @@ def profile(par: Array, first: int, t: float) -> float:
 def next_point(par: Array, first: int, t: float, end: float) -> float:
     """Return the time [s] of the first point of a profile between ``t`` and ``end``, or ``end``."""
     for i in range(int(par[np.uintp(first)])):
-        time = par[np.uintp(first + 1 + i)]
+        time = par[L.D_RUN_START] + par[np.uintp(first + 1 + i)]
         if t < time < end:
             return time
     return end

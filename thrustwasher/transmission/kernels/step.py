@@ -25,7 +25,7 @@ from .thrust_bearings import bearing_power, bearing_torque
 
 N_PARAM, NPAR, NINP, NSTATE = L.N_PARAM, L.NPAR, L.NINP, L.NSTATE
 NWORK, NOUT, NIOUT = L.NWORK, L.NOUT, L.NIOUT
-NRATES = NINP
+NRATES, RUN_START = NINP, L.D_RUN_START
 ADVISED_SHARE = 0.01  # of the largest torque: what that of a slipping pack may be off by
 derive, broken_rule, sens = dynamics.derive, dynamics.broken_rule, directional_derivative
 

@@ -51,8 +51,10 @@ def bound(root):
     return found
 
 
-def run(root, instances, wires=None):
+def run(root, instances, wires=None, start=None):
     """Step the instances over the default experiment; return all outputs at its end by name.
+
+    ``start``: another start time [s], for a run of the same length.
 
     ``wires``, (part, output, part, input, factor), stand in place of the package's connections.
 
@@ -60,7 +62,8 @@ def run(root, instances, wires=None):
     which reads every output after it has set the inputs it depends on.
     """
     experiment = root.find("ssd:DefaultExperiment", NS)
-    start, stop = float(experiment.get("startTime")), float(experiment.get("stopTime"))
+    begin, stop = float(experiment.get("startTime")), float(experiment.get("stopTime"))
+    start, span = begin if start is None else start, stop - begin
     h = float(experiment.find(".//*[@baseStepSize]").get("baseStepSize"))
     inner = [w for w in connections(root) if w[0] is not None and w[2] is not None]
     wires = wires or [(*w, 1.0) for w in inner]
@@ -81,7 +84,7 @@ def run(root, instances, wires=None):
         for name, instance in instances.items():
             instance.set_inputs(list(inputs[name].values()))
 
-    for i in range(round((stop - start) / h)):
+    for i in range(round(span / h)):
         for _ in range(EXCHANGES):
             exchange()
             put()

@@ -3,6 +3,7 @@
 import numpy as np
 from coupled import Line, Part
 from engagements import TWELVE
+from shafts import HEATS, SHAFTS
 
 PRESSED = {"starts_pressed": True}
 WASHER = {"fidelity": 1}  # by its map, which co-simulation takes too
@@ -40,6 +41,14 @@ def engagement(plant):
     )
 
 
+def on_shaft(key, shaft, parameters):
+    """Return a run of a mesh or a train that brakes one shaft."""
+    torque, heat = HEATS[key]
+    inputs = lambda t: {n: x for n, x in shaft.inputs(t, 0.0).items() if n != "speed"}  # noqa: E731
+    part = Part(key, (1.0,), inputs, parameters, torque, heat)
+    return Line([part], (shaft.inertia,), (shaft.drive,), (shaft.speed,), shaft.jumps)
+
+
 LINE = {"inertias": (0.15, 1.0), "torques": (60.0, -20.0)}
 BETWEEN = (1.0, -1.0)
 HANDING = Line(
@@ -68,28 +77,13 @@ WASHER_BESIDE = Line(
             (1.0,),
             lambda t: {"load": 300.0, "tilt": 0.002, "oil_temperature": 320.0},
             WASHER,
-            heat="oil_energy",
+            heat=("oil_energy",),
         ),
     ],
     (0.05,),
     (5.0,),
     (100.0,),
     (0.1,),
-)
-TRAIN = Line(
-    [
-        Part(
-            "train",
-            (1.0,),
-            lambda t: {"torque": 150.0, "oil_temperature": 330.0},
-            {"thermal_mode": 1},
-            "loss_torque",
-            "oil_energy",
-        )
-    ],
-    (0.05,),
-    (0.2,),
-    (20.0,),
 )
 TREMBLE, SHAKE, BEAT = noise(3, 5.0, 50.0), noise(4, 5.0, 50.0), noise(6, 5.0, 50.0)
 SLIDING = Line(
@@ -114,6 +108,6 @@ CASES = {
     "two packs hand over at rest": HANDING,
     "two packs in parallel": PARALLEL,
     "washer beside a pack that locks": WASHER_BESIDE,
-    "GearTrain comes to rest, is held": TRAIN,
     **NOISE,
+    **{name: on_shaft(*SHAFTS[name]) for name in SHAFTS},
 }

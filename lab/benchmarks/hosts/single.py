@@ -52,7 +52,11 @@ def pyfmi(fmu: str, inputs: str, step: float, stop: float, kind: str = "CS") -> 
 
 
 def pathsim_exchange(fmu: str, inputs: str, step: float, stop: float) -> Table:
-    """Each input a block that gives its value over time; the block's outputs by their names."""
+    """Each input a block that gives its value over time; the block's outputs by their names.
+
+    Before it runs PathSim takes derivatives at the inputs that the block has: 0 K unless they are
+    put there.
+    """
     from pathsim import Connection, Simulation
     from pathsim.blocks import Scope, Source
     from pathsim.solvers import ESDIRK43
@@ -62,6 +66,7 @@ def pathsim_exchange(fmu: str, inputs: str, step: float, stop: float) -> Table:
     table = np.genfromtxt(inputs, delimiter=",", names=True)
     knobs = [n for n in table.dtype.names or () if n != "time"]
     given = [Source(lambda t, n=n: float(np.interp(t, table["time"], table[n]))) for n in knobs]
+    block.inputs.update_from_array(np.array([table[n][0] for n in block.inputs._mapping]))
     names = list(block.outputs._mapping)
     wires = [Connection(s, block[n]) for s, n in zip(given, knobs, strict=True)]
     wires += [Connection(block[n], scope[k]) for k, n in enumerate(names)]

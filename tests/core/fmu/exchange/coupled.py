@@ -30,7 +30,10 @@ class Part:
 
 @dataclass
 class Line:
-    """Inertias [kg m2] under torques [N m], parts between them, speeds at the start [rad/s]."""
+    """Inertias [kg m2] under torques [N m], parts between them, speeds at the start [rad/s].
+
+    A torque is a number or a function of time.
+    """
 
     parts: list
     inertias: tuple = ()
@@ -39,8 +42,8 @@ class Line:
     jumps: tuple = ()  # times where inputs have a corner
     end: float = 1.0
 
-    def accelerations(self, torques):
-        found = np.array(self.torques, float)
+    def accelerations(self, t, torques):
+        found = np.array([x(t) if callable(x) else x for x in self.torques], float)
         for part, torque in zip(self.parts, torques, strict=True):
             if not callable(part.slip):
                 found -= torque * np.array(part.slip)
@@ -73,7 +76,7 @@ class _Host:
     def rates(self, t, y):
         self.calls += 1
         self.tell(t, y)
-        shafts = self.line.accelerations(self.torques()) if self.n else []
+        shafts = self.line.accelerations(t, self.torques()) if self.n else []
         return np.concatenate([shafts, *(u.dx() for u in self.units)])
 
     def slopes(self, t, y):
@@ -120,8 +123,8 @@ class _Host:
         return t, between(t)
 
 
-def exchanged(line, tolerance=1e-4, fmi=2):
-    """Return times, speeds, torques and bends of all points, heats, steps, events, calls."""
+def exchanged(line, tolerance=1e-4, fmi=2, longest=np.inf):
+    """Return times, speeds, torques of all points, heat, steps, events, calls; longest step [s]."""
     with ExitStack() as stack:
         units = [stack.enter_context(unit(p.key, fmi)) for p in line.parts]
         host = _Host(line, units)
@@ -139,7 +142,8 @@ def exchanged(line, tolerance=1e-4, fmi=2):
         while t < line.end - 1e-12:
             stop = host.stop = host.next(t)
             size = tolerance * host.nominals()
-            solver = Radau(host.rates, t, y, stop, rtol=tolerance, atol=size, jac=host.slopes)
+            given = {"rtol": tolerance, "atol": size, "jac": host.slopes, "max_step": longest}
+            solver = Radau(host.rates, t, y, stop, **given)
             before, found = host.signs(t, y), None
             while solver.status == "running" and found is None:
                 told = solver.step()
@@ -183,7 +187,7 @@ def stepped(line, h=1e-4, fmi=2):
                 u.fmu.doStep(k * h, h)
             torques = [u.get(p.torque) for p, u in pairs]
             if line.inertias:
-                speeds = speeds + h * line.accelerations(torques)
+                speeds = speeds + h * line.accelerations((k + 0.5) * h, torques)
             rows.append(((k + 1) * h, *speeds, *torques))
         heat = sum(u.get(n) for p, u in pairs for n in p.heat)
     return _columns(line, rows) | {"heat": float(heat)}

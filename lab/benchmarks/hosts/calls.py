@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import zipfile
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
 
@@ -54,9 +55,10 @@ class Bench:
                 return python, done.stdout.strip()
         return None
 
-    def fmus(self, fmi: int) -> list[Path]:
-        """Return the FMUs of a version of FMI."""
-        return sorted((self.folder / f"native-fmi{fmi}").glob("*.fmu"))
+    def fmus(self, fmi: int, *, plain: bool = False) -> list[Path]:
+        """Return the FMUs of a version of FMI, or those of FMI 2 with numbers alone."""
+        folder = "plain" if plain else f"native-fmi{fmi}"
+        return sorted((self.folder / folder).glob("*.fmu"))
 
     def package(self, fmi: int) -> Path | None:
         """Return the shift's package with FMUs of a version of FMI; None if there is none."""
@@ -83,6 +85,18 @@ class Bench:
                     target.write_bytes(archive.read(name))
                     return str(target)
         return ""
+
+    def held(self, fmu: Path) -> str:
+        """Return the same inputs as jumps: each row's values stay until the next."""
+        given, target = (
+            Path(self.inputs(fmu)),
+            self.scratch / f"{fmu.parent.name}-{fmu.stem}-held.csv",
+        )
+        head, *rows = [line.split(",") for line in given.read_text().split()]
+        ends = [[b[0], *a[1:]] for a, b in pairwise(rows)]
+        kept = [row for pair in zip(rows, [*ends, []], strict=True) for row in pair if row]
+        target.write_text("\n".join(map(",".join, [head, *kept])) + "\n")
+        return str(target)
 
 
 def said(text: str) -> str:

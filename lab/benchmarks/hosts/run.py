@@ -15,7 +15,9 @@ import subprocess
 import tempfile
 import zipfile
 from collections.abc import Callable, Iterator
+from datetime import date
 from functools import cache, partial
+from itertools import product
 from pathlib import Path
 from typing import NamedTuple
 
@@ -33,35 +35,43 @@ from calls import (
     said,
 )
 
+from thrustwasher.fmu.model_kernels import package_version
+
 HERE = Path(__file__).parent
 SHIFT_STOP = 1.3  # s, of the default shift
 HEATS = ("energy", "oil_energy", "received_heat")  # outputs that add up all that was before
-Single = Callable[[Bench, Path], tuple[Table, str]]  # runs an FMU: its outputs, what was said
+Single = Callable[..., tuple[Table, str]]  # runs an FMU: its outputs, what was said
 Rows = Iterator[Row]
 
 
 # Single FMUs.
 @cache
-def in_python(bench: Bench, fmu: Path, host: str, package: str) -> tuple[Table, str]:
+def in_python(
+    bench: Bench, fmu: Path, host: str, package: str, given: str = ""
+) -> tuple[Table, str]:
     found = bench.python(package)
     assert found
+    given = given or bench.inputs(fmu)
     target = bench.scratch / f"{host}-{fmu.parent.name}-{fmu.stem}.csv"
-    order = [found[0], HERE / "single.py", host, fmu, bench.inputs(fmu), *experiment(fmu), target]
+    order = [found[0], HERE / "single.py", host, fmu, given, *experiment(fmu), target]
     _, told = called(*order, folder=bench.scratch)
     return read(target), told
 
 
-def fmusim(bench: Bench, fmu: Path, *options: str, kind: str = "cs") -> tuple[Table, str]:
+def fmusim(
+    bench: Bench, fmu: Path, *options: str, kind: str = "cs", given: str = ""
+) -> tuple[Table, str]:
     target = bench.scratch / f"fmusim-{kind}-{fmu.parent.name}-{fmu.stem}.csv"
     step, stop = experiment(fmu)
-    order = ["--interface-type", kind, "--input-file", bench.inputs(fmu), "--stop-time", stop]
+    given = given or bench.inputs(fmu)
+    order = ["--interface-type", kind, "--input-file", given, "--stop-time", stop]
     order += ["--output-interval", step, "--output-file", target, *options, fmu]
     _, told = called(bench.program("fmusim"), *order, folder=bench.scratch)
     return read(target), told
 
 
-def fmusim_exchange(bench: Bench, fmu: Path) -> tuple[Table, str]:
-    return fmusim(bench, fmu, "--solver", "cvode", "--tolerance", "1e-6", kind="me")
+def fmusim_exchange(bench: Bench, fmu: Path, given: str) -> tuple[Table, str]:
+    return fmusim(bench, fmu, "--solver", "cvode", "--tolerance", "1e-6", kind="me", given=given)
 
 
 def fmu_check(bench: Bench, fmu: Path) -> tuple[Table, str]:
@@ -72,8 +82,8 @@ def fmu_check(bench: Bench, fmu: Path) -> tuple[Table, str]:
     return read(target), told
 
 
-def by_fmpy(bench: Bench, fmu: Path) -> Table:
-    return in_python(bench, fmu, "fmpy", "fmpy")[0]
+def by_fmpy(bench: Bench, fmu: Path, given: str = "") -> Table:
+    return in_python(bench, fmu, "fmpy", "fmpy", given)[0]
 
 
 def singles(run: Single, versions: tuple[int, ...], bench: Bench) -> Rows:
@@ -101,27 +111,34 @@ def has_exchange(fmu: Path) -> bool:
         return b"<ModelExchange" in archive.read("modelDescription.xml")
 
 
-def exchanges(run: Single, versions: tuple[int, ...], bench: Bench) -> Rows:
-    """Run every FMU that has model exchange; say how far its heats end from co-simulation."""
-    for fmi in versions:
-        worst, failures, told = (0.0, "", ""), [], ""
-        fmus = [fmu for fmu in bench.fmus(fmi) if bench.inputs(fmu) and has_exchange(fmu)]
+def exchanges(run: Single, versions: tuple[int, ...], bench: Bench, *, plain: bool = False) -> Rows:
+    """Run every FMU that has model exchange; say how far its heats end from co-simulation.
+
+    With the inputs of its reference results, which are ramps, and with the same held as jumps.
+    """
+    for fmi, inputs in product(versions, ("ramps", "jumps")):
+        worst, failures, told = (0.0, "", ""), {}, ""
+        fmus = [f for f in bench.fmus(fmi, plain=plain) if bench.inputs(f) and has_exchange(f)]
         for fmu in fmus:
+            given = bench.inputs(fmu) if inputs == "ramps" else bench.held(fmu)
             try:
-                table, words = run(bench, fmu)
+                table, words = run(bench, fmu, given=given)
                 told += words
-                one, two = table[max(table)], by_fmpy(bench, fmu)
+                one, two = table[max(table)], by_fmpy(bench, fmu, given)
                 last = two[max(two)]
                 for name in HEATS:
                     if name in one and last.get(name):
                         off = abs(one[name] / last[name] - 1.0)
                         worst = max(worst, (off, name, fmu.stem))
             except (Failed, subprocess.TimeoutExpired) as error:
-                failures.append(f"{fmu.stem}: {error}")
+                failures[fmu.stem] = str(error)
         result = f"heat {worst[0]:.1g} from co-simulation ({worst[2]} `{worst[1]}`)"
         if failures:
-            result = f"{len(failures)} of {len(fmus)} fail; {failures[0]}"
-        yield Row(fmi, f"{len(fmus)} FMUs, model exchange", result, said(told))
+            first, why = next(iter(failures.items()))
+            names = f"{', '.join(failures)} fail" if len(failures) < len(fmus) else "all fail"
+            result = f"{result * (len(failures) < len(fmus))}; {names}; {first}: {why}".strip("; ")
+        ran = f"{len(fmus)} FMUs{', `--plain`' * plain}, model exchange, inputs {inputs}"
+        yield Row(fmi, ran, result, said(told))
 
 
 def references(bench: Bench) -> Rows:
@@ -234,7 +251,7 @@ def several(*runs: Callable[[Bench], Rows]) -> Callable[[Bench], Rows]:
 
 
 def single(host: str, package: str) -> Single:
-    return lambda bench, fmu: in_python(bench, fmu, host, package)
+    return lambda bench, fmu, **more: in_python(bench, fmu, host, package, **more)
 
 
 def with_events(*options: str) -> Single:
@@ -299,6 +316,12 @@ HOSTS = [
             partial(exchanges, single("pyfmi-exchange", "pyfmi"), (2,)),
         ),
     ),
+    Host(
+        "PathSim",
+        "",
+        "pathsim-fmi",
+        partial(exchanges, single("pathsim-exchange", "pathsim-fmi"), (2,), plain=True),
+    ),
     Host("OMSimulator", "OMSimulator", "", omsimulator),
     Host("libcosim", "", "libcosimpy", partial(masters, "libcosim", "libcosimpy", (2, 3))),
     Host("Ecos", "", "ecospy", partial(masters, "ecos", "ecospy", (2, 3))),
@@ -338,10 +361,12 @@ def write_into(page: Path, rows: list[tuple[str, ...]]) -> None:
     block = re.compile(r"(?s)(<!-- hosts -->\n\n)(.*?)(\n\n<!-- end -->)")
 
     def merged(found: re.Match[str]) -> str:
-        stay = [line for line in found[2].splitlines()[2:] if host_of(line) not in ran_now]
+        old = [line for line in found[2].splitlines()[2:] if line.startswith("|")]
+        stay = [line for line in old if host_of(line) not in ran_now]
         order = [host.name for host in HOSTS]
         own = sorted(stay + lines[2:], key=lambda line: order.index(host_of(line)))
-        return f"{found[1]}{chr(10).join(lines[:2] + own)}{found[3]}"
+        told = f"Last run on {date.today()}, thrustwasher {package_version()}."
+        return f"{found[1]}{chr(10).join([*lines[:2], *own, '', told])}{found[3]}"
 
     page.write_text(block.sub(merged, page.read_text("utf-8")), "utf-8")
 

@@ -51,6 +51,32 @@ def pyfmi(fmu: str, inputs: str, step: float, stop: float, kind: str = "CS") -> 
     return outputs, np.column_stack([np.asarray(found[name], float) for name in outputs])
 
 
+def pathsim_exchange(fmu: str, inputs: str, step: float, stop: float) -> Table:
+    """Each input a block that gives its value over time; the block's outputs by their names.
+
+    Before it runs PathSim takes derivatives at the inputs that the block has: 0 K unless they are
+    put there.
+    """
+    from pathsim import Connection, Simulation
+    from pathsim.blocks import Scope, Source
+    from pathsim.solvers import ESDIRK43
+    from pathsim_fmi import ModelExchangeFMU
+
+    block, scope = ModelExchangeFMU(fmu), Scope(sampling_period=step)
+    table = np.genfromtxt(inputs, delimiter=",", names=True)
+    knobs = [n for n in table.dtype.names or () if n != "time"]
+    given = [Source(lambda t, n=n: float(np.interp(t, table["time"], table[n]))) for n in knobs]
+    block.inputs.update_from_array(np.array([table[n][0] for n in block.inputs._mapping]))
+    names = list(block.outputs._mapping)
+    wires = [Connection(s, block[n]) for s, n in zip(given, knobs, strict=True)]
+    wires += [Connection(block[n], scope[k]) for k, n in enumerate(names)]
+    more = {"Solver": ESDIRK43, "tolerance_lte_rel": 1e-6, "tolerance_lte_abs": 1e-8}
+    run = Simulation([block, scope, *given], wires, dt=step, log=False, **more)
+    run.run(stop)
+    times, values = scope.read()
+    return ["time", *names], np.column_stack([times, *values])
+
+
 def fmuloader(fmu: str, inputs: str, step: float, stop: float) -> Table:
     """Step with fmuloader's bindings; it has no loop of its own."""
     from fmpy import read_model_description
@@ -92,6 +118,7 @@ HOSTS = {
     "fmpy-events": (fmpy_events, "fmpy"),
     "fmpy-exchange": (fmpy_exchange, "fmpy"),
     "fmuloader": (fmuloader, "fmuloader"),
+    "pathsim-exchange": (pathsim_exchange, "pathsim-fmi"),
     "pyfmi": (pyfmi, "pyfmi"),
     "pyfmi-exchange": (pyfmi_exchange, "pyfmi"),
 }

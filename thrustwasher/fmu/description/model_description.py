@@ -39,6 +39,7 @@ DISPLAY = {
 }
 # Declared types of real variables: name -> attributes.
 REAL_TYPES: dict[str, dict[str, Any]] = table_beside(__file__, "real_types.toml")
+PLAIN_CLOCK = "host_time"  # instead of time
 DECLARED = {(a["unit"], "relativeQuantity" in a): name for name, a in REAL_TYPES.items()}
 
 
@@ -241,10 +242,13 @@ def _span(shown: Interface, v: Variable) -> Attributes:
 def _plain(shown: Interface, v: Variable, fmi: int) -> Variable:
     """Return a variable with a type that every host knows: a choice is its number, a flag 0 or 1.
 
-    In FMI 3 inputs say what is so anyway, that their start value is exact.
+    In FMI 3 inputs say what is so anyway, that their start value is exact. In FMI 2 the clock has a
+    name of its own: OpenModelica declares it beside the time of Modelica.
     """
     if v.causality == "input" and fmi == 3:
         v = replace(v, initial="exact")
+    if v.causality == "independent" and fmi == 2:
+        v = replace(v, name=PLAIN_CLOCK)
     if v.type == "Boolean":
         return replace(v, type="Integer", low=0, high=1)
     if v.type_name is None:

@@ -177,6 +177,30 @@ def test_the_order_of_calls_of_openmodelica_works(key):
 
 
 @each_unit
+def test_parameters_that_are_set_while_it_initializes_act(key):
+    """As OpenModelica 1.28 sets them; one state of its own shows that they are taken."""
+    rates = []
+    for early in (True, False):
+        with unit(key) as u:
+            given = {v.name: _start(v) for v in u.variables.values() if v.causality == "parameter"}
+            given |= {n: 0.1 for n in ("rest_damping_time",) if n in given}
+            u.fmu.setupExperiment(startTime=0.0)
+            u.set(**(given if early else {}))
+            u.fmu.enterInitializationMode()
+            u.set(**({} if early else given))
+            u.set(**at_work(key))
+            u.fmu.exitInitializationMode()
+            u.put(moved(u))
+            u.update()
+            rates.append(u.dx().tobytes())
+    assert rates[0] == rates[1]
+
+
+def _start(v):
+    return {"Real": float, "Boolean": lambda x: x == "true"}.get(v.type, int)(v.start)
+
+
+@each_unit
 def test_times_beyond_the_end_and_beyond_events_are_answered(key):
     with unit(key) as u:
         u.start(**at_work(key))

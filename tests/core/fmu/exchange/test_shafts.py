@@ -10,51 +10,10 @@ from built import built_fmu
 from exchanged import unit
 from fmpy import simulate_fmu
 from packaging.version import Version
-from shafts import Shaft, exchanged, jump, stepped, stop_of
+from shafts import HEATS, SHAFTS, WARM, Shaft, exchanged, stepped, stop_of
 
 from thrustwasher.model.registry import find_spec
 
-HEATS = {
-    "gearmesh": ("friction_torque", ("oil_energy", "stored_heat")),
-    "train": ("loss_torque", ("oil_energy",)),
-}
-
-
-def pressed(t):
-    """From exactly no load."""
-    return 400.0 * min(max((t - 0.1) / 0.3, 0.0), 1.0)
-
-
-WARM = {"oil_temperature": 330.0}
-AT_ONCE = {"thermal_mode": 1}  # all heat goes into the oil
-SHAFTS = {
-    "mesh, coast": ("gearmesh", Shaft(0.002, 50.0, load=40.0, **WARM), {}),
-    "mesh, held": ("gearmesh", Shaft(0.002, 50.0, 0.05, load=40.0, **WARM), {}),
-    "mesh, jump": (
-        "gearmesh",
-        Shaft(0.02, 50.0, jumps=(0.3,), load=jump(40.0, 400.0, 0.3), **WARM),
-        {},
-    ),
-    "mesh, from no load": (
-        "gearmesh",
-        Shaft(0.02, 50.0, jumps=(0.1, 0.4), load=pressed, **WARM),
-        {},
-    ),
-    "mesh, fast and cold": (
-        "gearmesh",
-        Shaft(0.02, -500.0, load=2000.0, oil_temperature=280.0),
-        {},
-    ),
-    "train, coast": ("train", Shaft(0.01, 40.0, torque=40.0, **WARM), AT_ONCE),
-    "train, held": ("train", Shaft(0.05, 20.0, 0.2, torque=150.0, **WARM), AT_ONCE),
-    "train, driven by its output": ("train", Shaft(0.05, 20.0, torque=-150.0, **WARM), AT_ONCE),
-    "train, jump": (
-        "train",
-        Shaft(0.05, 20.0, jumps=(0.2,), torque=jump(0.0, 200.0, 0.2), **WARM),
-        AT_ONCE,
-    ),
-    "train, warm bodies": ("train", Shaft(0.05, -30.0, torque=150.0, **WARM), {}),
-}
 each_shaft = pytest.mark.parametrize(
     "name", [pytest.param(n, marks=[pytest.mark.slow] * n.startswith("train")) for n in SHAFTS]
 )

@@ -54,6 +54,11 @@ Instance *instantiate(const Log *log, const char *guid, const char *resources, i
         tw_free(m);
         return NULL;
     }
+    for (int i = 0; i < NINP; i++) {
+        const double *box = m->part.ranges[0][i], *verified = m->part.ranges[1][i];
+        m->both[i][0] = box[0] < verified[0] ? verified[0] : box[0];
+        m->both[i][1] = box[1] < verified[1] ? box[1] : verified[1];
+    }
     if (!m->log.name[0]) memcpy(m->log.name, m->part.name, sizeof m->part.name);
     reset(m);
     return m;
@@ -87,7 +92,7 @@ static int is_for(const Instance *m, uint32_t modes) {
     return steps == exchanges || (m->now.exchange ? exchanges : steps);
 }
 
-Instance *enter(void *instance, int call) {
+Instance *enter_slowly(void *instance, int call) {
     Instance *m = instance;
     const Call *c = &CALLS[call];
     if (!m) return NULL;
@@ -206,7 +211,7 @@ int advance(Instance *m, double t, double h) {
     m->is_early = h < asked;
     if (N_SWITCHES > 0) tell_switches(m);
     note_switches(m);
-    if (N_COUNTS > 0) tell_effort(m);
+    if (N_COUNTS > 0 && (m->log.on[LOG_SOLVER] || m->log.on[LOG_ALL])) tell_effort(m);
     tell_advice(m);
     return GOOD;
 }

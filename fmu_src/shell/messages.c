@@ -23,9 +23,10 @@ static void add_point(Text *t, const Instance *m, int with_outputs) {
     }
 }
 
-/* The beginning of a sentence: the part and a time [s]. */
+/* The beginning of a sentence: the part and a time [s]. Where nobody listens it takes no words. */
 static Text begun(const Instance *m, double time) {
     Text text = {0};
+    text.is_full = !m->log.logger;
     add(&text, "%s at t = ", m->part.name);
     add_number(&text, time);
     return text;
@@ -201,7 +202,6 @@ void tell_switches(Instance *m) {
 
 /* What the last solve took. */
 void tell_effort(const Instance *m) {
-    if (!m->log.on[LOG_SOLVER] && !m->log.on[LOG_ALL]) return;
     Text text = begun(m, m->now.time);
     add(&text, " s");
     for (int i = 0; i < N_COUNTS; i++) {
@@ -291,6 +291,14 @@ static int is_beyond(const Instance *m, const Variable *v, int k) {
     return near < range[0] || near > range[1];
 }
 
+/* Whether all inputs are inside both of their ranges, the usual case. */
+static int are_inside(const Instance *m) {
+    for (int i = 0; i < NINP; i++) {
+        if (!(m->both[i][0] <= m->now.inp[i] && m->now.inp[i] <= m->both[i][1])) return 0;
+    }
+    return 1;
+}
+
 /* Warn once in a run of an input that leaves a range of its own, and count how often it does. */
 static void tell_ranges(Instance *m, int k) {
     static const char *const
@@ -345,7 +353,7 @@ static int is_news(Instance *m, int32_t status, const Figure *f) {
 
 /* Warn once when the solution begins to need care for a reason, the gravest first; what cools down to
  * HOT was told that before. */
-void tell_advice(Instance *m) {
+static void __attribute__((noinline)) tell_news(Instance *m, int32_t status) {
     for (int i = 0; m->warned < 0 && i < N_GONE_LEVELS; i++) {
         if (GONE_LEVELS[i].number != m->now.par[LEVEL]) continue;
         Text text = begun(m, m->now.time);
@@ -355,8 +363,6 @@ void tell_advice(Instance *m) {
     if (m->warned < 0) tell_unused(m);
     int unverified = 0;
     for (int i = 1; VARIABLES[i].store == STORE_INP; i++) unverified |= is_beyond(m, &VARIABLES[i], 1);
-    int32_t status = IO_STATUS < 0 ? 0 : m->now.solution.iout[AT_LEAST_ONE(IO_STATUS + 1) - 1];
-    if (m->now.latch) status = m->now.latch;
     int told = status == m->warned || (status == STATUS_OUTSIDE_VERIFIED && unverified)
                || (status == STATUS_HOT && m->warned == STATUS_EXTRAPOLATED);
     m->warned = status;
@@ -369,6 +375,16 @@ void tell_advice(Instance *m) {
         tell(&m->log, WARNING, LOG_WARNING, &text);
     }
     for (int k = 1; k >= 0; k--) tell_ranges(m, k);
+}
+
+void tell_advice(Instance *m) {
+    int32_t status = IO_STATUS < 0 ? 0 : m->now.solution.iout[AT_LEAST_ONE(IO_STATUS + 1) - 1];
+    if (m->now.latch) status = m->now.latch;
+    if (status == m->warned && are_inside(m)) { /* nothing is new */
+        memset(m->beyond, 0, sizeof m->beyond);
+        return;
+    }
+    tell_news(m, status);
 }
 
 static void tell_count(const Instance *m, const char *what, const char *name, uint32_t n) {

@@ -70,6 +70,7 @@ typedef struct {
     Snap now;
     Solution undo;
     double given[2 * AT_LEAST_ONE(NINP)]; /* the inputs and rates of the last solve */
+    double both[AT_LEAST_ONE(NINP)][2];   /* of each input: what both ranges of the part have in common */
     Log log;
     Part part;
     int32_t unsolved;  /* the failure of the solve at the present values, or 0 */
@@ -109,7 +110,15 @@ void name_log(Log *log, const char *name, int on, int fmi);
 /* `ends_early`: steps may end at events, which takes memory for another solution. */
 Instance *instantiate(const Log *log, const char *guid, const char *resources, int ends_early);
 void free_instance(void *instance);
-Instance *enter(void *instance, int call); /* NULL: not allowed now, and said so */
+/* NULL: not allowed now, and said so. In the modes between the initialization and the end most calls are
+   allowed at a look; a mode of one kind of interface says that the call is of that kind. */
+Instance *enter_slowly(void *instance, int call);
+static inline Instance *enter(void *instance, int call) {
+    Instance *m = instance;
+    const uint32_t running = STEPPING | EVENTS | CONTINUOUS | EXCHANGE_EVENTS;
+    if (m && CALLS[call].modes & m->now.mode & running && !CALLS[call].declined) return m;
+    return enter_slowly(instance, call);
+}
 int begin(Instance *m, double start_time);
 int leave_initialization(Instance *m);
 int reset(Instance *m);

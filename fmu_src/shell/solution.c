@@ -28,10 +28,21 @@ int prepare(Instance *m) {
     return GOOD;
 }
 
+typedef uint64_t Pair __attribute__((vector_size(16)));
+
+/* As `is_finite`, four at once: 1 more in an exponent of ones alone reaches the sign. */
 static int all_finite(const double *x, int n) {
-    int bad = 0;
-    for (int i = 0; i < n; i++) bad += !is_finite(x[i]);
-    return !bad;
+    const Pair exponent = {(uint64_t)0x7ff << 52, (uint64_t)0x7ff << 52};
+    const Pair one = {(uint64_t)1 << 52, (uint64_t)1 << 52};
+    Pair bits[2], found = {0, 0};
+    int i = 0;
+    for (; i + 4 <= n; i += 4) {
+        memcpy(bits, &x[i], sizeof bits);
+        found |= ((bits[0] & exponent) + one) | ((bits[1] & exponent) + one);
+    }
+    int good = !((found[0] | found[1]) >> 63);
+    for (; i < n; i++) good &= is_finite(x[i]);
+    return good;
 }
 
 /* The kernels leave `state` alone when they fail, and say so of a solution that is not finite. A small
@@ -39,9 +50,8 @@ static int all_finite(const double *x, int n) {
 #define KEEPS_STATE (NSTATE <= 1024)
 
 static void copy_solution(Solution *to, const Solution *from) {
-    if (KEEPS_STATE) memcpy(to->state, from->state, sizeof to->state);
-    memcpy(to->out, from->out, sizeof to->out);
-    memcpy(to->iout, from->iout, sizeof to->iout);
+    const size_t from_here = KEEPS_STATE ? 0 : offsetof(Solution, out);
+    memcpy((char *)to + from_here, (const char *)from + from_here, sizeof *to - from_here);
 }
 
 void put_back(Instance *m) {

@@ -47,6 +47,12 @@ typedef struct {
     uint16_t bits;    /* TYPE_BIT of the type and CAUSE_BIT of the causality */
 } Variable;
 
+/* What reading and setting look at first, of each variable: small, so that it stays at hand. */
+typedef struct {
+    uint16_t bits;
+    int16_t slot;
+} Place;
+
 typedef struct {
     int32_t number;
     const char *name;

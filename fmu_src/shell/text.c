@@ -62,6 +62,7 @@ void add_number(Text *t, double value) {
 void add_exact(Text *t, double value) {
     char digits[40];
     int n = 0;
+    if (t->is_full) return;
     if (!is_finite(value)) {
         add_number(t, value);
         return;

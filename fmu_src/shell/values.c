@@ -54,8 +54,8 @@ static int all_fit(Instance *m, int call, const uint32_t *references, size_t n, 
     if (is_missing(m, call, references, n) || is_missing(m, call, values, n)) return 0;
     for (size_t i = 0; i < n; i++) {
         const uint32_t r = references[i];
-        if (r >= N_VARIABLES || !(takes & VARIABLES[r].bits)) return misfit(m, r, kind);
-        bits |= VARIABLES[r].bits;
+        if (r >= N_VARIABLES || !(takes & PLACES[r].bits)) return misfit(m, r, kind);
+        bits |= PLACES[r].bits;
     }
     *found = bits;
     return 1;
@@ -73,6 +73,12 @@ static void refuse(Instance *m, const uint32_t *references, size_t n) {
     }
 }
 
+/* A value that is new: the outputs are no longer those of the present ones. */
+static void note_change(Instance *m) {
+    m->now.dirty = 1;
+    m->now.latch = m->unsolved = 0;
+}
+
 static void take_over(Instance *m, uint32_t reference, double value) {
     Snap *s = &m->now;
     const Variable *v = &VARIABLES[reference];
@@ -81,8 +87,7 @@ static void take_over(Instance *m, uint32_t reference, double value) {
                                             : &s->inp[v->slot];
     if (*place != value) {
         *place = value;
-        s->dirty = 1;
-        s->latch = m->unsolved = 0;
+        note_change(m);
         if (v->store == STORE_PAR) s->prepared = 0;
     }
     if (s->n_refused && s->refused[reference]) {
@@ -103,9 +108,28 @@ static int is_taken(const Instance *m, const Variable *v, double value) {
     return is_inside(v, value) || is_no_temperature(v, value);
 }
 
+/* The usual call: real inputs within their ranges, which are finite, while no value is missing. */
+static int set_inputs(Instance *m, const uint32_t *references, size_t n, const double *values) {
+    const uint16_t wanted = TYPE_BIT(TYPE_REAL) | CAUSE_BIT(CAUSE_INPUT);
+    if (!references || !values || m->now.n_refused || !(ACCESS[CAUSE_INPUT].set & m->now.mode)) return 0;
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t r = references[i];
+        if (r >= N_VARIABLES || PLACES[r].bits != wanted) return 0;
+        if (!(VARIABLES[r].low <= values[i] && values[i] <= VARIABLES[r].high)) return 0;
+    }
+    for (size_t i = 0; i < n; i++) {
+        double *place = &m->now.inp[PLACES[references[i]].slot];
+        if (*place == values[i]) continue;
+        *place = values[i];
+        note_change(m);
+    }
+    return 1;
+}
+
 int set_values(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind,
                const void *values) {
     uint32_t found = 0;
+    if (kind->form == FORM_DOUBLE && set_inputs(m, references, n, values)) return GOOD;
     if (!all_fit(m, call, references, n, kind, values, &found)) return BAD;
     for (size_t i = 0; i < n; i++) {
         const Variable *v = &VARIABLES[references[i]];
@@ -177,17 +201,36 @@ static int are_solved(Instance *m, const uint32_t *references, size_t n) {
     return refresh(m) == GOOD;
 }
 
+/* The usual calls: outputs that are up to date. Where one is none of them, `values` are of no use yet. */
+static int get_outputs(const Instance *m, const uint32_t *references, size_t n, const Kind *kind,
+                       void *values) {
+    const Solution *s = &m->now.solution;
+    if (!references || !values || m->now.dirty || m->now.latch || !(ACCESS[CAUSE_OUTPUT].get & m->now.mode))
+        return 0;
+    if (kind->form == FORM_DOUBLE) {
+        for (size_t i = 0; i < n; i++) {
+            const uint32_t r = references[i];
+            if (r >= N_VARIABLES || PLACES[r].bits != (TYPE_BIT(TYPE_REAL) | CAUSE_BIT(CAUSE_OUTPUT)))
+                return 0;
+            ((double *)values)[i] = s->out[PLACES[r].slot];
+        }
+        return 1;
+    }
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t r = references[i];
+        if (kind->form != FORM_INT32 || r >= N_VARIABLES || !(PLACES[r].bits & kind->takes)) return 0;
+        if (!(PLACES[r].bits & CAUSE_BIT(CAUSE_OUTPUT))) return 0;
+        ((int32_t *)values)[i] = s->iout[PLACES[r].slot];
+    }
+    return 1;
+}
+
 int get_values(Instance *m, int call, const uint32_t *references, size_t n, const Kind *kind, void *values) {
     uint32_t found = 0;
+    if (get_outputs(m, references, n, kind, values)) return GOOD;
     if (!all_fit(m, call, references, n, kind, values, &found)) return BAD;
     if (found & (CAUSE_BIT(CAUSE_OUTPUT) | CAUSE_BIT(CAUSE_LOCAL)) && !are_solved(m, references, n))
         return m->now.mode == CONTINUOUS ? DISCARD : BAD;
-    if (found == (TYPE_BIT(TYPE_REAL) | CAUSE_BIT(CAUSE_OUTPUT))) { /* the usual call */
-        const double *out = m->now.solution.out;
-        double *place = values;
-        for (size_t i = 0; i < n; i++) place[i] = out[VARIABLES[references[i]].slot];
-        return GOOD;
-    }
     for (size_t i = 0; i < n; i++) {
         write_value(kind, values, i, value_of(m, &VARIABLES[references[i]]));
     }

@@ -139,6 +139,7 @@ def _lists(shown: Interface) -> dict[str, tuple[str, list[str]]]:
     levels = enumerate(shown.spec.fidelities, 1)
     tables: dict[str, tuple[str, Iterable[Iterable[Any]]]] = {
         "VARIABLES": ("Variable", [_variable(v, inputs, states, names) for v in shown.everything]),
+        "PLACES": ("Place", [(_bits(v), v.slot) for v in shown.everything]),
         "ENUMERATIONS": (
             "Enumeration",
             [(n, len(items), _Code(f"ITEMS_{n}")) for n, items in shown.enumerations.items()],
@@ -194,9 +195,8 @@ def _state(v: Variable) -> list[Any]:
 def _variable(
     v: Variable, inputs: Sequence[str], states: Sequence[str], names: Sequence[str]
 ) -> list[Any]:
-    kind, cause = f"TYPE_{v.type.upper()}", f"CAUSE_{v.causality.upper()}"
     depends = sum(1 << inputs.index(name) for name in {*v.depends, *v.exchange_depends})
-    codes = (kind, cause, f"STORE_{v.store.upper()}")
+    codes = f"TYPE_{v.type.upper()}", f"CAUSE_{v.causality.upper()}", f"STORE_{v.store.upper()}"
     return [
         v.name,
         v.unit,
@@ -208,8 +208,12 @@ def _variable(
         *map(_Code, codes),
         int(v.relative),
         int(v.variability == "tunable"),
-        _Code(f"TYPE_BIT({kind}) | CAUSE_BIT({cause})"),
+        _bits(v),
     ]
+
+
+def _bits(v: Variable) -> _Code:
+    return _Code(f"TYPE_BIT(TYPE_{v.type.upper()}) | CAUSE_BIT(CAUSE_{v.causality.upper()})")
 
 
 def _conditions(shown: Interface) -> list[list[Any]]:

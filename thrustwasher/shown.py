@@ -8,12 +8,17 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from html import escape
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, overload
 
 from .errors import EnvironmentProblem
 from .plugins import called
 from .units import format_quantity, format_time
 
+if TYPE_CHECKING:  # results are shown without matplotlib too
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure, SubFigure
+
+Canvas = TypeVar("Canvas", bound="Figure | SubFigure")
 HOUR = 3600.0  # s
 LONGEST_TEXT = 1200  # characters of a table's short text, before its last line
 MOST_WORDS = 5  # different texts of a column that are listed
@@ -57,14 +62,32 @@ class Shown:
         """Return ``to_dict()``, under the name it had first."""
         return self.to_dict()
 
-    def plot(self) -> Any:
-        """Return a picture as a ``matplotlib.figure.Figure``; a notebook shows it.
+    @overload
+    def plot(self, ax: None = None, *, fig: None = None, **options: Any) -> "Figure": ...
+    @overload
+    def plot(self, ax: "Axes", *, fig: None = None, **options: Any) -> "Axes": ...
+    @overload
+    def plot(self, ax: None = None, *, fig: Canvas, **options: Any) -> Canvas: ...
+    def plot(self, ax: Any = None, *, fig: Any = None, **options: Any) -> Any:
+        """Draw the result in a new ``matplotlib.figure.Figure``, or where it is asked to.
+
+        Returns ``ax`` or ``fig`` if given, else the new figure, which a notebook shows.
+        ``matplotlib``'s settings and windows are left alone.
+
+        Parameters
+        ----------
+        ax : axes to draw on, of a picture of one panel
+        fig : an empty figure or subfigure to draw in, in its size
+        options : of this picture: ``outputs``, a name or several (sweep, scatter, load curve);
+            ``panels``, titles (shift); ``residuals = False`` (calibration); of a sweep also looks
+            of lines, such as ``color`` and ``label``
 
         Raises
         ------
-        ParameterError : of this result there is nothing to draw; the message says why
+        ParameterError : there is nothing to draw, the picture has several panels for one ``ax``,
+            or an option is unknown; the message says what is allowed
         """
-        return called("figure_of")(self)
+        return called("figure_of")(self, ax, fig, **options)
 
     def _card(self) -> Card:
         """Return the result as a person reads it."""

@@ -25,6 +25,12 @@ def test_a_grid_has_the_axes_as_dimensions_and_a_value_where_it_belongs():
     assert "torque" in found["friction_torque"].attrs["long_name"]
 
 
+def test_the_axes_stand_in_the_order_in_which_they_were_asked_for():
+    package("xarray")
+    asked = {"friction_scale": (1.0, 1.5), "speed": SPEEDS, "load": LOADS}
+    assert list(run_sweep("clutch", asked, workers=1).to_xarray().sizes) == list(asked)
+
+
 def test_the_status_is_a_number_with_its_meaning_and_points_alone_are_rows():
     package("xarray")
     points = {"load": [1e3, 2e3, 3e3], "speed": [5.0, 6.0, 7.0]}

@@ -9,6 +9,7 @@
 ``result_plots``  the picture of a result, by its class
 ``shift``         the report of a shift, chapter by chapter
 ``style``         one look for all plots
+``target``        a figure of its own, or figure or axes of the caller
 ``web``           styles and scripts of the pages, and the library they plot with
 ``web_worker``    a model's kernels in a web worker: what its scripts are and read
 ``scatter``       uncertainty of figures: the page of a study, and what a shift's report takes of it

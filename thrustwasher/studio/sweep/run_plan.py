@@ -29,6 +29,7 @@ class RunPlan:
     fidelity: str = ""
     choice: str = ""
     model: str = ""
+    asked: tuple[str, ...] = ()  # what is varied, in the order in which it was named
 
     @property
     def starts(self) -> NDArray[np.int64]:
@@ -84,6 +85,7 @@ def make_run_plan(
         units={name: known[name].unit for name in shown} if shown else {},
         taken=_taken(evaluator, shown),
         warnings=texts(evaluator.remarks, "warning"),
+        asked=tuple(a.place.name for a in axes) or tuple(columns),
     )
     parts = {**evaluator.identity, "held": digest(repr(held)), "order": ", ".join(order)}
     parts |= {name: digest(column) for name, column in columns.items()}

@@ -52,6 +52,7 @@ class Plan:
     warnings: tuple[str, ...] = ()  # of points outside the part's box
     evaluator: Any = None  # the part
     rows: Rows | None = None  # what it evaluates
+    asked: tuple[str, ...] = ()  # what is varied, in the order in which it was named
 
     @property
     def n_rows(self) -> int:
@@ -106,6 +107,7 @@ def make_plan(
     if twice:
         raise ParameterError(f"{twice[0]}: is given twice, allowed: varied or held, once")
     plan = _assemble(part, level, base, held, rows, lines, [known[name] for name in order])
+    plan = replace(plan, asked=tuple(a.place.name for a in axes) or tuple(rows))
     return plan if tolerance is None else _chosen(plan, tolerance)
 
 
@@ -179,6 +181,10 @@ def listed(
             continue
         place = find_quantity(name, known, spec)
         kind = float if place.kind == "real" else object
+        if not np.ndim(values):
+            raise ParameterError(
+                f"points: {name} = {values!r}, allowed: a column; what all points share: at"
+            )
         columns[name] = np.array([_checked(place, i, v) for i, v in enumerate(values)], kind)
     lengths = {name: len(values) for name, values in points.items()}
     if not columns or len(set(lengths.values())) != 1 or not 0 < min(lengths.values()):

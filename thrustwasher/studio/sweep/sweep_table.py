@@ -58,6 +58,8 @@ class SweepTable(Tabled):
     model: str = ""
     results: tuple[str, ...] = ()
     """Names of what was computed, where that is not what the model calls them."""
+    asked: tuple[str, ...] = ()
+    """Names of what was varied, in the order in which it was named."""
     words: Mapping[str, Words] = field(default_factory=dict, repr=False)
     """Meaning of columns that the model calls otherwise."""
 
@@ -97,9 +99,10 @@ class SweepTable(Tabled):
         return [name for name in self.columns if name in known]
 
     def axes(self) -> list[str]:
-        """Return the names of the other columns that are not the same in all rows."""
+        """Return the other columns that are not the same in all rows, in the order asked."""
         own = {*self.outputs(), "status"}
-        others = [name for name in self.columns if name not in own]
+        first = [name for name in self.asked if name in self.columns]
+        others = [name for name in dict.fromkeys([*first, *self.columns]) if name not in own]
         return [name for name in others if len(set(self.columns[name].tolist())) > 1]
 
     def _axes(self) -> list[str]:
@@ -158,7 +161,8 @@ def make_table(
     columns["status"] = names[flags[:, -1]]
     counts = {Status(i).name: n for i, n in enumerate(np.bincount(flags[:, -1]).tolist()) if n}
     more = plan.taken, plan.warnings, tuple(beyond(plan.spec, columns)), plan.spec.key
-    table = SweepTable(columns, units, plan.fidelity, plan.choice, counts, *more)
+    named: dict[str, Any] = {"asked": plan.asked}
+    table = SweepTable(columns, units, plan.fidelity, plan.choice, counts, *more, **named)
     return _as_in_file(table, plan.evaluator.part)
 
 
@@ -176,6 +180,7 @@ def _as_in_file(table: SweepTable, part: PartFile) -> SweepTable:
             for x in table.beyond
         ),
         results=tuple(part.own_name(s.name) for s in part.spec.outputs),
+        asked=tuple(map(part.own_name, table.asked)),
         words={
             part.own_name(name): x._replace(help=part.own_text(x.help)) for name, x in known.items()
         },
@@ -202,6 +207,7 @@ def _run_table(
         "outside": plan.warnings,
         "results": plan.figures,
         "taken": plan.taken,
+        "asked": plan.asked,
     }
     return SweepTable(columns, units, counts=Counter(status), **more)
 

@@ -11,6 +11,7 @@
 ``contours``         lines of equal value over a map, each with its number
 ``reducer_plots``    a reducer's report: loss map with operating points, sources, lives
 ``sweep_plot``       the first outputs of a sweep over what is varied
+``matrix_plot``      points of a sweep that are no grid: outputs over what was varied
 ``washer_plots``     the washer: maps over its annulus, its load curve with the folds
 ``efficiency_plot``  efficiency over torque and speed, and the losses by source along both
 ``optimum_plot``     designs that a search has tried: the front between two figures

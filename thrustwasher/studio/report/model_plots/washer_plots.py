@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from ....units import format_quantity
 from ..palette import BLACK, BLUE, CELSIUS, GREY, ORANGE, RED, SIGMA
 from ..style import decade_ticks, heading, label, legend_below, new_figure, note_at_right, styled
+from ..target import chosen
 
 Array = np.ndarray[Any, Any]
 LEAST_PRESSURE = 1.0  # [Pa] of asperities that touch
@@ -139,36 +140,41 @@ def _around(fields: Any, values: Array) -> Array:
 
 
 @styled
-def curve_figure(curve: Any, point: Mapping[str, float]) -> Figure:
+def curve_figure(
+    curve: Any, point: Mapping[str, float], outputs: str | Sequence[str] = ()
+) -> Figure:
     """Return film ratio, torque, temperature and friction coefficient over the load.
 
     Parameters
     ----------
     curve : a load curve with ``points`` and ``folds``
     point : speed [rad/s], tilt [rad], oil_temperature [K]
+    outputs : of these four those to draw, each in a panel; none: all
     """
-    figure, axes = new_figure(10.0, 7.6, 2, 2, head=2, foot=1)
-    panels = (
+    panels: Any = (
         ("film_ratio", "Film ratio: how much film is left", f"film ratio h/{SIGMA} [1]"),
         ("friction_torque", "Friction torque", "friction torque [N·m]"),
         ("temperature", "Mean temperature of carrier and washer", "temperature [°C]"),
         ("friction_coefficient", "Friction coefficient (Stribeck)", "friction coefficient [1]"),
     )
-    for axis, (name, title, up) in zip(axes, panels, strict=True):
+    names = chosen("outputs", outputs, [name for name, *_ in panels])
+    panels = [panel for panel in panels if not names or panel[0] in names]
+    rows, columns = (len(panels) + 1) // 2, min(len(panels), 2)
+    shape: Any = (5.0 * columns, 0.6 + 3.5 * rows, rows, columns)
+    figure, axes = new_figure(*shape, head=2, foot=4 // columns // 2, choose="outputs")
+    for axis, (name, title, up) in zip(axes, panels, strict=False):
         zero = CELSIUS if name == "temperature" else 0.0
         _draw_branches(axis, curve.points, name, zero)
         _draw_folds(axis, curve.folds, curve.points, name, zero)
         label(axis, title, "load [N]", up)
         axis.set_xlim(left=0.0)
-    axes[0].set_yscale("log")
-    axes[0].set_ylim(bottom=LOWEST_RATIO)
-    axes[3].set_yscale("log")
-    decade_ticks(axes[0])
-    decade_ticks(axes[3])
-    _say_what_is_cut(axes[0], curve.points)
-    for ratio, words in ((3.0, "3: asperities begin to touch"), (1.0, "1: boundary lubrication")):
-        axes[0].axhline(ratio, color=ORANGE, lw=0.9, ls=":")
-        note_at_right(axes[0], words, ratio, color="#7A5400")
+        if name == "film_ratio":
+            _scale_film(axis, curve.points)
+        elif name == "friction_coefficient":
+            axis.set_yscale("log")
+            decade_ticks(axis)
+    for axis in axes[len(panels) :]:
+        axis.set_visible(False)
     legend_below(figure, *_legend(axes[0]), columns=5)
     heading(figure, f"{_where(point)}\n{_seen(curve.folds)}")
     return figure
@@ -213,6 +219,17 @@ def history_figure(history: Any) -> Figure:
     words = f"film lost at {format_quantity(float(lost[0]), 's')}" if len(lost) else "film kept"
     heading(figure, f"Thrust washer over time, {history.thermal_mode.replace('_', ' ')}: {words}")
     return figure
+
+
+def _scale_film(axis: Axes, points: Sequence[Any]) -> None:
+    """Make the film ratio's axis logarithmic, with the borders of the regimes."""
+    axis.set_yscale("log")
+    axis.set_ylim(bottom=LOWEST_RATIO)
+    decade_ticks(axis)
+    _say_what_is_cut(axis, points)
+    for ratio, words in ((3.0, "3: asperities begin to touch"), (1.0, "1: boundary lubrication")):
+        axis.axhline(ratio, color=ORANGE, lw=0.9, ls=":")
+        note_at_right(axis, words, ratio, color="#7A5400")
 
 
 def _say_what_is_cut(axis: Axes, points: Sequence[Any]) -> None:

@@ -107,8 +107,9 @@ def distribution_figure(result: Study, name: str, title: str) -> Figure:
 @styled
 def study_figure(result: Study, names: Sequence[str]) -> Figure:
     """Return the distributions of these figures next to each other."""
-    rows = -(-len(names) // ACROSS)
-    figure, axes = new_figure(10.4, 0.5 + 2.4 * rows, rows, ACROSS, head=1, left=0.2, across=0.3)
+    rows, columns = -(-len(names) // ACROSS), 1 if len(names) == 1 else ACROSS
+    shape: Any = (0.5 + 3.3 * columns, 0.5 + 2.4 * rows, rows, columns)
+    figure, axes = new_figure(*shape, head=1, left=0.2, across=0.3, choose="outputs")
     for axis, name in zip(axes, names, strict=False):
         scale = _draw_distribution(axis, result, name)
         title = with_unit(named(name), scale, int(PER_INCH * NARROW))

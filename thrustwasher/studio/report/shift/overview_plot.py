@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 
 from ....shift.account.shift_record import Record
 from .. import palette
-from ..style import decade_ticks, label, note_at_right, styled, time_figure
+from ..style import decade_ticks, label, legend_at_right, note_at_right, styled, time_figure
+from ..target import chosen
 from .shift_data import bands_of, panels, set_aside, signal_of
 
 SHOWN = ("Speeds", "Torques", "Film ratios")
@@ -22,19 +23,20 @@ SHADES = ("#F1F1F1", "#FFF3D9", "#E2F0FA", "#E3F4EC", "#F7E9F1")
 
 
 @styled
-def overview_figure(record: Record, titles: Sequence[str] = SHOWN) -> Figure:
+def overview_figure(record: Record, titles: str | Sequence[str] = SHOWN) -> Figure:
     """Return the plots of these titles in ``panels.toml``; signals that stand still are left out.
 
     Above them phases are named, in the first one events are numbered.
     """
     given = {panel["title"]: panel for panel in panels()["panel"]}
-    figure, axes = time_figure(TALL * len(titles), len(titles))
+    titles = chosen("panels", titles, given) or list(SHOWN)
+    figure, axes = time_figure(TALL * len(titles), len(titles), "panels")
     for axis, title in zip(axes, titles, strict=True):
         _draw_phases(axis, record)
         _draw_signals(axis, record, given[title])
         if axis is axes[0]:
             _draw_events(axis, record)
-        axis.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0)
+        legend_at_right(axis)
     return figure
 
 

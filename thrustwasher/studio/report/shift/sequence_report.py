@@ -45,10 +45,13 @@ def sequence_page(result: Any) -> Page:
     return page_of(whole, run, sections, washer)
 
 
-def sequence_figure(result: Any) -> Figure:
-    """Return the picture of a ``SequenceResult``: its signals over the whole time."""
+def sequence_figure(result: Any, *, panels: str | Sequence[str] = STILL) -> Figure:
+    """Return the picture of a ``SequenceResult``: its signals over the whole time.
+
+    ``panels``: their titles.
+    """
     records = [record_of(shift) for shift in result.shifts]
-    return overview_figure(_whole(result, records), STILL)
+    return overview_figure(_whole(result, records), panels)
 
 
 def _whole(result: Any, records: Sequence[Record]) -> Record:

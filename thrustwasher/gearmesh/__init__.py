@@ -2,6 +2,7 @@
 
 ===================  ===============================================================================
 ``parameters``       a pair, its surfaces, oil, steel, laws; ``interface.toml``: inputs, outputs
+``choices``          the words that parameters take
 ``model``            its record: command, levels, sweeps
 ``solve``            loss, heat, temperatures, contact, thermal stress, safety
 ``plausibility``     what to doubt: parameters that contradict each other, points below minimum

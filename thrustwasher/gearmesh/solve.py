@@ -17,6 +17,7 @@ from ..model.prepare import Recent, filled
 from ..model.record import Sweep
 from ..model.sensitivity import Differentiable
 from ..model.solutions import Asked
+from .choices import STEELS
 from .kernels import layout as k
 from .kernels.constants import LIMITS, derive
 from .kernels.load_sharing import shared
@@ -28,7 +29,6 @@ from .parameters import (
     OIL,
     SPEC,
     SPEED,
-    STEELS,
     GearMeshParams,
     absent_outputs,
     default_of,

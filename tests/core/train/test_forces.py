@@ -376,7 +376,7 @@ def test_lives_of_a_train_follow_from_its_forces():
             lives.append(2e6 * math.pi / w * (c / load) ** power)
             assert getattr(r, f"{name}_life") == pytest.approx(lives[-1], rel=1e-12)
     assert r.bearing_life == pytest.approx(min(lives), rel=1e-12)
-    said = [text for text in r.warnings if "required_life = 1e+04 h" in text]
+    said = [text for text in r.warnings if "required_life = 10000 h" in text]
     assert said and said[0].startswith("shaft 1, bearing 1: life = 862.8 h, below")
 
 

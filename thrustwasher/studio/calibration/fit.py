@@ -24,13 +24,18 @@ class Asked(NamedTuple):
     profile: bool | None
 
 
+USUAL = ("friction_scale", "roughness")  # what a first fit is for
+
+
 def chosen_names(
     fit: Sequence[str], known: Sequence[str], words: str, columns: Collection[str] = ()
 ) -> tuple[str, ...]:
     """Return the names to fit, or say which one cannot be; ``words`` say what is allowed."""
     names = (fit,) if isinstance(fit, str) else tuple(fit)
     if not names:
-        raise ParameterError(f"fit names nothing, allowed: {words}")
+        such = next((n for n in USUAL if n in known), "")
+        example = f", such as {such!r}" if such else ""
+        raise ParameterError(f"fit names nothing, allowed: {words}{example}")
     for name in names:
         if name not in known:
             hint = suggestion(str(name), known, "did you mean {}? ")

@@ -2,6 +2,7 @@
 
 ==================  ========================================================================
 ``decides``         what decides a figure: total indices, else rank regression
+``lost_power``      of a gear train: the efficiency as the power lost in per cent
 ``scatter_plots``   bands over time, distributions, bars of what decides
 ``scatter_tables``  the tables as rows of text
 ``study_data``      what they read of a study: types

@@ -29,6 +29,7 @@ export class Model extends PointModel {
     const torque = power === 0 ? 0 : Math.abs(power / speed);
     this.state.view.fill(0);
     const constants = this.shared(torque, speed, oil);
+    this.work.view[L.W_WAY] = power < 0 ? -1 : 1;
     const code = kernel.call(
       "solve_point",
       constants,

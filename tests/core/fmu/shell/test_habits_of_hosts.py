@@ -1,9 +1,21 @@
 """What hosts do that no standard foresees, played call by call: the run goes on, and it is told."""
 
 import shutil
+from math import isfinite
 
 import pytest
-from shell_runs import BEGUN, GUID, MADE, last, needs_gcc, putting, run, taking, toy_library
+from shell_runs import (
+    BEGUN,
+    GUID,
+    MADE,
+    last,
+    model_library,
+    needs_gcc,
+    putting,
+    run,
+    taking,
+    toy_library,
+)
 from toy.spec import SPEC as TOY
 
 from thrustwasher.fmu.description.interface import interface
@@ -72,6 +84,27 @@ def test_every_temperature_that_is_an_input_keeps_its_value_at_zero_kelvin():
             assert direct.core.zeros() == []
         direct.step(0.0, 1e-3)
     assert found == 7
+
+
+@both
+@pytest.mark.parametrize("spec", all_specs(helpers=True), ids=lambda spec: spec.name)
+def test_every_unit_runs_on_zeros_from_any_start_and_mends_each_bad_input(spec, fmi):
+    """All inputs at 0 before the initialization and each step; NaN at one after another."""
+    shown = interface(spec)
+    zero = putting(spec, **{v.name: 0.0 for v in shown.inputs})
+    good = putting(spec, **{v.name: v.start for v in shown.inputs})
+    read = taking([v.name for v in shown.outputs if v.type == "Real"], spec)
+    script = f"make toy {GUID} 1\n{zero}setup -2\nenter -2\n{zero}leave\n"
+    script += "".join(f"{zero}step {-2.0 + i * 1e-3!r} 1e-3\n{read}" for i in range(5)) + good
+    t = -2.0 + 5e-3
+    fine = run(fmi, model_library(spec.key), script)
+    for v in shown.inputs:
+        script += putting(spec, **{v.name: float("nan")}) + f"step {t!r} 1e-3\n"
+        script += putting(spec, **{v.name: v.start})
+    replies = run(fmi, model_library(spec.key), script + f"step {t!r} 1e-3\n{read}")
+    n = len(shown.inputs)
+    assert [r.status for r in replies] == [0] * len(fine) + [3, 3, 0] * n + [0, 0]
+    assert all(isfinite(x) for r in replies for x in r.values)
 
 
 # How a folder of resources goes wrong: FMUSDK's simulator names the folder of the FMU, others none.

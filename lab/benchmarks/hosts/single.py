@@ -66,7 +66,7 @@ def pathsim_exchange(fmu: str, inputs: str, step: float, stop: float) -> Table:
     table = np.genfromtxt(inputs, delimiter=",", names=True)
     knobs = [n for n in table.dtype.names or () if n != "time"]
     given = [Source(lambda t, n=n: float(np.interp(t, table["time"], table[n]))) for n in knobs]
-    block.inputs.update_from_array(np.array([table[n][0] for n in block.inputs._mapping]))
+    block.inputs.update_from_array(np.array([table[n].max() for n in block.inputs._mapping]))
     names = list(block.outputs._mapping)
     wires = [Connection(s, block[n]) for s, n in zip(given, knobs, strict=True)]
     wires += [Connection(block[n], scope[k]) for k, n in enumerate(names)]

@@ -21,6 +21,7 @@ from pathlib import Path
 from thrustwasher.fmu.fmu_cache import fmu_paths
 from thrustwasher.fmu.shell import platform_libraries as libraries
 from thrustwasher.model.registry import all_specs, find_spec
+from thrustwasher.native import library as own
 from thrustwasher.native import shipped
 from thrustwasher.native.compiling import emit, lower
 
@@ -55,7 +56,12 @@ def library(spec, without):
     }
     libraries.objects = lambda kernel, platforms, note: code
     bare = replace(spec, exchange=None) if without else spec
-    return libraries.linked(bare, platform, libraries.local_linker())
+    every = own.symbols
+    own.symbols = lambda kernel: [n for n in every(kernel) if "_exchange" not in n or not without]
+    try:
+        return libraries.linked(bare, platform, libraries.local_linker())
+    finally:
+        own.symbols = every
 
 
 def main():

@@ -116,7 +116,7 @@ def exchanges(run: Single, versions: tuple[int, ...], bench: Bench, *, plain: bo
 
     With the inputs of its reference results, which are ramps, and with the same held as jumps.
     """
-    for fmi, inputs in product(versions, ("ramps", "jumps")):
+    for fmi, inputs in product(versions, kinds):
         worst, failures, told = (0.0, "", ""), {}, ""
         fmus = [f for f in bench.fmus(fmi, plain=plain) if bench.inputs(f) and has_exchange(f)]
         for fmu in fmus:
@@ -320,7 +320,13 @@ HOSTS = [
         "PathSim",
         "",
         "pathsim-fmi",
-        partial(exchanges, single("pathsim-exchange", "pathsim-fmi"), (2,), plain=True),
+        partial(
+            exchanges,
+            single("pathsim-exchange", "pathsim-fmi"),
+            (2,),
+            plain=True,
+            kinds=("ramps",),
+        ),
     ),
     Host("OMSimulator", "OMSimulator", "", omsimulator),
     Host("libcosim", "", "libcosimpy", partial(masters, "libcosim", "libcosimpy", (2, 3))),

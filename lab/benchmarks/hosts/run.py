@@ -111,7 +111,14 @@ def has_exchange(fmu: Path) -> bool:
         return b"<ModelExchange" in archive.read("modelDescription.xml")
 
 
-def exchanges(run: Single, versions: tuple[int, ...], bench: Bench, *, plain: bool = False) -> Rows:
+def exchanges(
+    run: Single,
+    versions: tuple[int, ...],
+    bench: Bench,
+    *,
+    plain: bool = False,
+    kinds: tuple[str, ...] = ("ramps", "jumps"),
+) -> Rows:
     """Run every FMU that has model exchange; say how far its heats end from co-simulation.
 
     With the inputs of its reference results, which are ramps, and with the same held as jumps.

@@ -359,8 +359,10 @@ def version(bench: Bench, host: Host) -> str | None:
     return number[0] if number else ""
 
 
-def write_into(page: Path, rows: list[tuple[str, ...]]) -> None:
+def write_into(page: Path, rows: list[tuple[str, ...]], absent: list[str]) -> None:
     """Put the rows, without what hosts said, between the page's marks; other hosts' rows stay.
+
+    Hosts that are ``absent`` are named as run earlier.
 
     Runs with both versions of FMI that come out alike are one row.
     """
@@ -378,7 +380,9 @@ def write_into(page: Path, rows: list[tuple[str, ...]]) -> None:
         stay = [line for line in old if host_of(line) not in ran_now]
         order = [host.name for host in HOSTS]
         own = sorted(stay + lines[2:], key=lambda line: order.index(host_of(line)))
-        told = f"Last run on {date.today()}, thrustwasher {package_version()}."
+        told = f"Last run on {date.today()}, thrustwasher {package_version()}"
+        earlier = [name for name in absent if name in {host_of(line) for line in own}]
+        told += f"; not there, hence of an earlier run: {', '.join(earlier)}." if earlier else "."
         return f"{found[1]}{chr(10).join([*lines[:2], *own, '', told])}{found[3]}"
 
     page.write_text(block.sub(merged, page.read_text("utf-8")), "utf-8")
@@ -398,6 +402,7 @@ def main() -> None:
     print("| host | version | FMI | what was run | result | messages |\n|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as scratch:
         bench = Bench(chosen.folder, chosen.bin, Path(scratch))
+        absent = [host.name for host in HOSTS if version(bench, host) is None]
         for host in HOSTS:
             if chosen.only and host.name not in chosen.only:
                 continue
@@ -409,7 +414,7 @@ def main() -> None:
                 print(f"| {host.name} | {number} | {told} |", flush=True)
                 rows.append((host.name, number, str(row.fmi), row.ran, row.result))
     if chosen.page:
-        write_into(chosen.page, rows)
+        write_into(chosen.page, rows, absent)
 
 
 if __name__ == "__main__":

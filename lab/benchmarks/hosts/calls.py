@@ -118,7 +118,8 @@ def called(*command: object, folder: Path | None = None) -> tuple[str, str]:
     if done.returncode:
         lines = [line.strip() for line in told.splitlines() if line.strip()] or ["nothing said"]
         named = [line for line in lines if re.search("error|exception", line, re.I)] or lines
-        raise Failed(f"exit {done.returncode}: `{named[-1][:110]}`")
+        last = re.sub(r"(?<=\s)/\S*/(?=\S)", "", named[-1])  # no folders of this machine
+        raise Failed(f"exit {done.returncode}: `{last[:110]}`")
     return done.stdout, told
 
 

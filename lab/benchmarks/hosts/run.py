@@ -111,12 +111,19 @@ def has_exchange(fmu: Path) -> bool:
         return b"<ModelExchange" in archive.read("modelDescription.xml")
 
 
-def exchanges(run: Single, versions: tuple[int, ...], bench: Bench, *, plain: bool = False) -> Rows:
+def exchanges(
+    run: Single,
+    versions: tuple[int, ...],
+    bench: Bench,
+    *,
+    plain: bool = False,
+    kinds: tuple[str, ...] = ("ramps", "jumps"),
+) -> Rows:
     """Run every FMU that has model exchange; say how far its heats end from co-simulation.
 
     With the inputs of its reference results, which are ramps, and with the same held as jumps.
     """
-    for fmi, inputs in product(versions, ("ramps", "jumps")):
+    for fmi, inputs in product(versions, kinds):
         worst, failures, told = (0.0, "", ""), {}, ""
         fmus = [f for f in bench.fmus(fmi, plain=plain) if bench.inputs(f) and has_exchange(f)]
         for fmu in fmus:
@@ -320,7 +327,13 @@ HOSTS = [
         "PathSim",
         "",
         "pathsim-fmi",
-        partial(exchanges, single("pathsim-exchange", "pathsim-fmi"), (2,), plain=True),
+        partial(
+            exchanges,
+            single("pathsim-exchange", "pathsim-fmi"),
+            (2,),
+            plain=True,
+            kinds=("ramps",),
+        ),
     ),
     Host("OMSimulator", "OMSimulator", "", omsimulator),
     Host("libcosim", "", "libcosimpy", partial(masters, "libcosim", "libcosimpy", (2, 3))),
@@ -346,8 +359,10 @@ def version(bench: Bench, host: Host) -> str | None:
     return number[0] if number else ""
 
 
-def write_into(page: Path, rows: list[tuple[str, ...]]) -> None:
+def write_into(page: Path, rows: list[tuple[str, ...]], absent: list[str]) -> None:
     """Put the rows, without what hosts said, between the page's marks; other hosts' rows stay.
+
+    Hosts that are ``absent`` are named as run earlier.
 
     Runs with both versions of FMI that come out alike are one row.
     """
@@ -365,7 +380,9 @@ def write_into(page: Path, rows: list[tuple[str, ...]]) -> None:
         stay = [line for line in old if host_of(line) not in ran_now]
         order = [host.name for host in HOSTS]
         own = sorted(stay + lines[2:], key=lambda line: order.index(host_of(line)))
-        told = f"Last run on {date.today()}, thrustwasher {package_version()}."
+        told = f"Last run on {date.today()}, thrustwasher {package_version()}"
+        earlier = [name for name in absent if name in {host_of(line) for line in own}]
+        told += f"; not there, hence of an earlier run: {', '.join(earlier)}." if earlier else "."
         return f"{found[1]}{chr(10).join([*lines[:2], *own, '', told])}{found[3]}"
 
     page.write_text(block.sub(merged, page.read_text("utf-8")), "utf-8")
@@ -385,6 +402,7 @@ def main() -> None:
     print("| host | version | FMI | what was run | result | messages |\n|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as scratch:
         bench = Bench(chosen.folder, chosen.bin, Path(scratch))
+        absent = [host.name for host in HOSTS if version(bench, host) is None]
         for host in HOSTS:
             if chosen.only and host.name not in chosen.only:
                 continue
@@ -396,7 +414,7 @@ def main() -> None:
                 print(f"| {host.name} | {number} | {told} |", flush=True)
                 rows.append((host.name, number, str(row.fmi), row.ran, row.result))
     if chosen.page:
-        write_into(chosen.page, rows)
+        write_into(chosen.page, rows, absent)
 
 
 if __name__ == "__main__":

@@ -51,7 +51,7 @@ def coupled_clutches(tolerance=1e-6):
     drive = lambda t: 10.0 * math.sin(10.0 * math.pi * t)  # noqa: E731
     speeds = (10.0, 0.0, 0.0, 0.0)
     line = Line(parts, (1.0,) * 4, (drive, 0.0, 0.0, 0.0), speeds, (0.4, 0.9), 0.83)
-    return exchanged(line, tolerance, longest=1e-3)
+    return exchanged(line, tolerance, longest=2e-3)
 
 
 def lossy_gear(number, tolerance=1e-6, angle=1e-6, end=0.5):
@@ -96,7 +96,7 @@ def lossy_gear(number, tolerance=1e-6, angle=1e-6, end=0.5):
 
         last, y = [1.0], np.zeros(2 + len(units))
         size = tolerance * np.array([1e-2, 1e-3, *([1e-6] * len(units))])
-        solver = Radau(rates, 0.0, y, end, rtol=tolerance, atol=size, max_step=1e-3)
+        solver = Radau(rates, 0.0, y, end, rtol=tolerance, atol=size, max_step=2e-3)
         rows = [(0.0, 0.0, 0.0)]
         while solver.status == "running":
             solver.step()

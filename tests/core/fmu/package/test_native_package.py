@@ -1,8 +1,10 @@
 """Native FMUs: what lies inside, what checkers say, that building repeats, how large they are."""
 
+import re
 import subprocess
 import zipfile
 from dataclasses import replace
+from pathlib import Path
 
 import fmpy
 import needed
@@ -248,3 +250,18 @@ def test_a_host_that_reads_all_outputs_as_real_numbers_runs_an_fmu_with_plain_ou
             assert fmu.getBoolean([locked]) == [False]
         fmu.terminate()
         fmu.freeInstance()
+
+
+def test_a_first_run_in_another_tool_shows_what_the_page_says():
+    """Nothing connected, steps of 1 ms, as docs/start/host.md has it."""
+    page = (Path(__file__).parents[4] / "docs/start/host.md").read_text("utf-8")
+    said = {float(t): row for t, row in re.findall(r"^- at ([\d.]+) s: (.*)$", page, re.M)}
+    names = ["friction_torque", "temperature", "film_ratio", "solver_status"]
+    fmu = str(built_fmu("WetClutch", local=True))
+    rows = simulate_fmu(fmu, stop_time=0.1, output_interval=1e-3, output=names)
+    for row in (rows[0], rows[-1]):
+        numbers = re.findall(r"(?<![\w.])\d+(?:\.\d+)?", said[round(row["time"], 6)])
+        shown = [
+            f"{row[n]:.{len(x.partition('.')[2])}f}" for n, x in zip(names, numbers, strict=True)
+        ]
+        assert shown == numbers

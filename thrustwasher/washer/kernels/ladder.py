@@ -127,7 +127,7 @@ def start_terms(w: Workspace, pt: Point) -> None:
         clear(f.ladder[k])
     for body in WITH_LADDER:
         b = body_of(m, body)
-        outside = _outside(pt, body)
+        outside = outside_of(pt, body)
         for k in range(L.N_TERMS):
             t = term(b, k)
             share = t.falls if from_oil else t.settled
@@ -208,7 +208,7 @@ def set_stage(w: Workspace, pt: Point, dt: float) -> None:
         b = body_of(m, body)
         late, early = weigh_body(b, part)
         f.small[out_of(body)] = 1.0 / (late + early)
-        _add_terms(m, b, _outside(pt, body), part, f)
+        _add_terms(m, b, outside_of(pt, body), part, f)
     washer = body_of(m, L.OF_WASHER)
     f.small[L.OUT_WASHER] = washer.storage / part
     _add_washer(m, washer, 0.0, f)
@@ -227,7 +227,7 @@ def set_end(w: Workspace, pt: Point, dt: float) -> None:
         b = body_of(m, body)
         late, _ = weigh_body(b, dt)
         f.small[out_of(body)] = 1.0 / late
-        _add_terms(m, b, _outside(pt, body), dt, f)
+        _add_terms(m, b, outside_of(pt, body), dt, f)
         _guess(m, b, late, f)
     washer = body_of(m, L.OF_WASHER)
     late = STAGE * dt / washer.storage
@@ -263,7 +263,7 @@ def _guess(m: WasherModel, b: Body, late: float, f: Fields) -> None:
 
 
 @kernel
-def _outside(pt: Point, body: int) -> float:
+def outside_of(pt: Point, body: int) -> float:
     """Return how much warmer than the oil a body's far face is kept [K]."""
     return far_rise(pt) if body == L.OF_GEAR else 0.0
 
@@ -359,7 +359,7 @@ def advance_terms(w: Workspace, dt: float) -> None:
 
 
 @kernel
-def _angle(m: WasherModel, b: Body, j: int) -> float:
+def angle_of(m: WasherModel, b: Body, j: int) -> float:
     """Return the angle that a node of column j stands for; of a ring, all."""
     if b.step > 0:
         return float(m.weight_t[j])
@@ -389,7 +389,7 @@ def stored_heat(w: Workspace) -> float:
     _, gear = _through(m, body_of(m, L.OF_GEAR), f)
     stored = carrier + gear
     for j in range(washer.columns):
-        angle = _angle(m, washer, j)
+        angle = angle_of(m, washer, j)
         for i in range(m.n_r):
             node = np.uintp(washer.at + j * washer.step + i)
             stored += m.weight1[i] * angle * washer.storage * f.temp[node]
@@ -403,7 +403,7 @@ def _through(m: WasherModel, b: Body, f: Fields) -> tuple[float, float]:
     for k in range(L.N_TERMS):
         t, part = term(b, k), 0.0
         for j in range(b.columns):
-            angle = _angle(m, b, j)
+            angle = angle_of(m, b, j)
             for i in range(b.first, m.n_r):
                 part += b.weight[i] * angle * f.ladder[k, np.uintp(b.at + j * b.step + i)]
         flow += t.far * part

@@ -44,6 +44,10 @@ HELD = 1e10  # [W/(m^2 K)] conductance that lets no temperature move
 LEAST_STEP = 1e-6  # [s] in which no temperature moves
 BODIES = (L.OF_CARRIER, L.OF_WASHER, L.OF_GEAR)
 WITH_LADDER = (L.OF_CARRIER, L.OF_GEAR)
+# States of model exchange: bending [rad], energy [J], then mean temperatures [K]: of the faces of
+# carrier and gear, each with what terms of the ladder after the first have of it; of the washer.
+X_BEND, X_ENERGY, X_CARRIER, X_WASHER, X_GEAR, N_STATES = 0, 1, 2, 5, 6, 10
+REFERENCE = 293.15  # [K] of the far face, where a term's state is its rise
 
 
 class Body(NamedTuple):
@@ -409,3 +413,51 @@ def _through(m: WasherModel, b: Body, f: Fields) -> tuple[float, float]:
         flow += t.far * part
         stored += t.holds * part
     return flow, stored
+
+
+@kernel
+def state_of(body: int) -> int:
+    """Return the place of a body's mean temperature among the states."""
+    if body == L.OF_WASHER:
+        return X_WASHER
+    return X_CARRIER if body == L.OF_CARRIER else X_GEAR
+
+
+@kernel
+def terms_of(body: int) -> int:
+    """Return how many states a body has."""
+    if body == L.OF_WASHER:
+        return 1
+    return 3 if body == L.OF_CARRIER else L.N_TERMS
+
+
+@kernel
+def far_of(pt: Point, body: int) -> float:
+    """Return the temperature at a body's far face [K]."""
+    return pt.far_face if body == L.OF_GEAR else pt.oil_temperature
+
+
+@kernel
+def mean_of(m: WasherModel, b: Body, values: Array) -> tuple[float, float]:
+    """Return the mean of values (n_temp,) over a body's face, and the face [m^2]."""
+    total, area = 0.0, 0.0
+    for j in range(b.columns):
+        angle = angle_of(m, b, j)
+        for i in range(b.first, m.n_r):
+            weight = b.weight[i] * angle
+            total += weight * values[np.uintp(b.at + j * b.step + i)]
+            area += weight
+    return total / area, area
+
+
+@kernel
+def fill_means(w: Workspace, pt: Point, cont: Array) -> None:
+    """Fill the states of model exchange that ladders and temperatures in ``w`` stand for."""
+    m, f = model_of(w), fields_of(w)
+    for body in BODIES:
+        b, place = body_of(m, body), state_of(body)
+        mean, _ = mean_of(m, b, f.temp)
+        cont[place] = pt.oil_temperature + mean
+        for k in range(1, terms_of(body)):
+            part, _ = mean_of(m, b, f.ladder[k])
+            cont[np.uintp(place + k)] = part + term(b, k).falls * (far_of(pt, body) - REFERENCE)

@@ -27,17 +27,22 @@ from ..heat import heat_change, heat_residual, let_film_follow, let_out, set_ste
 from ..ladder import (
     BODIES,
     HELD,
+    REFERENCE,
     Body,
     angle_of,
     body_of,
+    far_of,
+    fill_means,
     hold_bodies,
+    mean_of,
     outside_of,
     shift_terms,
     start_terms,
+    state_of,
     term,
+    terms_of,
     weigh,
 )
-from ..newton import film_ratio
 from ..outputs import outputs_at
 from ..step import BUDGET_IN_TIME
 from ..transient import ATOL, LOST_SHARE, RTOL, advance_heat, along_the_film, start_cold
@@ -68,9 +73,6 @@ from .kept import (
     K_POSITIONS,
     K_SHAPES,
     SLOWEST,
-    X_CARRIER,
-    X_GEAR,
-    X_WASHER,
     arrive,
     keep,
     moving_point,
@@ -80,44 +82,8 @@ from .kept import (
     write_point,
 )
 
-REFERENCE = 293.15  # K
 FIRST, LEAST = 0.01, 1e-5  # s, of shapes: how long those at the start shall do, and the least time
-OFF = 4.0  # tolerances that the shapes may be off by when the flux has changed
-
-
-@kernel
-def state_of(body: int) -> int:
-    """Return the place of a body's mean temperature among the states."""
-    if body == L.OF_WASHER:
-        return X_WASHER
-    return X_CARRIER if body == L.OF_CARRIER else X_GEAR
-
-
-@kernel
-def terms_of(body: int) -> int:
-    """Return how many states a body has."""
-    if body == L.OF_WASHER:
-        return 1
-    return 3 if body == L.OF_CARRIER else L.N_TERMS
-
-
-@kernel
-def far_of(pt: Point, body: int) -> float:
-    """Return the temperature at a body's far face [K]."""
-    return pt.far_face if body == L.OF_GEAR else pt.oil_temperature
-
-
-@kernel
-def mean_of(m: WasherModel, b: Body, values: Array) -> tuple[float, float]:
-    """Return the mean of values (n_temp,) over a body's face, and the face [m^2]."""
-    total, area = 0.0, 0.0
-    for j in range(b.columns):
-        angle = angle_of(m, b, j)
-        for i in range(b.first, m.n_r):
-            weight = b.weight[i] * angle
-            total += weight * values[np.uintp(b.at + j * b.step + i)]
-            area += weight
-    return total / area, area
+AIM, OFF = 2.0, 4.0  # tolerances that shapes shall be off by at the end, and may be at most
 
 
 @kernel
@@ -130,19 +96,6 @@ def mean_term(b: Body, pt: Point, body: int, k: int, states: Array) -> float:
             return part
         first += part
     return states[place] - far - first
-
-
-@kernel
-def fill_means(w: Workspace, pt: Point, cont: Array) -> None:
-    """Fill the states that the ladders and temperatures in ``w`` stand for."""
-    m, f = model_of(w), fields_of(w)
-    for body in BODIES:
-        b, place = body_of(m, body), state_of(body)
-        mean, _ = mean_of(m, b, f.temp)
-        cont[place] = pt.oil_temperature + mean
-        for k in range(1, terms_of(body)):
-            part, _ = mean_of(m, b, f.ladder[k])
-            cont[np.uintp(place + k)] = part + term(b, k).falls * (far_of(pt, body) - REFERENCE)
 
 
 @kernel
@@ -171,7 +124,7 @@ def foresee(w: Workspace, pt: Point, cont: Array, discrete: Array) -> None:
     shapes = shapes_of(discrete, f.temp.size)
     since = max(discrete[D_NOW] - discrete[D_SINCE], 0.0)
     for body in BODIES:
-        b, gain = body_of(m, body), 0.0
+        b = body_of(m, body)
         gain = gain_of(b, body, since)
         k0, k1, k2, k3 = 1.0, 0.0, 0.0, 0.0
         if body != L.OF_WASHER:
@@ -536,14 +489,14 @@ def lasts(w: Workspace, before: float, since: float, off: float, discrete: Array
     m, f = model_of(w), fields_of(w)
     shapes, h = shapes_of(discrete, f.temp.size), before
     if since > 0.0:
-        h = since * max(0.2, 0.9 / math.sqrt(max(off, 1e-6)))
+        h = since * max(0.2, 0.9 * math.sqrt(AIM / max(off, 1e-6)))
         h = min(h, 3.0 * max(since, before))
-    tolerance = tolerance_of(m, f)
+    most = AIM * tolerance_of(m, f)
     for body in BODIES:
         b = body_of(m, body)
         moved = flux_moved(w, body, shapes)
         for _ in range(60):
-            if h <= LEAST or not 0.5 * gain_of(b, body, h) * moved > tolerance:
+            if h <= LEAST or not 0.5 * gain_of(b, body, h) * moved > most:
                 break
             h *= 0.7
     return max(h, LEAST)
@@ -602,7 +555,7 @@ def name_film(w: Workspace, pt: Point, discrete: Array) -> int:
 def start_in_time(
     par: Array, inp: Array, cont: Array, discrete: Array, work: Array, t: float
 ) -> int:
-    """Fill states and fields of a washer whose bodies have been as warm for long; return a status."""
+    """Fill states and fields of a washer that has been as warm for long; return a status."""
     pt, w = moving_point(par, inp), workspace_of(par, work)
     m, f = model_of(w), fields_of(w)
     discrete[D_IN_TIME], discrete[D_NOW] = 1.0, t
@@ -649,7 +602,6 @@ def update_in_time(
 ) -> int:
     """Bring shapes and what else is discrete to an event at ``t``; return a status."""
     pt, w = moving_point(par, inp), workspace_of(par, work)
-    f = fields_of(w)
     discrete[D_NOW] = t
     since, off, before = max(t - discrete[D_SINCE], 0.0), 0.0, discrete[D_LASTS]
     clear(w.info)

@@ -6,21 +6,19 @@ from ....numerics.jit import Array, kernel
 from ....numerics.status import MAX_ITERATIONS, OK, SINGULAR
 from .. import layout as L
 from ..heat import set_steady
-from ..ladder import hold_bodies
+from ..ladder import N_STATES, hold_bodies
 from ..newton import EXACT, LOAD, NO_FLOOR, evaluate, make_factor, newton
 from ..regime_and_status import point_of
 from ..step import FINE_GRID
 from ..workspace import Point, Workspace, fields_of, model_of, temperatures_of
 
-# States: bending [rad], energy [J], mean temperatures [K]: of the faces of carrier and gear, then the
-# parts of them that slower terms of the ladder make (see ``in_time``); of the washer.
-X_BEND, X_ENERGY, X_CARRIER, X_WASHER, X_GEAR, NCONT = 0, 1, 2, 5, 6, 10
+NCONT = N_STATES
 A_ANGLE, A_DAMPING, A_SPEED, A_LARGEST, NOWN = range(5)
 # What is discrete: time of the next event [s], largest capacity [N m]; is the map asked; branch,
-# are there several, point of the last search for folds; the present time [s], which the shell writes;
-# of heat in time: does it count, when the bodies' fields are from [s], for how long they shall do
-# [s], what is stored in bodies with the states at 0 [J], the point of the fields; the kept solution:
-# its point, positions, then temperatures and pressures; the fields.
+# are there several, point of the last search for folds; the present time [s], written by the
+# shell, and behind it 1 if that counts: with heat in time. Then: since when the bodies' fields
+# hold [s], for how long they shall [s], what is stored in bodies at the start [J], the point of the
+# fields; the kept solution: its point, positions, then temperatures and pressures; the fields.
 D_NEXT, D_LARGEST, D_ON_MAP, D_BRANCH, D_SEVERAL, D_SPEED, D_TILT, D_OIL = range(8)
 D_NOW, D_IN_TIME, D_SINCE, D_LASTS, D_STORED, D_WAS, D_KEPT = 8, 9, 10, 11, 12, 13, 18
 K_POSITIONS = D_KEPT + 5

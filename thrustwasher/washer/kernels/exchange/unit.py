@@ -31,6 +31,7 @@ from ..continuation import BUDGET, recall, remember
 from ..directional_derivative import differentiate
 from ..gap import dry_friction, face_area
 from ..heat import set_steady
+from ..ladder import X_BEND, X_CARRIER, X_ENERGY, X_GEAR, X_WASHER
 from ..map.map_search import map_covers
 from ..map.map_step import N_MAP_WORK, look_up_slopes
 from ..newton import film_ratio
@@ -81,11 +82,6 @@ from .kept import (
     D_TILT,
     K_FIELDS,
     SLOWEST,
-    X_BEND,
-    X_CARRIER,
-    X_ENERGY,
-    X_GEAR,
-    X_WASHER,
     Z_BOUNDARY,
     Z_BRANCH,
     Z_HOT,
@@ -113,9 +109,7 @@ NEAR, NEAR_OIL = 0.05, 3.0  # relative, K: searches for folds that far off count
 
 
 @kernel
-def solved(
-    par: Array, inp: Array, cont: Array, discrete: Array, work: Array
-) -> tuple[int, float]:
+def solved(par: Array, inp: Array, cont: Array, discrete: Array, work: Array) -> tuple[int, float]:
     """Fill ``work`` with the sliding washer on its branch; return a status and the room."""
     if is_bad(inp):
         return BAD_INPUT, 0.0

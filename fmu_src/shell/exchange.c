@@ -25,10 +25,19 @@ static int not_finite(const Instance *m, const char *name, double value) {
     return fail(m, "%s, allowed: a finite number", text.text);
 }
 
-/* What the kernels need of the time is settled in event mode: the present values stay. */
+/* What the kernels need of the time is settled in event mode: the present values stay. Or they have a
+   place for it in what is discrete, and behind it 1 if it counts. */
 int set_time(Instance *m, double t) {
     if (!is_finite(t)) return not_finite(m, "time", t);
     m->now.time = t;
+#if TIME_AT
+    double *now = &m->now.discrete[TIME_AT];
+    if (now[1] != 0.0 && now[0] != t) {
+        m->now.dirty = 1;
+        m->now.latch = m->unsolved = 0;
+    }
+    now[0] = t;
+#endif
     return GOOD;
 }
 

@@ -77,17 +77,17 @@ int solve_exchange(Instance *m) {
 /* What is discrete, anew; nothing changes where there is a failure. */
 int update_exchange(Instance *m) {
     Snap *s = &m->now;
-    double discrete[AT_LEAST_ONE(NMODE)];
+    double *discrete = m->discrete;
     int32_t iout[AT_LEAST_ONE(NIOUT)];
-    memcpy(discrete, s->discrete, sizeof discrete);
+    memcpy(discrete, s->discrete, sizeof s->discrete);
     memcpy(iout, s->solution.iout, sizeof iout);
     const int rc = update(m);
     if (!is_failure(rc)) {
         /* outputs are those of `rates`, which starts from what is kept now */
-        if (NEEDS_STEPS || memcmp(discrete, s->discrete, sizeof discrete) != 0) s->dirty = 1;
+        if (NEEDS_STEPS || memcmp(discrete, s->discrete, sizeof s->discrete) != 0) s->dirty = 1;
         return GOOD;
     }
-    memcpy(s->discrete, discrete, sizeof discrete);
+    memcpy(s->discrete, discrete, sizeof s->discrete);
     memcpy(s->solution.iout, iout, sizeof iout);
     s->latch = rc < 0 ? STATUS_NOT_FINITE : rc;
     tell_failure(m, s->latch, s->time, 0.0);

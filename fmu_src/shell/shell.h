@@ -93,7 +93,8 @@ typedef struct {
     char resources[PATH_LENGTH + WORD_LENGTH]; /* the folder, in UTF-8; room for a file's name */
     char refusal[TEXT_LENGTH];
     double along[AT_LEAST_ONE(NINP + NCONT)], found[AT_LEAST_ONE(NOUT + NCONT)]; /* of a derivative */
-    double work[AT_LEAST_ONE(NWORK)]; /* carries nothing between calls, the table aside */
+    double discrete[AT_LEAST_ONE(NMODE)]; /* what is to be put back if an update fails */
+    double work[AT_LEAST_ONE(NWORK)];     /* carries nothing between calls, the table aside */
 } Instance;
 
 /* How a host hands over values: which types of variables, in which form. */

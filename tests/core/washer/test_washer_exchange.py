@@ -99,7 +99,9 @@ def test_a_load_far_beyond_the_fold_is_answered_by_the_fold(level, load):
     far.put(load=load)
     assert far.rates() == OK and far.sign[0] < 0.0
     assert far.out("friction_torque") == pytest.approx(at_fold, rel=1e-4)
-    assert far.k.slopes(*far._given(), np.eye(7)[0], np.zeros(20)) == SINGULAR
+    along = np.eye(far.k.NINP + far.k.NCONT)[0]
+    found = np.zeros(far.k.NOUT + far.k.NCONT)
+    assert far.k.slopes(*far._given(), along, found) == SINGULAR
 
 
 @each_level
@@ -112,7 +114,7 @@ def test_slopes_are_those_of_the_values(level, point):
     sizes, n = np.array([300.0, 500.0, 2e-3, 300.0, 1.0, 3.5e-5, 1e2]), k.k.NINP
     if level == "field":
         sizes[:4] = point["load"], point["speed"], 2e-3, 300.0
-    at = np.concatenate([k.inp, k.cont])
+    at, unit = np.concatenate([k.inp, k.cont]), np.eye(n + k.k.NCONT)
 
     def values(point):
         k.inp[:], k.cont[:] = point[:n], point[n:]
@@ -121,7 +123,7 @@ def test_slopes_are_those_of_the_values(level, point):
 
     here = np.abs(values(at))
     for i in (0, 1, 2, 3, 5, 6):
-        e, h = np.eye(7)[i], 1e-4 * sizes[i]
+        e, h = unit[i], 1e-4 * sizes[i]
         rough, fine = ((values(at + x * e) - values(at - x * e)) / (2.0 * x) for x in (2.0 * h, h))
         expected = (4.0 * fine - rough) / 3.0
         values(at)

@@ -25,7 +25,7 @@ from ..model_kernels import has_derivatives, seed_length
 from . import call_table
 
 SIZES = ("NPAR", "NINP", "NSTATE", "NWORK", "NOUT", "NIOUT")
-EXCHANGE_SIZES = ("NOWN", "NCONT", "NMODE", "NSIGN")
+EXCHANGE_SIZES = ("NOWN", "NCONT", "NMODE", "NSIGN", "TIME_AT")
 MOST_INPUTS = 32  # dependencies are bits of one word
 # The C files of a native FMU next to the generated ones and the dispatch to the kernels.
 SHELL_FILES = tuple(

@@ -17,6 +17,7 @@ from .constants import WasherModel
 from .film import film_solve, hold_pressure, let_flows_follow
 from .heat import heat_change, let_film_follow
 from .heat_factor import solve_heat
+from .ladder import BODIES, angle_of, body_of, out_of
 from .layout import MOMENT_X, MOMENT_Y, ON_GEAR, ON_WASHER, TILT_X, TILT_Y, Z_GEAR, Z_WASHER
 from .newton import EXACT, FILM, LOAD, add_pressure, linearise, make_factor, set_film_row
 from .outputs import change_of_outputs
@@ -104,6 +105,21 @@ def _dot(a: Array, b: Array) -> float:
 
 
 @kernel
+def _warm(m: WasherModel, f: Fields, heat: Array) -> None:
+    """Add to the change of the heat residual what makes held bodies warmer."""
+    warmed = f.small[L.WARMED : L.N_SMALL]
+    if warmed[0] == 0.0 and warmed[1] == 0.0 and warmed[2] == 0.0:
+        return
+    for body in BODIES:
+        b = body_of(m, body)
+        by = f.small[out_of(body)] * warmed[body - L.OF_CARRIER]
+        for j in range(b.columns):
+            angle = angle_of(m, b, j)
+            for i in range(b.first, m.n_r):
+                heat[np.uintp(b.at + j * b.step + i)] -= b.weight[i] * angle * by
+
+
+@kernel
 def _start(
     m: WasherModel, pt: Point, change: Point, q: Array, f: Fields, dtemp: Array, heat: Array
 ) -> int:
@@ -112,10 +128,11 @@ def _start(
     clear(dq)
     clear(dtemp)
     moved = abs(change.speed) + abs(change.tilt) + abs(change.oil_temperature)
-    moved += abs(change.far_face)
+    moved += abs(change.far_face) + size_of(f.small[L.WARMED : L.N_SMALL])
     if moved > 0.0:
         let_film_follow(m, pt, change, q, dq, dtemp, f)
         heat_change(m, pt, change, q, dq, dtemp, f, heat)
+        _warm(m, f, heat)
         negate(heat)
         solve_heat(m, heat, dtemp, f)
     let_film_follow(m, pt, change, q, dq, dtemp, f)
@@ -128,6 +145,7 @@ def _start(
     add_slopes(f, dq, dtemp)
     let_film_follow(m, pt, change, q, dq, dtemp, f)
     heat_change(m, pt, change, q, dq, dtemp, f, heat)
+    _warm(m, f, heat)
     negate(heat)
     return OK
 

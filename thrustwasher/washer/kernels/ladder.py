@@ -44,6 +44,10 @@ HELD = 1e10  # [W/(m^2 K)] conductance that lets no temperature move
 LEAST_STEP = 1e-6  # [s] in which no temperature moves
 BODIES = (L.OF_CARRIER, L.OF_WASHER, L.OF_GEAR)
 WITH_LADDER = (L.OF_CARRIER, L.OF_GEAR)
+# States of model exchange: bending [rad], energy [J], then mean temperatures [K]: of the faces of
+# carrier and gear, each with what terms of the ladder after the first have of it; of the washer.
+X_BEND, X_ENERGY, X_CARRIER, X_WASHER, X_GEAR, N_STATES = 0, 1, 2, 5, 6, 10
+REFERENCE = 293.15  # [K] of the far face, where a term's state is its rise
 
 
 class Body(NamedTuple):
@@ -127,7 +131,7 @@ def start_terms(w: Workspace, pt: Point) -> None:
         clear(f.ladder[k])
     for body in WITH_LADDER:
         b = body_of(m, body)
-        outside = _outside(pt, body)
+        outside = outside_of(pt, body)
         for k in range(L.N_TERMS):
             t = term(b, k)
             share = t.falls if from_oil else t.settled
@@ -208,7 +212,7 @@ def set_stage(w: Workspace, pt: Point, dt: float) -> None:
         b = body_of(m, body)
         late, early = weigh_body(b, part)
         f.small[out_of(body)] = 1.0 / (late + early)
-        _add_terms(m, b, _outside(pt, body), part, f)
+        _add_terms(m, b, outside_of(pt, body), part, f)
     washer = body_of(m, L.OF_WASHER)
     f.small[L.OUT_WASHER] = washer.storage / part
     _add_washer(m, washer, 0.0, f)
@@ -227,7 +231,7 @@ def set_end(w: Workspace, pt: Point, dt: float) -> None:
         b = body_of(m, body)
         late, _ = weigh_body(b, dt)
         f.small[out_of(body)] = 1.0 / late
-        _add_terms(m, b, _outside(pt, body), dt, f)
+        _add_terms(m, b, outside_of(pt, body), dt, f)
         _guess(m, b, late, f)
     washer = body_of(m, L.OF_WASHER)
     late = STAGE * dt / washer.storage
@@ -263,7 +267,7 @@ def _guess(m: WasherModel, b: Body, late: float, f: Fields) -> None:
 
 
 @kernel
-def _outside(pt: Point, body: int) -> float:
+def outside_of(pt: Point, body: int) -> float:
     """Return how much warmer than the oil a body's far face is kept [K]."""
     return far_rise(pt) if body == L.OF_GEAR else 0.0
 
@@ -359,7 +363,7 @@ def advance_terms(w: Workspace, dt: float) -> None:
 
 
 @kernel
-def _angle(m: WasherModel, b: Body, j: int) -> float:
+def angle_of(m: WasherModel, b: Body, j: int) -> float:
     """Return the angle that a node of column j stands for; of a ring, all."""
     if b.step > 0:
         return float(m.weight_t[j])
@@ -389,7 +393,7 @@ def stored_heat(w: Workspace) -> float:
     _, gear = _through(m, body_of(m, L.OF_GEAR), f)
     stored = carrier + gear
     for j in range(washer.columns):
-        angle = _angle(m, washer, j)
+        angle = angle_of(m, washer, j)
         for i in range(m.n_r):
             node = np.uintp(washer.at + j * washer.step + i)
             stored += m.weight1[i] * angle * washer.storage * f.temp[node]
@@ -403,9 +407,57 @@ def _through(m: WasherModel, b: Body, f: Fields) -> tuple[float, float]:
     for k in range(L.N_TERMS):
         t, part = term(b, k), 0.0
         for j in range(b.columns):
-            angle = _angle(m, b, j)
+            angle = angle_of(m, b, j)
             for i in range(b.first, m.n_r):
                 part += b.weight[i] * angle * f.ladder[k, np.uintp(b.at + j * b.step + i)]
         flow += t.far * part
         stored += t.holds * part
     return flow, stored
+
+
+@kernel
+def state_of(body: int) -> int:
+    """Return the place of a body's mean temperature among the states."""
+    if body == L.OF_WASHER:
+        return X_WASHER
+    return X_CARRIER if body == L.OF_CARRIER else X_GEAR
+
+
+@kernel
+def terms_of(body: int) -> int:
+    """Return how many states a body has."""
+    if body == L.OF_WASHER:
+        return 1
+    return 3 if body == L.OF_CARRIER else L.N_TERMS
+
+
+@kernel
+def far_of(pt: Point, body: int) -> float:
+    """Return the temperature at a body's far face [K]."""
+    return pt.far_face if body == L.OF_GEAR else pt.oil_temperature
+
+
+@kernel
+def mean_of(m: WasherModel, b: Body, values: Array) -> tuple[float, float]:
+    """Return the mean of values (n_temp,) over a body's face, and the face [m^2]."""
+    total, area = 0.0, 0.0
+    for j in range(b.columns):
+        angle = angle_of(m, b, j)
+        for i in range(b.first, m.n_r):
+            weight = b.weight[i] * angle
+            total += weight * values[np.uintp(b.at + j * b.step + i)]
+            area += weight
+    return total / area, area
+
+
+@kernel
+def fill_means(w: Workspace, pt: Point, cont: Array) -> None:
+    """Fill the states of model exchange that ladders and temperatures in ``w`` stand for."""
+    m, f = model_of(w), fields_of(w)
+    for body in BODIES:
+        b, place = body_of(m, body), state_of(body)
+        mean, _ = mean_of(m, b, f.temp)
+        cont[place] = pt.oil_temperature + mean
+        for k in range(1, terms_of(body)):
+            part, _ = mean_of(m, b, f.ladder[k])
+            cont[np.uintp(place + k)] = part + term(b, k).falls * (far_of(pt, body) - REFERENCE)

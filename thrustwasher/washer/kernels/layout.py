@@ -180,6 +180,7 @@ RIM_CHANGE = 131  # change of the heat that oil carries over the rims [W], of a 
 OUT_OIL, FAR_CARRIER, FAR_GEAR = 132, 135, 137
 # Of the torque of sliding the share that is given near rest, and its slope over the speed [s/rad].
 GIVEN, GIVEN_SLOPE = 139, 140
+WARMED = 141  # change of what the three bodies are held at [K], of a derivative
 N_SMALL = 144
 # Right sides and solutions of the film, node by node: the step at fixed positions, its slopes.
 AT_FIXED, OVER_POSITIONS = 0, 1

@@ -14,7 +14,16 @@ from . import layout as L
 from .constants import derive_grid, size_of_par
 from .directional_derivative import differentiate
 from .heat import set_steady
-from .ladder import set_held, start_terms, stored_heat
+from .ladder import (
+    N_STATES,
+    X_CARRIER,
+    X_GEAR,
+    X_WASHER,
+    fill_means,
+    set_held,
+    start_terms,
+    stored_heat,
+)
 from .layout import N_PARAM, NINP, NIOUT, NOUT
 from .map.map_layout import DATA, MAGIC, PARAMS, ROOM, SIZE
 from .map.map_step import N_MAP_WORK, NOT_HERE, map_sens, map_step
@@ -60,7 +69,8 @@ TABLE = {
     "SWITCH": L.P_FIDELITY,
     "ON": L.MAP,
 }
-NWORK = TABLE_AT + ROOM
+W_STATES = TABLE_AT + ROOM  # the states of model exchange after a step, but for the energy
+NWORK = W_STATES + N_STATES
 NSEED = NINP + len(SHARES)  # inputs, then tunable shares of heat
 BUDGET_IN_TIME = 3000.0  # Newton iterations that one step of the bodies' heat may take
 LESS = 0.2  # of the step that was taken: the advice where the speed chatters
@@ -125,6 +135,8 @@ def step(
 ) -> int:
     """Advance by ``dt``, write the outputs; near rest with a share of the torque of sliding."""
     mem, way, speed = work[L.AT_MEMORY : L.AT_TOLD], coupling_of(par), inp[L.I_SPEED]
+    states = work[W_STATES:]
+    states[X_CARRIER] = states[X_WASHER] = states[X_GEAR] = inp[L.I_OIL]
     if is_bad(inp):
         return slide(par, inp, state, work, out, iout, t, dt, 1.0, 0.0)
     copy(state[L.S_MEMORY : L.S_MEMORY + N_MEMORY], mem)
@@ -247,6 +259,7 @@ def _slide_on_mesh(
         out[L.O_OIL_HEAT] = out[L.O_POWER]
     book(made, kept, dt, state, out)
     if in_time:
+        fill_means(w, pt, work[W_STATES:])
         out[L.O_ADVISED] = substep if dt > 0.0 else state[L.S_SUBSTEP]
     lost = in_time and name_branch(w, w.outputs[L.O_RATIO], w.outputs[L.O_FLUID_SHARE])
     if dt > 0.0 and (status == OK or status == NO_BRANCH):

@@ -36,7 +36,7 @@ def start_cold(w: Workspace) -> None:
 
 
 @inlined
-def _along_the_film(w: Workspace, pt: Point) -> int:
+def along_the_film(w: Workspace, pt: Point) -> int:
     """Solve for the load by walking in film thickness from where the washer is."""
     sigma = w.par[L.D_SIGMA1]
     w.curve[L.ACCURACY] = 1e-4
@@ -81,7 +81,7 @@ def _arrive(w: Workspace, pt: Point) -> int:
         status = OK
     if status != OK:
         recall(w, 2.0)
-        status = _along_the_film(w, pt)
+        status = along_the_film(w, pt)
     if status != OK:
         recall(w, 2.0)
         forget_factor(w)

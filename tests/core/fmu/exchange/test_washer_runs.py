@@ -108,10 +108,34 @@ def test_a_state_that_is_saved_past_a_step_goes_on_with_the_same_bits():
         assert u.dx().tobytes() + u.z().tobytes() == expected
 
 
-def test_bodies_that_store_heat_are_for_co_simulation_alone():
-    with unit("washer") as u, pytest.raises(Exception, match="failed"):
-        u.start(thermal_mode=2)
-    assert any("thermal_mode" in str(x) and "co-simulation only" in str(x) for x in u.said)
+IN_TIME = {"thermal_mode": 2, "thermal_start": 2}  # transient, as warm as the oil
+
+
+def test_temperatures_are_states_and_the_fields_go_on_with_time():
+    """Until the next event, which is announced."""
+    with unit("washer") as u:
+        u.start(**IN_TIME, load=1200.0, speed=545.0, **POINT)
+        faces = ["carrier_temperature", "washer_temperature", "gear_temperature"]
+        assert set(faces) <= set(u.states) and u.nominals().min() > 0.0
+        assert u.get(*faces) == [POINT["oil_temperature"]] * 3
+        for _ in range(4):
+            before, t = u.get("temperature_max"), u.next_time
+            u.fmu.setTime(t)
+            assert u.get("temperature_max") > before
+            u.event(t)
+            assert t < u.next_time < t + 0.1
+
+
+@pytest.mark.slow
+def test_a_shaft_stops_as_in_co_simulation_while_bodies_warm_up():
+    """At 0.1 ms: when it has all but stopped, heats made and stored, within 0.2 %."""
+    shaft = Shaft(0.0003, 200.0, load=300.0, **POINT)
+    with unit("washer") as u, unit("washer", kind="CoSimulation") as c:
+        one = exchanged(u, shaft, 0.3, *WASHER, tolerance=1e-4, **IN_TIME)
+        two = stepped(c, shaft, 0.3, *WASHER, **IN_TIME)
+        for name in ("energy", "stored_heat"):
+            assert u.get(name) == pytest.approx(c.get(name), rel=2e-3)
+    assert stop_of(one) == pytest.approx(stop_of(two), rel=2e-3)
 
 
 def jumps(rng):

@@ -31,6 +31,7 @@ from ..continuation import BUDGET, recall, remember
 from ..directional_derivative import differentiate
 from ..gap import dry_friction, face_area
 from ..heat import set_steady
+from ..ladder import X_BEND, X_CARRIER, X_ENERGY, X_GEAR, X_WASHER
 from ..map.map_search import map_covers
 from ..map.map_step import N_MAP_WORK, look_up_slopes
 from ..newton import film_ratio
@@ -51,23 +52,36 @@ from ..step import NPAR as NPAR
 from ..step import NWORK as NWORK
 from ..workspace import Point, Workspace, fields_of, forget_factor, model_of, workspace_of
 from .branch import follow, room_here, stays
+from .in_time import (
+    fill_flux_changes,
+    fill_rate_changes,
+    fill_rates,
+    flux_changes,
+    hold_for_slopes,
+    room_of_film,
+    shapes_sign,
+    solved_in_time,
+    start_in_time,
+    update_in_time,
+)
 from .kept import (
     A_ANGLE,
     A_DAMPING,
     A_LARGEST,
     A_SPEED,
     D_BRANCH,
+    D_IN_TIME,
     D_LARGEST,
     D_NEXT,
+    D_NOW,
     D_OIL,
     D_ON_MAP,
     D_SEVERAL,
     D_SPEED,
+    D_STORED,
     D_TILT,
     K_FIELDS,
     SLOWEST,
-    X_BEND,
-    X_ENERGY,
     Z_BOUNDARY,
     Z_BRANCH,
     Z_HOT,
@@ -75,6 +89,7 @@ from .kept import (
     Z_MIXED,
     Z_OUTSIDE,
     Z_RISE,
+    Z_SHAPES,
     arrive,
     keep,
     moving_point,
@@ -85,6 +100,7 @@ from .kept import NCONT as NCONT
 from .kept import NMODE as NMODE
 from .kept import NOWN as NOWN
 from .kept import NSIGN as NSIGN
+from .kept import TIME_AT as TIME_AT
 from .on_map import SMALLEST, asks_map, enter_branch, keep_place, looked_up, map_sign
 
 NEVER = 1.7976931348623157e308
@@ -93,10 +109,13 @@ NEAR, NEAR_OIL = 0.05, 3.0  # relative, K: searches for folds that far off count
 
 
 @kernel
-def solved(par: Array, inp: Array, discrete: Array, work: Array) -> tuple[int, float]:
+def solved(par: Array, inp: Array, cont: Array, discrete: Array, work: Array) -> tuple[int, float]:
     """Fill ``work`` with the sliding washer on its branch; return a status and the room."""
     if is_bad(inp):
         return BAD_INPUT, 0.0
+    if discrete[D_IN_TIME] == 1.0:
+        status = solved_in_time(par, inp, cont, discrete, work)
+        return status, room_of_film(workspace_of(par, work))
     if discrete[D_ON_MAP] == 1.0:
         return looked_up(par, inp, discrete, work)
     pt, w = moving_point(par, inp), workspace_of(par, work)
@@ -196,12 +215,15 @@ def start(
     if own[A_LARGEST] == 0.0:
         discrete[D_LARGEST] = largest_of(par)
     pt, w, status = moving_point(par, inp), workspace_of(par, work), OK
-    if asks_map(par, pt, work):
+    cont[X_CARRIER] = cont[X_WASHER] = cont[X_GEAR] = pt.oil_temperature
+    if par[L.P_THERMAL_MODE] == L.TRANSIENT:
+        status = start_in_time(par, inp, cont, discrete, work, t)
+    elif asks_map(par, pt, work):
         discrete[D_ON_MAP] = 1.0
         status = enter_branch(par, inp, discrete, work)
         if status == NOT_IN_MAP and par[L.P_OUTSIDE_MAP] == L.SOLVE:
             discrete[D_ON_MAP] = 0.0
-    if discrete[D_ON_MAP] != 1.0:
+    if discrete[D_ON_MAP] != 1.0 and discrete[D_IN_TIME] != 1.0:
         status = from_nothing(w, pt, L.ANY, discrete)
     if status != OK:
         return status
@@ -218,15 +240,25 @@ def share_of(heat: float, sliding: float) -> float:
 
 @kernel
 def fill_given(
-    w: Workspace, pt: Point, sliding: float, torque: float, heat: float, out: Array
+    w: Workspace,
+    pt: Point,
+    sliding: float,
+    torque: float,
+    heat: float,
+    discrete: Array,
+    out: Array,
 ) -> None:
-    """Fill outputs from those of sliding, whose power is ``sliding`` [W]."""
-    own, share = w.outputs, share_of(heat, sliding)
+    """Fill outputs from those of sliding, whose power is ``sliding`` [W].
+
+    In time bodies are as warm as they are, however much heat is made.
+    """
+    own, part = w.outputs, share_of(heat, sliding)
     copy(own[:NOUT], out)
+    share = 1.0 if discrete[D_IN_TIME] == 1.0 else part
     for k in range(len(RISES)):
         at = RISES[k]
         out[at] = pt.oil_temperature + share * (own[at] - pt.oil_temperature)
-    out[L.O_THROUGHFLOW_HEAT] = share * own[L.O_THROUGHFLOW_HEAT]
+    out[L.O_THROUGHFLOW_HEAT] = part * own[L.O_THROUGHFLOW_HEAT]
     out[L.O_TORQUE], out[L.O_POWER], out[L.O_OIL_HEAT] = torque, heat, heat
     inner, outer = w.par[L.P_INNER_RADIUS], w.par[L.P_OUTER_RADIUS]
     out[L.O_COEFFICIENT] = coefficient_per_torque(inner, outer, pt.load) * abs(torque)
@@ -260,7 +292,7 @@ def rates(
 ) -> int:
     """Fill outputs, rates of the states, event indicators; return 0 or the status of a failure."""
     clear(der)
-    status, room = solved(par, inp, discrete, work)
+    status, room = solved(par, inp, cont, discrete, work)
     if status != OK:
         return status
     pt, w = moving_point(par, inp), workspace_of(par, work)
@@ -268,10 +300,18 @@ def rates(
     capacity = capacity_of(w)
     torque, der[X_BEND] = bristle(b, capacity, slip, bend)
     heat = bristle_heat(b, torque, slip, bend, der[X_BEND])
-    fill_given(w, pt, capacity * abs(slip), torque, heat, out)
+    fill_given(w, pt, capacity * abs(slip), torque, heat, discrete, out)
     out[L.O_ENERGY] = out[L.O_OIL_ENERGY] = cont[X_ENERGY]
     out[L.O_STORED_HEAT], out[L.O_ADVISED] = 0.0, 0.0
-    der[X_ENERGY] = heat
+    der[X_ENERGY], sign[Z_SHAPES] = heat, 1.0
+    if discrete[D_IN_TIME] == 1.0:
+        sliding = capacity * abs(slip)
+        left, lacks = sliding - w.outputs[L.O_THROUGHFLOW_HEAT], 1.0 - share_of(heat, sliding)
+        grows, stored = fill_rates(w, pt, cont, left, lacks, der)
+        out[L.O_STORED_HEAT] = stored - discrete[D_STORED]
+        out[L.O_OIL_HEAT] = heat - grows
+        out[L.O_OIL_ENERGY] = cont[X_ENERGY] - out[L.O_STORED_HEAT]
+        sign[Z_SHAPES] = shapes_sign(w, discrete)
     sign[Z_BRANCH] = room
     sign[Z_MIXED], sign[Z_BOUNDARY] = out[L.O_RATIO] - FILM_RATIO, out[L.O_RATIO] - 1.0
     sign[Z_HOT] = (L.HOT_LIMIT - out[L.O_PEAK]) / L.HOT_LIMIT
@@ -285,7 +325,8 @@ def finish(
     par: Array, own: Array, inp: Array, cont: Array, discrete: Array, work: Array, t: float
 ) -> int:
     """Keep the solution at a completed step; return 0 or the status of a failure."""
-    status, room = solved(par, inp, discrete, work)
+    discrete[D_NOW] = t
+    status, room = solved(par, inp, cont, discrete, work)
     if status != OK:
         return status
     w = workspace_of(par, work)
@@ -344,11 +385,19 @@ def update(
     """Fill what is discrete, branch, regime, status; return 0 or the status of a failure."""
     if not math.isfinite(t):
         return BAD_INPUT
-    status, room = solved(par, inp, discrete, work)
+    pt, w = moving_point(par, inp), workspace_of(par, work)
+    in_time, room = discrete[D_IN_TIME] == 1.0, 1.0
+    if is_bad(inp):
+        return BAD_INPUT
+    if in_time:
+        status = update_in_time(par, inp, cont, discrete, work, t)
+    else:
+        status, room = solved(par, inp, cont, discrete, work)
     if status != OK:
         return status
-    pt, w = moving_point(par, inp), workspace_of(par, work)
-    if map_sign(par, pt, discrete, work) <= 0.0:  # from the map to the field, or back
+    if in_time:
+        pass
+    elif map_sign(par, pt, discrete, work) <= 0.0:  # from the map to the field, or back
         discrete[D_ON_MAP] = 1.0 - discrete[D_ON_MAP]
         if discrete[D_ON_MAP] == 1.0:
             memory = discrete[K_FIELDS : K_FIELDS + L.S_MAP_RATIO + 1]
@@ -371,8 +420,9 @@ def update(
     capacity = capacity_of(w)
     torque, rate = bristle(b, capacity, slip, bend)
     heat = bristle_heat(b, torque, slip, bend, rate)
-    fill_given(w, pt, capacity * abs(slip), torque, heat, out)
-    discrete[D_NEXT] = NEVER
+    fill_given(w, pt, capacity * abs(slip), torque, heat, discrete, out)
+    if not in_time:
+        discrete[D_NEXT] = NEVER
     judge(pt, out, is_distressed(w, out[L.O_MEAN] - pt.oil_temperature), OK, iout)
     if par[L.P_FIDELITY] == L.MAP and not map_covers(work[TABLE_AT:], pt):
         tell_outside_map(iout)
@@ -395,10 +445,11 @@ def slopes(
     SINGULAR where the branch has ended.
     """
     clear(found)
-    status, room = solved(par, inp, discrete, work)
+    status, room = solved(par, inp, cont, discrete, work)
     if status != OK:
         return status
-    if room <= 0.0:
+    in_time = discrete[D_IN_TIME] == 1.0
+    if room <= 0.0 and not in_time:
         return SINGULAR
     pt, w, change = moving_point(par, inp), workspace_of(par, work), change_of(par, inp, along)
     slip, bend, b = inp[L.I_SPEED], cont[X_BEND], bristle_of_washer(own, discrete)
@@ -406,12 +457,21 @@ def slopes(
         change = Point(change.load, 0.0, change.tilt, change.oil_temperature, change.far_face)
     slid, changes = w.outputs, found[:NOUT]
     moved = abs(change.load) + abs(change.speed) + abs(change.tilt)
-    if moved + abs(change.oil_temperature) + abs(change.far_face) > 0.0:
+    moved += abs(change.oil_temperature) + abs(change.far_face)
+    fluxes = work[MAP_WORK : MAP_WORK + 3]
+    clear(fluxes)
+    if in_time:
+        states = along[NINP:]
+        hold_for_slopes(w, states)
+        moved += abs(states[X_CARRIER]) + abs(states[X_WASHER]) + abs(states[X_GEAR])
+    if moved > 0.0:
         if discrete[D_ON_MAP] == 1.0:
             look = work[MAP_WORK : MAP_WORK + N_MAP_WORK]
             status = look_up_slopes(pt, change, slid, look, work[TABLE_AT:], changes)
         else:
             status = differentiate(w, pt, change, changes)
+        if in_time:
+            flux_changes(w, pt, change, fluxes)
         if status != OK:
             return status
     capacity, grows = capacity_of(w), changes[L.O_TORQUE] * way_of(pt.speed)
@@ -423,8 +483,8 @@ def slopes(
     if heat < sliding:
         faster = grows * abs(slip) + capacity * way_of(slip) * along[L.I_SPEED]
         shares = (heats - share * faster) / sliding
-    oil, warmer = pt.oil_temperature, along[L.I_OIL]
-    for k in range(len(RISES)):
+    oil, warmer, goes = pt.oil_temperature, along[L.I_OIL], changes[L.O_THROUGHFLOW_HEAT]
+    for k in range(0 if in_time else len(RISES)):
         at = RISES[k]
         changes[at] = warmer + share * (changes[at] - warmer) + shares * (slid[at] - oil)
     changes[L.O_THROUGHFLOW_HEAT] = (
@@ -443,5 +503,14 @@ def slopes(
         changes[L.O_STICK_MARGIN] = 0.0
     changes[L.O_TORQUE], changes[L.O_POWER], changes[L.O_OIL_HEAT] = torques, heats, heats
     changes[L.O_ENERGY] = changes[L.O_OIL_ENERGY] = along[NINP + X_ENERGY]
+    if in_time:
+        kept = sliding - slid[L.O_THROUGHFLOW_HEAT], 1.0 - share
+        of_kept = grows * abs(slip) + capacity * way_of(slip) * along[L.I_SPEED] - goes, -shares
+        fill_flux_changes(w, kept, of_kept, fluxes)
+        rates = found[NOUT:]
+        stores, stored = fill_rate_changes(w, change, along[NINP:], fluxes, rates)
+        changes[L.O_OIL_HEAT] -= stores
+        changes[L.O_STORED_HEAT] = stored
+        changes[L.O_OIL_ENERGY] -= stored
     found[np.uintp(NOUT + X_BEND)], found[np.uintp(NOUT + X_ENERGY)] = turns, heats
     return OK if are_finite(found) and math.isfinite(rate) else NOT_FINITE

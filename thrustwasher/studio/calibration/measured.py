@@ -148,10 +148,10 @@ def with_speed(columns: Mapping[str, Any], radius: float, where: str = "data") -
 def _agree(speed: Any, sliding: Any, radius: float) -> bool:
     """Tell if two columns say the same of how fast a radius [m] slides."""
     try:
-        both = np.broadcast_arrays(np.asarray(speed, float) * radius, np.asarray(sliding, float))
+        v, w = np.broadcast_arrays(np.asarray(speed, float) * radius, np.asarray(sliding, float))
     except (TypeError, ValueError):
         return False
-    return bool(np.allclose(*both, rtol=1e-6, atol=1e-9, equal_nan=True))
+    return bool(np.allclose(v, w, rtol=1e-6, atol=1e-9, equal_nan=True))
 
 
 def measured(

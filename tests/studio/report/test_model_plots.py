@@ -383,6 +383,8 @@ def test_its_picture_is_a_figure_that_a_notebook_shows(name, made):
     figure = made(name).plot()
     assert isinstance(figure, Figure) and figure.get_axes()
     assert figure._repr_png_().startswith(b"\x89PNG")
+    part = Figure(figsize=(14.0, 15.0)).subfigures()
+    assert made(name).plot(fig=part) is part and len(part.axes) == len(figure.axes)
 
 
 @each
@@ -478,6 +480,14 @@ def test_a_sweep_of_words_and_numbers_is_drawn():
     texts = [text.get_text() for text in figure.legends[0].get_texts()]
     assert len(texts) == 4 and "speed 100 rad/s, gear far face oil" in texts
     assert figure.get_axes()[0].get_xlabel() == "load [N]"
+
+
+def test_the_text_of_a_part_and_of_a_scene_is_short():
+    part, scene = tw.load_part("examples/ev-reducer.toml"), load_scene("planetary")
+    assert repr(part).startswith("PartFile: EvReducer, a train, handbook")
+    assert "rotor.bearing_1_diameter = 60 mm" in repr(part) and len(repr(part)) < 1500
+    assert "step 0.001 s" in repr(scene) and "clutch (field)" in repr(scene)
+    assert len(repr(scene)) < 1500
 
 
 def test_columns_are_told_by_their_ranges():

@@ -24,7 +24,7 @@ N_RESIDUALS = 2  # panels of residuals per output: over the inputs that vary mos
 def calibration_figure(found: Any, *, residuals: bool = True) -> Figure:
     """Return for each measured output points and fit, and residuals over inputs that vary most.
 
-    Beside a torque stands its coefficient of friction. Units are those of the file.
+    Next to a torque stands its coefficient of friction. Units are those of the file.
     """
     shown = [_in_own_units(series, found) for series in found.shown()]
     drawn = [_inputs(series) for series in shown]

@@ -164,9 +164,9 @@ class Tabled(Shown):
         EnvironmentProblem : there is no pandas; the message says how to get it
         """
         columns, words = self._columns(), self._words()
-        frame = pandas_for(self).DataFrame(dict(columns))
-        if self._index:
-            frame = frame.set_index(self._index)
+        pandas, own = pandas_for(self), dict(columns)
+        index = pandas.Index(own.pop(self._index), name=self._index) if self._index else None
+        frame = pandas.DataFrame(own, index=index, copy=True)  # one block of each type
         frame.attrs["units"] = {name: words[name].unit for name in columns if name in words}
         return frame
 

@@ -40,6 +40,7 @@ CALLED = {
         "thrustwasher.studio.commands._reducer_report:write",
         "--report of a gear train",
     ),
+    "shown_progress": ("thrustwasher.studio.jobs.progress:shown", "progress = True"),
     "runs_of_study": ("thrustwasher.studio.scatter.propagate:runs_of_study", STUDY),
     "propagate": ("thrustwasher.studio.scatter.propagate:propagate", STUDY),
     "kept_runs": ("thrustwasher.studio.commands.scatter:kept_runs", STUDY),

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from html import escape
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, overload
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeVar, overload
 
 from .errors import EnvironmentProblem
 from .plugins import called
@@ -102,6 +102,7 @@ class Tabled(Shown):
     """Base of results with columns."""
 
     __slots__ = ()
+    _index: ClassVar[str] = ""  # the column that a DataFrame has as its index
 
     def _columns(self) -> Mapping[str, Any]:
         """Return the columns by name."""
@@ -156,12 +157,16 @@ class Tabled(Shown):
     def to_pandas(self) -> Any:
         """Return the columns as a ``pandas.DataFrame``; units [SI] are in ``attrs["units"]``.
 
+        Of results over time ``time`` is its index.
+
         Raises
         ------
         EnvironmentProblem : there is no pandas; the message says how to get it
         """
         columns, words = self._columns(), self._words()
-        frame = pandas_for(self).DataFrame(dict(columns))
+        pandas, own = pandas_for(self), dict(columns)
+        index = pandas.Index(own.pop(self._index), name=self._index) if self._index else None
+        frame = pandas.DataFrame(own, index=index, copy=True)  # one block of each type
         frame.attrs["units"] = {name: words[name].unit for name in columns if name in words}
         return frame
 

@@ -70,6 +70,56 @@ def test_a_recording_is_an_mdf_in_memory():
     assert found.params.friction_scale == pytest.approx(0.9, rel=1e-4)
 
 
+def test_what_was_left_out_of_an_mdf_in_memory_is_said():
+    mdf = package("asammdf")
+    time, columns = recorded()
+    file, late = mdf.MDF(version="4.10"), time[4:]
+    for name, unit in {"load": "N", "speed": "rad/s", "friction_torque": "Nm"}.items():
+        own, x = (late, columns[name][4:]) if name == "load" else (time, columns[name])
+        file.append([mdf.Signal(x, own, unit, name)])
+    found = calibrate_traces("clutch", {"Monday": file}, fit=["friction_scale"])
+    (said,) = (note for note in found.notes if "Monday" in note)
+    assert said == "Monday: read with 4 rows left out: load is recorded from 0.02 to 0.4 s."
+
+
+def test_points_are_an_mdf_in_memory_too():
+    mdf = package("asammdf")
+    torque = run_sweep("clutch", points=SI, workers=1)["friction_torque"]
+    file = mdf.MDF(version="4.10")
+    columns = {**POINTS, "friction_torque": torque}
+    file.append([mdf.Signal(np.array(x), np.arange(3.0), UNITS[n], n) for n, x in columns.items()])
+    np.testing.assert_allclose(
+        run_sweep("clutch", points=file, workers=1)["friction_torque"], torque, rtol=1e-12
+    )
+    found = calibrate("clutch", file, fit=["friction_scale"])
+    assert found.params.friction_scale == pytest.approx(1.0, rel=1e-9)
+
+
+def test_an_engagement_as_a_frame_is_a_recording(tmp_path):
+    """Its time is the index; it has speed and the sliding speed that is the same."""
+    pandas = package("pandas")
+    package("pyarrow")
+    time, columns = recorded()
+    way = {name: columns[name] for name in ("load", "speed")}
+    data = engage_clutch(ClutchParams(friction_scale=0.9), time=time, **way).to_pandas()
+    assert data.index.name == "time" and data.attrs["units"]["time"] == "s"
+    data.to_parquet(tmp_path / "rig.parquet")
+    assert pandas.read_parquet(tmp_path / "rig.parquet").attrs == data.attrs
+    for given in (data, tmp_path / "rig.parquet"):
+        found = calibrate_traces("clutch", given, fit=["friction_scale"])
+        assert found.params.friction_scale == pytest.approx(0.9, rel=1e-4)
+
+
+def test_remarks_on_a_file_of_points_are_notes(tmp_path):
+    file = tmp_path / "rig.csv"
+    rows = "\n".join(f"{v};{0.12 - 0.0002 * v:.4f};3000,5" for v in range(5, 60, 4)).replace(
+        ".", ","
+    )
+    file.write_text(f"speed;friction;load\n{rows}\n")
+    found = calibrate(PACK, file, fit=["constant_friction"])
+    assert f"{file}: read with decimal commas." in [r.text for r in found.remarks]
+
+
 def test_pandas_finds_the_units_in_a_parquet_file_and_it_is_read_again(tmp_path):
     pandas = package("pandas")
     package("pyarrow")

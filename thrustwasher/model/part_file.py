@@ -34,6 +34,7 @@ from typing import Any, TypeVar
 from ..errors import ParameterError, Suggesting, within
 from ..face_load import LIMITED, over_limits
 from ..logs import warn
+from ..shown import text_of
 from ..units import exact_quantity, format_quantity
 from .levels import level_named
 from .oil import Oil, oil_doubts, refuse_two_ways, sheet_oil
@@ -66,6 +67,7 @@ from .unread import unread, why_unread
 
 TEXTS = ("model", "name", "description", "fidelity", "notes")
 TABLES = ("parameters", "box", "limits", "scatter")
+MOST_GIVEN = 20  # parameters in the short text of a part
 LONGEST_NAME = 60  # characters, of a name that becomes that of files
 SUFFIX = ".toml"
 Box = dict[str, tuple[float, float]]
@@ -97,6 +99,19 @@ class PartFile:
     notes: str = ""
     names: Mapping[str, str] = field(default_factory=dict)
     """How names begin in the file, such as ``first.``, and in the model, ``mesh_1_``."""
+
+    def __repr__(self) -> str:
+        """Return model, name and what is given, in a few lines."""
+        units = {f.name: f.metadata["unit"] for f in fields(self.spec.params)}
+        given = [
+            f"{self.own_name(name)} = {text_of(value, units.get(name, '1'))}"
+            for name, value in self.parameters.items()
+        ]
+        if len(given) > MOST_GIVEN:
+            given = [*given[:MOST_GIVEN], f"and {len(given) - MOST_GIVEN} more"]
+        oil = f", {self.oil.name}" if self.oil else ""
+        head = f"PartFile: {self.name}, a {self.spec.key}, {self.fidelity}{oil}"
+        return "\n  ".join([head, *given])
 
     def flat_name(self, name: str) -> str:
         """Return the model's name for one of the file's, or a text that begins with it."""

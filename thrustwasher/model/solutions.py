@@ -121,8 +121,12 @@ class OverTime(Tabled):
 
     __slots__ = ()
     _model: ClassVar[str]
+    _index = "time"
     fidelity: str
     warnings: tuple[str, ...]
+
+    def _axes(self) -> tuple[str, ...]:
+        return ("time",)
 
     def _columns(self) -> dict[str, Any]:
         found = {name: getattr(self, name) for name in public_names(self)}

@@ -49,6 +49,7 @@ class SequenceResult(Tabled):
     hottest, and the shifts have no signals.
     """
 
+    _index = "time"
     scene: Scene
     time: NDArray[np.float64]
     signals: dict[str, NDArray[np.float64]]
@@ -106,6 +107,9 @@ class SequenceResult(Tabled):
             "messages": self.messages,
         }
         return plain_dict(found)
+
+    def _axes(self) -> tuple[str, ...]:
+        return ("time",)
 
     def _columns(self) -> dict[str, Any]:
         return self._whole()._columns()

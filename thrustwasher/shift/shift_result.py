@@ -49,6 +49,7 @@ class ShiftResult(Tabled):
     output is that at the time point, an input the one used in the step that ends there.
     """
 
+    _index = "time"
     scene: Scene
     step: float  # [s]
     master: str
@@ -162,6 +163,9 @@ class ShiftResult(Tabled):
             **({"scatter": self.scatter.to_dict()} if self.scatter else {}),
         }
         return plain_dict(found)
+
+    def _axes(self) -> tuple[str, ...]:
+        return ("time",)
 
     def _columns(self) -> dict[str, Any]:
         return {"time": self.time, **self.signals}

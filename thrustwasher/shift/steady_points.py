@@ -12,6 +12,7 @@ from ..fmu.running.direct_instance import DirectInstance
 from ..model.advice import of_whole_map
 from ..model.parameters import check_number
 from ..numerics.power_flow import power_flow
+from ..plugins import called
 from ..shown import Card, Tabled, Words, column_lines, plain_dict
 from ..units import format_quantity
 from .checks.steady_doubts import capacity, doubts_of_point
@@ -114,7 +115,7 @@ def efficiency_map(
     speed: Iterable[float],
     *,
     gear: str = "first",
-    progress: Callable[[int, int], None] | None = None,
+    progress: bool | Callable[[int, int], None] | None = None,
 ) -> EfficiencyMap:
     """Return efficiency and losses of a scene's gearbox at steady points.
 
@@ -124,7 +125,7 @@ def efficiency_map(
     torque : at the input [N m], -1e5 .. 1e5; against the speed the output drives (coasting)
     speed : of the input [rad/s], -5000 .. 5000
     gear : "first", the brake holds, or "second", the clutch holds
-    progress : called with points done and in all
+    progress : True: a bar of tqdm, or a line, on the terminal; or called with points done and all
 
     Raises
     ------
@@ -155,6 +156,7 @@ def efficiency_map(
     }
     held = {n: DirectInstance(p.spec, parameters=p.parameters()) for n, p in parts.items()}
     begun = False
+    show = called("shown_progress")(progress, f"{gear} gear")
     for w in speeds:
         parts["transmission"] = _gearbox(scene.parts["transmission"], gear, w)
         own = replace(scene, parts=parts)
@@ -180,8 +182,8 @@ def efficiency_map(
             found = dict.fromkeys(doubts_of_point(own, system, holding, most, reaction))
             doubts.append(tuple(found))
             rows[-1]["warnings"] = len(found)
-            if progress:
-                progress(len(rows), len(torques) * len(speeds))
+            if show:
+                show(len(rows), len(torques) * len(speeds))
     columns = {name: np.array([row[name] for row in rows], float) for name in COLUMNS}
     return EfficiencyMap(scene, gear, columns, tuple(doubts), tuple(flow))
 

@@ -123,7 +123,7 @@ def test_every_panel_of_a_fit_names_what_it_is_over():
     assert [axis.get_xlabel() for axis in axes] == ["slip speed [m/s]", "slip speed [m/s]"]
     columns["load"] = np.linspace(1e3, 5e3, 30)
     axes = calibration_figure(calibrate(ClutchParams(), **columns)).axes
-    assert axes[2].get_xlabel() == "load [N]" and axes[0].get_legend() is not None
+    assert axes[2].get_xlabel() == "load [kN]" and axes[0].get_legend() is not None
 
 
 def test_loads_are_told_apart_and_take_no_panel_of_their_own():
@@ -136,11 +136,35 @@ def test_loads_are_told_apart_and_take_no_panel_of_their_own():
     ]
     data = {"load": load, "speed": slip, "friction_torque": torque}
     found = calibrate("clutch", data, fit=["friction_scale"])
-    left, residuals = calibration_figure(found).axes
+    left, coefficient, residuals = calibration_figure(found).axes
     assert left.get_legend_handles_labels()[1] == ["1.5 kN", "3 kN"]
     curves = [line for line in left.lines if line.get_linestyle() == "-"]
     assert [len(line.get_xdata()) for line in curves] == [8, 8]
     assert "speed" in residuals.get_xlabel()
+    arm = ClutchParams().faces * ClutchParams().friction_radius
+    points = coefficient.containers[0].lines[0].get_ydata()
+    assert points == pytest.approx(np.array(torque[:8]) / (load[:8] * arm), rel=1e-12)
+    (alone,) = calibration_figure(found, residuals=False).axes
+    assert alone.get_ylabel() == "friction torque [N·m]"
+
+
+def test_a_fit_is_drawn_in_the_units_of_its_file(tmp_path):
+    slip, pack = np.geomspace(0.3, 20.0, 8), ClutchParams()
+    torque = [solve_clutch(pack, load=3e3, speed=w).friction_torque for w in slip]
+    speeds = {
+        "speed [rpm]": slip * 30.0 / np.pi,
+        "sliding_speed [mm/s]": slip * pack.friction_radius,
+    }
+    speeds["sliding_speed [mm/s]"] *= 1e3
+    for head, speed in speeds.items():
+        rows = [f"{w},{t / 1e3},3" for w, t in zip(speed, torque, strict=True)]
+        file = tmp_path / "test.csv"
+        file.write_text("\n".join([f"{head},friction_torque [kNm],load [kN]", *rows]))
+        left, *_ = calibration_figure(calibrate(pack, file, fit=["friction_scale"])).axes
+        assert left.get_xlabel() == head.replace("_", " ")
+        assert left.get_ylabel() == "friction torque [kNm]"
+        (x, y) = left.containers[0].lines[0].get_data()
+        assert x == pytest.approx(speed) and y == pytest.approx(np.array(torque) / 1e3)
 
 
 def test_branches_of_the_curve_differ_in_more_than_colour():
@@ -359,6 +383,8 @@ def test_its_picture_is_a_figure_that_a_notebook_shows(name, made):
     figure = made(name).plot()
     assert isinstance(figure, Figure) and figure.get_axes()
     assert figure._repr_png_().startswith(b"\x89PNG")
+    part = Figure(figsize=(14.0, 15.0)).subfigures()
+    assert made(name).plot(fig=part) is part and len(part.axes) == len(figure.axes)
 
 
 @each
@@ -369,10 +395,13 @@ def test_what_has_columns_gives_them_to_pandas(name, made):
         return
     needed.package("pandas")
     frame, columns = result.to_pandas(), result._columns()
+    units, index = frame.attrs["units"], frame.index.name
+    assert index == ("time" if "time" in columns else None)
+    frame = frame.reset_index() if index else frame
     assert list(frame) == list(columns) and len(frame) > 0
     for column, values in columns.items():
         assert frame[column].tolist() == pytest.approx(list(values), nan_ok=True)
-    assert set(frame.attrs["units"]) <= set(frame)
+    assert set(units) <= set(frame)
 
 
 def test_a_point_is_a_series_of_its_numbers(made):
@@ -451,6 +480,14 @@ def test_a_sweep_of_words_and_numbers_is_drawn():
     texts = [text.get_text() for text in figure.legends[0].get_texts()]
     assert len(texts) == 4 and "speed 100 rad/s, gear far face oil" in texts
     assert figure.get_axes()[0].get_xlabel() == "load [N]"
+
+
+def test_the_text_of_a_part_and_of_a_scene_is_short():
+    part, scene = tw.load_part("examples/ev-reducer.toml"), load_scene("planetary")
+    assert repr(part).startswith("PartFile: EvReducer, a train, handbook")
+    assert "rotor.bearing_1_diameter = 60 mm" in repr(part) and len(repr(part)) < 1500
+    assert "step 0.001 s" in repr(scene) and "clutch (field)" in repr(scene)
+    assert len(repr(scene)) < 1500
 
 
 def test_columns_are_told_by_their_ranges():

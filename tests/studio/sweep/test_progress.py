@@ -5,7 +5,8 @@ import sys
 
 import pytest
 
-from thrustwasher import ParameterError, run_sweep
+from thrustwasher import ParameterError, load_scene, run_sweep
+from thrustwasher.shift.steady_points import efficiency_map
 from thrustwasher.studio.jobs.progress import shown
 
 OVER = {"load": (1e3, 2e3, 3e3)}
@@ -63,3 +64,10 @@ def test_nothing_is_shown_unless_asked(off):
 def test_what_is_no_progress_is_named():
     with pytest.raises(ParameterError, match="progress = 3, allowed: True, False, or a function"):
         sweep(3)
+
+
+def test_a_map_of_efficiency_shows_its_points():
+    seen = []
+    for progress in (True, lambda *now: seen.append(now)):
+        efficiency_map(load_scene("msl"), [50.0, 100.0], [100.0], progress=progress)
+    assert seen == [(1, 2), (2, 2)]

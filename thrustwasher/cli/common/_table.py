@@ -8,7 +8,7 @@ from ._output import note
 
 if TYPE_CHECKING:
     from ...storage.tables.heads import Wanted
-    from ...storage.tables.table import Table
+    from ...storage.tables.table import Columns, Table
 
 SHOWN = 12  # names of columns that do not count
 COLUMN = (
@@ -32,7 +32,7 @@ def read_columns(
     needed: Sequence[Sequence[str]] = (),
     known: "Table | None" = None,
     wanted: "Wanted | None" = None,
-) -> dict[str, list[Any]]:
+) -> "Columns":
     """Return the columns, each a list of numbers in SI units.
 
     The head names the columns, with the unit of the numbers in brackets: ``speed [rpm]``, or in a
@@ -46,13 +46,14 @@ def read_columns(
     name line and column.
     """
     from ...storage.tables.known_columns import known_columns
-    from ...storage.tables.table import numbers
+    from ...storage.tables.table import Columns, numbers
 
     table = named_table(path, names, wanted) if known is None else known
     table = table.of_columns(units)
     needed = needed or [(name,) for name in units if name not in optional]
     found, passed = known_columns(table, units, needed, strict=strict)
-    columns: dict[str, list[Any]] = {}
+    columns = Columns()
+    columns.units = {name: column.unit for name, column in found.items() if column.unit}
     for name, column in found.items():
         columns[name] = numbers(column, table, units[name], name=name)
         if not strict and None in columns[name]:

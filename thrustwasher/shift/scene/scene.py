@@ -125,6 +125,13 @@ class Scene:
     table: Mapping[str, Any] = field(default_factory=dict, compare=False)
     """The tables of the file and its bases, merged."""
 
+    def __repr__(self) -> str:
+        """Return name, title, times and parts in a few lines."""
+        parts = ", ".join(f"{name} ({part.fidelity})" for name, part in self.parts.items())
+        times = f"{self.start_time:g} .. {self.stop_time:g} s, step {self.step:g} s"
+        oil = f"oil {format_quantity(self.oil_temperature, 'K')}"
+        return f"Scene: {self.name}, {self.title}\n  {times}, {oil}\n  {parts}"
+
     def command(self, time: float) -> float:
         """Return the shift command: a ramp between two values."""
         if time <= self.shift_start:

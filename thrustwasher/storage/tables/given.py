@@ -11,7 +11,7 @@ import numpy as np
 from ...errors import ParameterError
 from .known_columns import known_columns
 from .measuring_file import read_channels
-from .table import Column, Table, numbers, plain_unit, split_head
+from .table import Column, Columns, Table, numbers, plain_unit, split_head
 from .table_file import read_table
 
 TIME = "time"
@@ -24,8 +24,8 @@ def is_table(data: object) -> bool:
 
 def columns_given(
     data: Any, units: Mapping[str, str], may_lack: Sequence[str] | None = None
-) -> dict[str, list[float | None]]:
-    """Return the columns that count [SI] by their names; None where a cell is empty.
+) -> Columns:
+    """Return the columns that count [SI] by their names, lists; None where a cell is empty.
 
     Parameters
     ----------
@@ -48,7 +48,12 @@ def columns_given(
             table = _of_frame(data) if _is_frame(data) else read_table(data)
         table = table.of_columns(units, lacking)
     found = known_columns(table, units).found
-    return {name: numbers(c, table, units[name], name=name) for name, c in found.items()}
+    columns = Columns(
+        {name: numbers(c, table, units[name], name=name) for name, c in found.items()}
+    )
+    columns.units = {name: c.unit for name, c in found.items() if c.unit}
+    columns.remarks = list(table.remarks)
+    return columns
 
 
 def _is_frame(data: Any) -> bool:

@@ -3,6 +3,8 @@
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,6 +88,15 @@ class Table:
         ParameterError : channels of a measuring file have no common rows
         """
         return self
+
+
+class Columns(dict[str, Any]):
+    """Columns [SI] by name, and how they came."""
+
+    units: Mapping[str, str] = MappingProxyType({})
+    """As written, of columns that had one."""
+    remarks: Sequence[str] = ()
+    """What was not plain, if nobody was told."""
 
 
 def several_text(path: str, name: str, same: Collection[Column]) -> str:

@@ -75,6 +75,8 @@ class Calibration(Tabled):
     remarks: tuple[Remark, ...] = ()
     """Warnings of points that the fit cannot follow, the gravest first, none of a sound fit; notes
     on what else the points tell."""
+    written: Mapping[str, str] = field(default_factory=dict, repr=False)
+    """Units of columns as a file had them: its picture has them too."""
     _problem: FitProblem = field(repr=False)
     _best: Array = field(repr=False)
     _learned: Information = field(repr=False)

@@ -129,9 +129,11 @@ def with_speed(columns: Mapping[str, Any], radius: float, where: str = "data") -
     found = dict(columns)
     if SLIDING not in found:
         return found
-    if "speed" in found:
-        raise ParameterError(f"{where}: has speed and {SLIDING}, allowed: one of both")
     sliding = found.pop(SLIDING)
+    if "speed" in found:
+        if _agree(found["speed"], sliding, radius):
+            return found
+        raise ParameterError(f"{where}: has speed and {SLIDING}, allowed: one of both")
     try:
         found["speed"] = (
             [None if x is None else float(x) / radius for x in sliding]
@@ -141,6 +143,15 @@ def with_speed(columns: Mapping[str, Any], radius: float, where: str = "data") -
     except (TypeError, ValueError):
         raise ParameterError(f"{where}: {SLIDING} has no number, numbers [m/s] required") from None
     return found
+
+
+def _agree(speed: Any, sliding: Any, radius: float) -> bool:
+    """Tell if two columns say the same of how fast a radius [m] slides."""
+    try:
+        v, w = np.broadcast_arrays(np.asarray(speed, float) * radius, np.asarray(sliding, float))
+    except (TypeError, ValueError):
+        return False
+    return bool(np.allclose(v, w, rtol=1e-6, atol=1e-9, equal_nan=True))
 
 
 def measured(

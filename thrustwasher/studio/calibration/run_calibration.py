@@ -1,14 +1,18 @@
 """Fit parameters of a model, or a law of its own, to measured outputs: ``calibrate``."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from os import PathLike
 from typing import Any
 
 from ...errors import ParameterError
 from ...model.registry import find_model
 from ...storage.tables.given import columns_given, is_table
+from ...storage.tables.table import Columns
+from ..evaluators.evaluator import texts
 from ..evaluators.make import part_of
 from .engagement.trace_fit import TRACES
-from .estimates import Calibration
+from .estimates import Calibration, remarks
 from .fit import Asked
 from .friction.friction_fit import fit_law
 from .measured import Measured, column_units, decided, measured
@@ -86,12 +90,15 @@ def calibrate(
     0.06
     """
     start, at = part_of(part), at or {}
+    name = str(data) if isinstance(data, str | PathLike) else type(data).__name__
     if is_table(data):
         data = columns_given(data, column_units(start.spec))
     elif not isinstance(data, Mapping | None):
         raise ParameterError(
             f"data: {type(data).__name__}, allowed: columns by name, a path, a DataFrame, an MDF"
         )
+    written = data.units if isinstance(data, Columns) else {}
+    said = data.remarks if isinstance(data, Columns) else ()
     data = {start.flat_name(name): column for name, column in {**(data or {}), **columns}.items()}
     fit = (fit,) if isinstance(fit, str) else fit
     fit = fit and [start.flat_name(name) for name in fit]
@@ -102,4 +109,9 @@ def calibrate(
     points = measured(start, data, at, errors, fidelity or start.fidelity)
     fit_to = LAWS.get(start.spec.key, fit_points) if is_law else fit_points
     asked = Asked(fit, {*data}, {*at}, bounds, confidence, profile)
-    return fit_to(decided(points, fit or ()), asked)
+    found = fit_to(decided(points, fit or ()), asked)
+    notes = [
+        *texts(found.remarks, "note"),
+        *([f"{name}: read with {', '.join(said)}."] if said else []),
+    ]
+    return replace(found, remarks=remarks(texts(found.remarks, "warning"), notes), written=written)

@@ -111,7 +111,7 @@ def run(arguments: argparse.Namespace) -> int:
         columns = _table.read_columns(
             data, LAW_UNITS, optional=LAW_OPTIONAL, needed=LAW_NEEDED, known=tables[0]
         )
-        options |= columns
+        options["data"] = columns
 
     began = time.perf_counter()
     found = traces.fit(part, columns, **options) if traces else calibrate(part, **options)

@@ -12,6 +12,7 @@ from scipy.stats import binomtest, qmc
 from ...errors import ParameterError, SolveError
 from ...shown import Card, Line, Tabled
 from ..evaluators.evaluator import Remark, texts
+from ..jobs.progress import shown
 from .data_set_file import KINDS, DataSet
 
 Array = NDArray[np.float64]
@@ -100,7 +101,7 @@ def compare(
     *,
     fit: int = 0,
     draws: int = DRAWS,
-    progress: Callable[[int, int], None] | None = None,
+    progress: bool | Callable[[int, int], None] | None = None,
 ) -> Comparison:
     """Return computed against measured values.
 
@@ -110,7 +111,7 @@ def compare(
     fit : number of parameters, the first of the data set's own list, that are fitted to every
         second point in the order of ``vary``; 0: blind, nothing is fitted
     draws : of the scatter, for the band
-    progress : called with draws done and in all
+    progress : True: a bar of tqdm, or a line, on the terminal; or called with draws done and all
 
     Raises
     ------
@@ -140,7 +141,8 @@ def compare(
             f"measured data set {data_set.name}: point {row + 1} has no solution here"
             + (f": {why}" if why else "")
         )
-    low, high, lost = _band(data_set, fitted, computed, draws, progress)
+    show = shown(progress, data_set.texts["title"])
+    low, high, lost = _band(data_set, fitted, computed, draws, show)
     said = tuple(Remark("warning", t, data_set.name) for t in (data_set.not_measured, lost) if t)
     return Comparison(data_set, computed, low, high, judged, fitted, said)
 

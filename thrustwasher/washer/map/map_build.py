@@ -15,6 +15,7 @@ import numpy as np
 from ...errors import ParameterError, SolveError
 from ...numerics.chebyshev import lines_of
 from ...numerics.jit import Array, kernel_digest
+from ...plugins import called
 from ...processes import Run, run_here, runner
 from ...storage.digests import params_digest
 from ...storage.journal import Journal
@@ -48,7 +49,7 @@ def make_map(
     fidelity: str | None = None,
     workers: int | None = None,
     points: int = POINTS,
-    progress: Callable[[str], Progress] | None = None,
+    progress: bool | Callable[[str], Progress] | None = None,
 ) -> dict[str, Any]:
     """Build a map, check it and write it; return its metadata.
 
@@ -62,7 +63,8 @@ def make_map(
         changes, and if that misses the tolerance "fine"
     workers : processes; None: one per core
     points : held-out points of the check
-    progress : called with a label, returns ``show(done, total)``
+    progress : True: a bar of tqdm, or a line, on the terminal; or called with a label, returns
+        ``show(done, total)``
 
     Raises
     ------
@@ -73,7 +75,7 @@ def make_map(
     if fidelity not in (None, *FIDELITIES):
         raise ParameterError(f"fidelity = {fidelity!r}, allowed: {' or '.join(FIDELITIES)}")
     plan = plan_map(params, box, tolerance)
-    show = progress or (lambda _label: lambda _done, _total: None)
+    show = progress if callable(progress) else partial(_shown, progress)
     must = fidelity is None
     made = partial(_made, plan, out, workers or os.cpu_count() or 1, points, show, must=must)
     usual = "field" if tolerance >= FIELD_FROM else "fine"
@@ -90,6 +92,12 @@ def make_map(
         return made("fine", raised=False, lines=f"{why}: all lines on the finer mesh,")
     except _MissedError as problem:
         raise SolveError(_too_coarse(problem.metadata)) from None
+
+
+def _shown(progress: bool | None, label: str) -> Progress:
+    """Return what shows a step of the build; nothing is shown unless that is asked for."""
+    shown: Progress | None = called("shown_progress")(progress, label) if progress else None
+    return shown or (lambda _done, _total: None)
 
 
 class _MissedError(Exception):

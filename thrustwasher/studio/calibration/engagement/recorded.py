@@ -43,9 +43,10 @@ def read_recordings(recordings: Any, rig: TracedPack) -> tuple[list[Recording], 
 
             if isinstance(given, str | PathLike):
                 of_file, _, remarks = read_trace(given, COLUMNS, MEASURED, NEEDED)
-                said += [f"{name}: read with {', '.join(remarks)}."] if remarks else []
             else:
-                of_file = {name: columns_given(given, COLUMNS, MEASURED)}
+                own_columns = columns_given(given, COLUMNS, MEASURED)
+                of_file, remarks = {name: own_columns}, list(own_columns.remarks)
+            said += [f"{name}: read with {', '.join(remarks)}."] if remarks else []
         for own, columns in of_file.items():
             slip = with_speed(columns, rig.friction_radius, own)
             found.append(_with_load(recording(own, slip, COLUMNS, MEASURED), rig))

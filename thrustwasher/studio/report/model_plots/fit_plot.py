@@ -8,26 +8,41 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ....units import display_unit, format_quantity
-from ..palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY
+from ....model.registry import find_model
+from ....units import display_unit, pretty_unit, unit_size
+from ...calibration.measured import SLIDING
+from ..palette import BLACK, BLUE, CELSIUS, GREEN, GREY, ORANGE, PURPLE, RED, SKY
 from ..style import heading, label, new_figure, styled
 
 COLOURS = (BLUE, RED, GREEN, PURPLE, ORANGE)  # of as many loads, told apart
 SAME = 0.02  # of the largest value: nearer ones are one level of an input
+TORQUE = "friction_torque"
 N_RESIDUALS = 2  # panels of residuals per output: over the inputs that vary most
 
 
 @styled
-def calibration_figure(found: Any) -> Figure:
-    """Return for each measured output points and fit, and residuals over inputs that vary most."""
-    shown = [_readable(series) for series in found.shown()]
+def calibration_figure(found: Any, *, residuals: bool = True) -> Figure:
+    """Return for each measured output points and fit, and residuals over inputs that vary most.
+
+    Next to a torque stands its coefficient of friction. Units are those of the file.
+    """
+    shown = [_in_own_units(series, found) for series in found.shown()]
     drawn = [_inputs(series) for series in shown]
-    wide = 1 + max(min(len(over), N_RESIDUALS) for over, _ in drawn)
-    figure, panels = new_figure(11.0, 1.2 + 3.0 * len(shown), len(shown), wide, head=2)
+    beside = [_coefficient(series, found) if residuals else None for series in found.shown()]
+    over_inputs = N_RESIDUALS if not any(beside) else 1
+    counts = [min(len(over), over_inputs if residuals else 0) for over, _ in drawn]
+    wide = max(1 + bool(f) + n for f, n in zip(beside, counts, strict=True))
+    shape: Any = (11.0 if wide > 1 else 6.4, 1.2 + 3.0 * len(shown), len(shown), wide)
+    figure, panels = new_figure(*shape, head=2, choose="residuals = False: of one output")
     rows = [panels[i : i + wide] for i in range(0, len(panels), wide)]
-    for series, (inputs, apart), (left, *others) in zip(shown, drawn, rows, strict=True):
+    for series, (inputs, apart), friction, n, (left, *others) in zip(
+        shown, drawn, beside, counts, rows, strict=True
+    ):
         groups = _groups(series, apart)
         _draw_fit(left, found, series, *inputs[0], groups)
+        if friction is not None:
+            _draw_fit(others.pop(0), found, friction, *inputs[0], groups)
+        inputs = inputs[:n]
         for axis, (over, (unit, at)) in zip(others, inputs, strict=False):
             left_over = series.measured - series.computed
             for colour, (_, own) in zip(COLOURS, groups, strict=False):
@@ -68,19 +83,66 @@ def _groups(series: Any, apart: Inputs) -> list[tuple[str, NDArray[np.bool_]]]:
     _, (unit, at) = apart[0]
     levels = _levels(at)
     place = np.searchsorted(levels, at, "right") - 1
-    words = [
-        format_quantity(float(at[place == k].mean()), unit, digits=3) for k in range(len(levels))
-    ]
+    words = [f"{_short(float(at[place == k].mean()))} {unit}".strip() for k in range(len(levels))]
     return [(text, place == k) for k, text in enumerate(words)]
 
 
-def _readable(series: Any) -> Any:
-    """Return an output in the unit that a person reads."""
-    unit, factor = display_unit(float(np.abs(series.measured).max()), series.unit)
-    columns = ("measured", "error", "computed", "half")
-    values = {name: getattr(series, name) for name in columns}
-    shown = {name: None if x is None else x / factor for name, x in values.items()}
-    return series._replace(unit=unit, **shown)
+def _short(value: float) -> str:
+    """Return three digits, without an exponent: 1500."""
+    return repr(float(f"{value:.3g}")).removesuffix(".0")
+
+
+def _in_own_units(series: Any, found: Any) -> Any:
+    """Return an output and its inputs in the units of the file, else in those that a person reads.
+
+    A sliding speed stands for a speed where the file has it, and a speed for the law's slip speed.
+    """
+    face = find_model(found.points.plan.spec.key).face(found.params)
+    inputs = {}
+    for name, (unit, values) in series.inputs.items():
+        if name == "speed" and SLIDING in found.written and face:
+            name, unit, values = SLIDING, "m/s", values * face.radius
+        elif name == "slip speed" and "speed" in found.written and face:
+            name, unit, values = "speed", "rad/s", values / face.radius
+        shown, size, zero = _own_unit(found, name, unit, values)
+        inputs[name] = shown, (values - zero) / size
+    unit, size, zero = _own_unit(found, series.name, series.unit, series.measured)
+    values = {
+        "measured": (series.measured - zero) / size,
+        "error": None if series.error is None else series.error / size,
+        "computed": (series.computed - zero) / size,
+        "half": series.half / size,
+    }
+    return series._replace(unit=unit, inputs=inputs, **values)
+
+
+def _own_unit(
+    found: Any, name: str, unit: str, values: NDArray[np.float64]
+) -> tuple[str, float, float]:
+    """Return unit, size and zero [SI] in which a column is drawn."""
+    written = found.written.get(name, "")
+    if written and (pair := unit_size(written, unit)):
+        return pretty_unit(written), *pair
+    if unit == "K" and not np.any(values < CELSIUS - 100.0):
+        return "°C", 1.0, CELSIUS
+    return *display_unit(float(np.abs(values).max()), unit), 0.0
+
+
+def _coefficient(series: Any, found: Any) -> Any:
+    """Return a torque's points as coefficients of friction; None where they have no load."""
+    face = find_model(found.points.plan.spec.key).face(found.params)
+    load = series.inputs.get("load", ("", None))[1]
+    if series.name != TORQUE or face is None or load is None or np.any(load <= 0.0):
+        return None
+    per = 1.0 / (load * face.count * face.radius)
+    return series._replace(
+        name="friction coefficient",
+        unit="",
+        measured=series.measured * per,
+        error=None if series.error is None else series.error * per,
+        computed=series.computed * per,
+        half=series.half * per,
+    )
 
 
 def _draw_fit(
@@ -95,7 +157,12 @@ def _draw_fit(
     unit, at = values
     if len(groups) > 1:
         _draw_groups(axis, series, at, groups)
-        label(axis, series.name.replace("_", " "), _words(over, unit), _words("", series.unit))
+        label(
+            axis,
+            series.name.replace("_", " "),
+            _words(over, unit),
+            _words(series.name, series.unit),
+        )
         axis.legend(edgecolor=GREY)
         return
     bars: Any = {"ls": "", "elinewidth": 0.8, "color": BLUE, "marker": "o", "ms": 4.5, "zorder": 3}
@@ -107,7 +174,7 @@ def _draw_fit(
     axis.errorbar(at[known], computed, half, label=name, ls="", alpha=0.9, **band)
     if not known.all():
         axis.plot(at[~known], series.computed[~known], "x", color=RED, label="fit, not determined")
-    label(axis, series.name.replace("_", " "), _words(over, unit), _words("", series.unit))
+    label(axis, series.name.replace("_", " "), _words(over, unit), _words(series.name, series.unit))
     axis.legend(edgecolor=GREY)
 
 
@@ -131,7 +198,7 @@ def _draw_groups(
 
 
 def _words(name: str, unit: str) -> str:
-    return f"{name.replace('_', ' ')} [{unit}]".strip()
+    return f"{name.replace('_', ' ')} [{unit or 1}]".strip()
 
 
 def fit_heading(found: Any) -> str:

@@ -1,6 +1,7 @@
 """Points of a sweep that are no grid: outputs over what was varied, never joined by lines."""
 
 from collections.abc import Sequence
+from copy import copy
 from textwrap import fill
 from typing import Any
 
@@ -17,6 +18,8 @@ ROWS, COLUMNS = 3, 6  # unless they are named
 SOUND, FAILED = (ORANGE, PURPLE, GREEN, SKY), (RED, BLACK, GREY)  # of statuses; OK is blue
 LETTERS = 13.0  # of a label in an inch
 DECADES, LOWER = 100.0, 0.2  # ends differ more, and the median lies below: a logarithmic axis
+LARGEST = 4.5  # a point's width
+WIDTH, GOLDEN = 0.5, 0.6180339887  # points of a word, next to each other
 EDGE = 0.03  # of a panel's height: where points without a value stand
 MOST_SHARP = 2000  # points: more are a bitmap in a file of lines
 
@@ -41,6 +44,8 @@ def matrix_figure(
     for i, axis in enumerate(panels):
         row, column = divmod(i, columns)
         (x, _), (y, up) = scaled(table, shown[column]), scaled(table, outputs[row])
+        if not _is_number(table[shown[column]]):
+            x = x + WIDTH * ((GOLDEN * np.arange(len(x))) % 1.0 - 0.5)  # side by side
         _draw_points(axis, x, y, marks, look)
         _scale(axis, table, shown[column], x, columns)
         if _is_wide(y):
@@ -49,7 +54,10 @@ def matrix_figure(
             axis.set_xlabel(across[column])
         if column == 0:
             axis.set_ylabel(fill(up, int(LETTERS * high)))
-    handles, names = panels[0].get_legend_handles_labels()
+    drawn, names = panels[0].get_legend_handles_labels()
+    handles = [copy(line) for line in drawn]
+    for handle in handles:
+        handle.set(markersize=LARGEST, alpha=1.0)
     legend_below(figure, handles, names, columns=4)
     left = f", over {columns} of {len(over)} that vary" if columns < len(over) else ""
     heading(figure, f"{table.model or 'runs'}: {len(table)} points, {table.fidelity}{left}")
@@ -71,7 +79,8 @@ def _marks(table: Any) -> dict[str, tuple[str, Any]]:
 def _draw_points(
     axis: Axes, x: Any, y: Any, marks: dict[str, tuple[str, Any]], look: dict[str, Any]
 ) -> None:
-    size = float(np.clip(90.0 / np.sqrt(len(x)), 1.5, 4.5))
+    size = float(np.clip(90.0 / np.sqrt(len(x)), 1.5, LARGEST))
+    crossed = {"marker": "x", "mew": min(1.0, 0.3 * size), "ms": 1.2 * size}
     common: Any = {
         "ls": "",
         "ms": size,
@@ -81,19 +90,19 @@ def _draw_points(
     }
     for name, (colour, own) in marks.items():
         there, words = own & np.isfinite(y), f"{name.replace('_', ' ')}: {np.sum(own)}"
-        cross: Any = {"marker": "x", "mew": 1.0, "ms": 4.0} if not there.any() else {"marker": "o"}
+        cross = {"marker": "o"} if there.any() else crossed
         more = {**common, "color": colour, "label": words, **cross, **look}
         axis.plot(x[there], y[there], **more)
         lost = own & ~there
         if lost.any():
-            more |= {"marker": "x", "mew": 1.0, "ms": 4.0, "label": None, "clip_on": False}
+            more |= {**crossed, "label": None, "clip_on": False}
             place = np.full(np.sum(lost), EDGE)
             axis.plot(x[lost], place, transform=axis.get_xaxis_transform(), **more)
 
 
 def _scale(axis: Axes, table: Any, name: str, x: Any, columns: int) -> None:
     """Set scale and ticks of what was varied; words stand at whole numbers."""
-    if table[name].dtype.kind not in "fi":
+    if not _is_number(table[name]):
         words = list(dict.fromkeys(table[name].tolist()))
         axis.set_xticks(range(len(words)), [str(word) for word in words])
         axis.set_xlim(-0.5, len(words) - 0.5)
@@ -101,6 +110,10 @@ def _scale(axis: Axes, table: Any, name: str, x: Any, columns: int) -> None:
         axis.set_xscale("log")
     else:
         axis.locator_params(axis="x", nbins=3 if columns > 3 else 5)
+
+
+def _is_number(values: Any) -> bool:
+    return bool(values.dtype.kind in "fi")
 
 
 def _is_wide(values: Any) -> bool:
@@ -117,7 +130,7 @@ def scaled(table: Any, name: str) -> tuple[Any, str]:
     Words are numbered in the order in which they first come.
     """
     values, unit, words = table[name], table.units.get(name, "1"), name.replace("_", " ")
-    if values.dtype.kind not in "fi":
+    if not _is_number(values):
         places = {word: i for i, word in enumerate(dict.fromkeys(values.tolist()))}
         return np.array([places[word] for word in values.tolist()], float), words
     values = values.astype(float)

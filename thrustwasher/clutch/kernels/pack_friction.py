@@ -18,6 +18,9 @@ from . import layout as L
 FILM, MIXED, BOUNDARY, ADHESIVE = range(1, 5)  # regimes
 SERIES_LIMIT = 0.5  # below it the ploughing term is summed, above it the closed form is safe
 N_TERMS = 40  # 0.25^40 < 1e-24
+# F_5/2 and its slope, F_2, F_1, mean gap over roughness, share of the area where the mean planes do
+# not overlap, the density of heights there, share of oil that is sheared and its log slope.
+Faces = tuple[float, float, float, float, float, float, float, float, float]
 SETTLED = 1.0 - 1e-11  # share of the load from which on asperities carry it all
 
 
@@ -135,14 +138,33 @@ def settled_slope(par: Array, load: float, guess: float) -> tuple[float, float, 
 
 
 @kernel
+def rough_faces(u: float) -> Faces:
+    """Return what two rough faces are at the film ratio ``u``, the same for all rings of a pack."""
+    height, rise = contact_integral(u)
+    second, first = area_integrals(u)
+    gap, cdf = mean_gap(u, 1.0)
+    sheared, steep = sheared_share(cdf, u)
+    density = INV_SQRT2PI * math.exp(-0.5 * u * u)
+    return height, rise, second, first, gap, cdf, density, sheared, steep
+
+
+@kernel
 def load_share(par: Array, load: float, u: float) -> tuple[float, float, float, float, float]:
-    """Return the share L [-] of the load that asperities carry at the film ratio ``u``; slopes.
+    """Return ``share_of_load`` at the film ratio ``u``."""
+    height, slope = contact_integral(u)
+    return share_of_load(par, load, height, slope)
+
+
+@kernel
+def share_of_load(
+    par: Array, load: float, height: float, slope: float
+) -> tuple[float, float, float, float, float]:
+    """Return the share L [-] of the load that asperities carry; slopes. ``height``: F_5/2.
 
     (L, dL/du, dL/dload, their pressure over the whole face [Pa], its slope over u). They never
     carry more than the load. A pack pressed with less than OPEN_PRESSURE counts as pressed with
     more, without load as with one atmosphere, the most that suction presses its asperities with.
     """
-    height, slope = contact_integral(u)
     scale = par[L.D_PRESSURE] * par[L.P_LAND_SHARE]
     pressure, rise = scale * height, scale * slope
     whole = load / par[L.D_AREA]
@@ -174,7 +196,7 @@ def cooling_slope(par: Array, share: float) -> tuple[float, float]:
 
 @kernel
 def pack_torques(
-    par: Array, load: float, slip: float, drum: float, u: float, temperature: float
+    par: Array, load: float, slip: float, drum: float, faces: Faces, temperature: float
 ) -> tuple[
     tuple[float, float, float, float, float],
     tuple[float, float, float, float, float, float],
@@ -190,7 +212,7 @@ def pack_torques(
     for the load that asperities do not carry. All of it counts where the law is that of the
     asperities alone. Where the faces part, the film's suction presses asperities too.
     """
-    carried = load_share(par, load, u)
+    carried = share_of_load(par, load, faces[0], faces[1])
     share, share_u, share_f, pressure, rise = carried
     mu, mu_t, mu_s = coefficient_slopes(par, slip, temperature)
     lever, whole = par[L.P_FACES] * par[L.D_RADIUS], load / par[L.D_AREA]
@@ -200,8 +222,8 @@ def pack_torques(
         if pressure > whole + L.AMBIENT:
             normal, normal_u, grows = lever * (load + L.AMBIENT * par[L.D_AREA]), 0.0, lever
     contact = (normal * mu, mu * normal_u, normal * mu_t, normal * mu_s, mu * grows)
-    full, by_u, by_t, by_s, by_d, eta, eta_t, area, area_u = viscous_slopes(
-        par, slip, drum, u, temperature
+    full, by_u, by_t, by_s, by_d, eta, eta_t, area, area_u = viscous_between(
+        par, slip, drum, faces, temperature
     )
     if par[L.P_FRICTION_DATA] == L.BOUNDARY_DATA:
         return contact, (full, by_u, by_t, by_s, by_d, 0.0), carried, (eta, eta_t, area, area_u)
@@ -219,12 +241,18 @@ def pack_torques(
 
 @kernel
 def contact_share(par: Array, u: float) -> tuple[float, float]:
+    """Return ``share_in_contact`` at the film ratio ``u``."""
+    second, first = area_integrals(u)
+    return share_in_contact(par, second, first)
+
+
+@kernel
+def share_in_contact(par: Array, second: float, first: float) -> tuple[float, float]:
     """Return the share of the nominal area in contact [-] and its slope over the film ratio.
 
-    Source: Greenwood & Tripp 1971, pi^2 (N beta sigma)^2 F_2(u), cut at 1: for a soft lining the
-    group is ten times the usual and the formula leaves its range.
+    ``second``, ``first``: F_2, F_1. Source: Greenwood & Tripp 1971, pi^2 (N beta sigma)^2 F_2(u),
+    cut at 1: for a soft lining the group is ten times the usual and the formula leaves its range.
     """
-    second, first = area_integrals(u)
     share = par[L.D_CONTACT_AREA] * second
     if share >= 1.0:
         return 1.0, 0.0
@@ -286,6 +314,14 @@ def filled_share(
 def viscous_slopes(
     par: Array, slip: float, drum: float, u: float, temperature: float
 ) -> tuple[float, float, float, float, float, float, float, float, float]:
+    """Return ``viscous_between`` at the film ratio ``u``."""
+    return viscous_between(par, slip, drum, rough_faces(u), temperature)
+
+
+@kernel
+def viscous_between(
+    par: Array, slip: float, drum: float, faces: Faces, temperature: float
+) -> tuple[float, float, float, float, float, float, float, float, float]:
     """Return the torque [N m >= 0] of the oil's shear at |slip|; slopes; viscosity; contact share.
 
     (torque, d/du, d/dT, d/d|slip|, d/ddrum, eta [Pa s], d eta/dT, share of the area in contact, its
@@ -294,9 +330,8 @@ def viscous_slopes(
     """
     scale, constant = par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_CONSTANT]
     eta, eta_slope = viscosity(temperature, scale, constant, par[L.P_VISCOSITY_EXPONENT])
-    share, share_slope = contact_share(par, u)
-    gap, gap_slope = mean_gap(u, 1.0)
-    open_share, open_slope = sheared_share(gap_slope, u)
+    share, share_slope = share_in_contact(par, faces[2], faces[3])
+    gap, gap_slope, open_share, open_slope = faces[4], faces[5], faces[7], faces[8]
     land, deep = par[L.P_LAND_SHARE] * open_share / gap, gap + par[L.D_GROOVE_RATIO]
     grooves = (1.0 - par[L.P_LAND_SHARE]) / deep
     thin = land * (1.0 - share) + grooves  # of 1/gap, over the face

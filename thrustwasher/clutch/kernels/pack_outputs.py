@@ -8,7 +8,7 @@ import numpy as np
 from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import sign_of
 from . import layout as L
-from .pack_friction import coefficient_slopes, cooling_slope, pack_torques
+from .pack_friction import coefficient_slopes, cooling_slope, pack_torques, rough_faces
 from .rates import moves_film, ring_of, settled_cooling, surfaces
 
 
@@ -40,7 +40,7 @@ def ring_outputs(
     Temperatures and their changes are in W_SURFACE and W_SURFACE_CHANGE.
     """
     load, slip, u, drum = point
-    turn = sign_of(slip) * change[1]
+    turn, faces = sign_of(slip) * change[1], rough_faces(u)
     dry, ddry, wet, dwet, wet_slip = 0.0, 0.0, 0.0, 0.0, 0.0
     eta, deta, mu, dmu, arm = 0.0, 0.0, 0.0, 0.0, 0.0
     for k in range(int(par[L.D_RINGS])):
@@ -51,7 +51,7 @@ def ring_outputs(
         f, by_t, by_s = coefficient_slopes(ring, slip, t)
         lever = share * ring[L.D_RADIUS]
         mu, dmu, arm = mu + lever * f, dmu + lever * (by_t * dt + by_s * turn), arm + lever
-        contact, viscous, carried, oil = pack_torques(ring, load * share, slip, drum, u, t)
+        contact, viscous, carried, oil = pack_torques(ring, load * share, slip, drum, faces, t)
         eta, deta = eta + share * oil[0], deta + share * oil[1] * dt
         out[L.O_CONTACT_SHARE], dout[L.O_CONTACT_SHARE] = oil[2], oil[3] * change[2]
         if moves_film(par):

@@ -14,7 +14,7 @@ from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import sign_of
 from ...tribology.flow_factors import INV_SQRT2, INV_SQRT2PI, gap_flow
 from . import layout as L
-from .pack_friction import coefficient_slopes, cooling_slope, pack_torques
+from .pack_friction import Faces, coefficient_slopes, cooling_slope, pack_torques, rough_faces
 
 LEAST_CDF = 1e-3
 MOST_TORN = 85.0  # times as fast as untorn oil lets them: no more
@@ -102,6 +102,8 @@ def film_rate(
     carried_slope: float,
     eta: float,
     slip: float,
+    cdf: float,
+    density: float,
 ) -> tuple[float, float, float, float, float]:
     """Return du/dt [1/s] of the film ratio; slopes over u, pressure, eta and |slip|.
 
@@ -121,10 +123,8 @@ def film_rate(
         squeezed_u = -carried_slope - lift_u * left + lift / par[L.D_OPEN_RATIO]
         by_eta, by_slip = -by_eta * left, -by_slip * left
     flow, flow_slope = gap_flow(u)
-    cdf = 0.5 * math.erfc(-max(u, -30.0) * INV_SQRT2)
-    cdf_slope = INV_SQRT2PI * math.exp(-0.5 * min(u * u, 1400.0))
     if cdf < LEAST_CDF:
-        cdf, cdf_slope = LEAST_CDF, 0.0
+        cdf, density = LEAST_CDF, 0.0
     ease = par[L.D_CLOSING] / (eta * cdf)
     open_for = flow + par[L.D_SEEPAGE]
     gives = open_for
@@ -134,7 +134,7 @@ def film_rate(
         open_for *= factor
         flow_slope *= factor
     rate = -ease * open_for * squeezed
-    slope = -ease * (flow_slope * squeezed + gives * squeezed_u) - rate * cdf_slope / cdf
+    slope = -ease * (flow_slope * squeezed + gives * squeezed_u) - rate * density / cdf
     by_squeezed = -ease * gives
     by_eta = by_squeezed * by_eta - rate / eta
     return rate, slope, 0.0 if opens else by_squeezed, by_eta, by_squeezed * by_slip
@@ -158,28 +158,28 @@ def film_bend(par: Array, load: float, u: float) -> float:
 
 
 @kernel
-def pack_slopes(
-    par: Array, load: float, slip: float, drum: float, u: float, temperature: float
+def heat_slopes(
+    par: Array,
+    load: float,
+    slip: float,
+    drum: float,
+    faces: Faces,
+    smooth: float,
+    temperature: float,
 ) -> tuple[
-    tuple[float, float, float, float, float],
     tuple[float, float, float, float, float, float],
     tuple[float, float, float],
-    float,
-    float,
+    tuple[float, float, float, float],
 ]:
-    """Return the rates of a pack of one temperature, and how they change.
+    """Return power, cooling of a pack of one temperature, their slopes, what moves its film.
 
-    (du/dt, its slopes over u, load, eta and |slip|), (power of a face [W], its slopes over u, T,
-    load, |slip| and drum), (cooling of a face [W/K], its slopes over u and load), viscosity and its
-    slope.
+    (power of a face [W], its slopes over u, T, load, |slip| and drum), (cooling of a face [W/K],
+    its slopes over u and load), (pressure of the asperities [Pa], its slope over u, viscosity and
+    its slope). ``smooth``: tanh of the slip over its smoothing.
     """
-    contact, viscous, carried, oil = pack_torques(par, load, slip, drum, u, temperature)
-    rate, rate_u, rate_p, by_eta, by_slip = film_rate(
-        par, load / par[L.D_AREA], u, carried[3], carried[4], oil[0], slip
-    )
-    faces, width = par[L.P_FACES], par[L.P_SPEED_SMOOTHING]
-    speed = abs(slip) / faces
-    smooth = math.tanh(abs(slip) / width)
+    contact, viscous, carried, oil = pack_torques(par, load, slip, drum, faces, temperature)
+    number, width = par[L.P_FACES], par[L.P_SPEED_SMOOTHING]
+    speed = abs(slip) / number
     steep = (1.0 - smooth) * (1.0 + smooth) / width
     torque = contact[0] * smooth + viscous[0]
     power = (
@@ -187,18 +187,13 @@ def pack_slopes(
         speed * (contact[1] * smooth + viscous[1]),
         speed * (contact[2] * smooth + viscous[2]),
         speed * (contact[4] * smooth + viscous[5]),
-        torque / faces + speed * (contact[3] * smooth + contact[0] * steep + viscous[3]),
+        torque / number + speed * (contact[3] * smooth + contact[0] * steep + viscous[3]),
         speed * viscous[4],
     )
     cooling, over = cooling_slope(par, carried[0])
     cooling, over = cooling * par[L.D_AREA], over * par[L.D_AREA]
-    return (
-        (rate, rate_u, rate_p / par[L.D_AREA], by_eta, by_slip),
-        power,
-        (cooling, over * carried[1], over * carried[2]),
-        oil[0],
-        oil[1],
-    )
+    moves = carried[3], carried[4], oil[0], oil[1]
+    return power, (cooling, over * carried[1], over * carried[2]), moves
 
 
 @kernel
@@ -267,37 +262,51 @@ def pack_rates(
 
     ``u``: film ratio; the rings' temperatures are those in W_SURFACE.
     """
+    at = to + L.R_RINGS
+    if moves_film(par):
+        _moving_film(par, load, slip, drum, u, work, to)
+    else:
+        for k in range(int(par[L.D_RINGS])):
+            _settled_power(par, load, slip, k, at + k * L.N_OF_RING, work)
+        for i in range(L.R_RINGS):
+            work[np.uintp(to + i)] = 0.0
+    if work[L.W_GIVEN] != 0.0:
+        _give_power(par, slip, work, at)
+
+
+@kernel
+def _moving_film(
+    par: Array, load: float, slip: float, drum: float, u: float, work: Array, to: int
+) -> None:
+    """Fill ``work[to:]`` as ``pack_rates`` where the film is a state."""
     rate, rate_u, rate_f, rate_s, own, mean, first = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0
     at, rings = to + L.R_RINGS, int(par[L.D_RINGS])
-    moves = moves_film(par)
+    faces, smooth = rough_faces(u), math.tanh(abs(slip) / par[L.P_SPEED_SMOOTHING])
     for k in range(rings):
-        if not moves:
-            _settled_power(par, load, slip, k, at + k * L.N_OF_RING, work)
-            continue
-        ring = ring_of(par, k)
+        ring, place = ring_of(par, k), at + k * L.N_OF_RING
         share, weight = ring[L.D_AREA] / par[L.D_AREA], par[np.uintp(L.D_SQUEEZE + k)]
-        film, power, cooling, eta, eta_t = pack_slopes(
-            ring, load * share, slip, drum, u, work[np.uintp(L.W_SURFACE + k)]
+        power, cooling, (pressure, rise, eta, eta_t) = heat_slopes(
+            ring, load * share, slip, drum, faces, smooth, work[np.uintp(L.W_SURFACE + k)]
         )
-        _keep(power, cooling, share, slip, at + k * L.N_OF_RING, work)
-        work[np.uintp(at + k * L.N_OF_RING + L.R_RATE_T)] = weight * eta_t
+        _keep(power, cooling, share, slip, place, work)
+        work[np.uintp(place + L.R_RATE_T)] = weight * eta_t
         mean += weight * eta
         if k == 0:
-            first, rate, rate_u, rate_f = eta, film[0], film[1], film[2] * share
+            whole = load * share / ring[L.D_AREA]
+            film = film_rate(ring, whole, u, pressure, rise, eta, slip, faces[5], faces[6])
+            first, rate, rate_u = eta, film[0], film[1]
+            rate_f = film[2] / ring[L.D_AREA] * share
             own, rate_s = (film[3] + rate / eta) * eta_t, film[4] * sign_of(slip)
-    if moves:
-        thick = first / mean
-        rate, rate_u, rate_f, rate_s = rate * thick, rate_u * thick, rate_f * thick, rate_s * thick
-        for k in range(rings):
-            place = np.uintp(at + k * L.N_OF_RING + L.R_RATE_T)
-            work[place] = -rate * work[place] / mean
-        if load < L.OPEN_PRESSURE * par[L.D_AREA]:
-            work[np.uintp(at + L.R_RATE_T)] += own * thick
+    thick = first / mean
+    rate, rate_u, rate_f, rate_s = rate * thick, rate_u * thick, rate_f * thick, rate_s * thick
+    for k in range(rings):
+        place = at + k * L.N_OF_RING + L.R_RATE_T
+        work[np.uintp(place)] = -rate * work[np.uintp(place)] / mean
+    if load < L.OPEN_PRESSURE * par[L.D_AREA]:
+        work[np.uintp(at + L.R_RATE_T)] += own * thick
     work[np.uintp(to + L.R_RATE)] = rate
     work[np.uintp(to + L.R_RATE_U)], work[np.uintp(to + L.R_RATE_F)] = rate_u, rate_f
     work[np.uintp(to + L.R_RATE_S)] = rate_s
-    if work[L.W_GIVEN] != 0.0:
-        _give_power(par, slip, work, at)
 
 
 @kernel

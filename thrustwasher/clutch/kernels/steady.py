@@ -21,6 +21,7 @@ from .pack_friction import (
     load_share,
     pack_torques,
     regime_of,
+    rough_faces,
     settled_slope,
     shear_slopes,
 )
@@ -48,7 +49,7 @@ def steady_torques(
         mu, mu_slope, _ = coefficient_slopes(par, slip, temperature)
         lever = par[L.P_FACES] * par[L.D_RADIUS] * load
         return lever * mu, 0.0, lever * mu_slope
-    contact, viscous, _, _ = pack_torques(par, load, slip, drum, u, temperature)
+    contact, viscous, _, _ = pack_torques(par, load, slip, drum, rough_faces(u), temperature)
     return contact[0], viscous[0], contact[2] + viscous[2]
 
 

@@ -12,6 +12,7 @@ from scipy.optimize import nnls
 from thrustwasher import ClutchParams, engage_clutch, solve_clutch
 from thrustwasher.clutch.kernels import layout as k
 from thrustwasher.clutch.kernels.constants import groove_factor
+from thrustwasher.clutch.kernels.pack_friction import rough_faces
 from thrustwasher.clutch.kernels.rates import MOST_TORN, film_rate, groove_lift, torn
 from thrustwasher.clutch.solve import prepare
 
@@ -95,7 +96,8 @@ def test_slopes_of_the_film_rate_are_those_of_differences(u, load):
     at = np.array([load, u, 2.0 * load * (u < 1.0) + 3e4 * (u < 3.0), 0.7, 250.0])
 
     def rate(x):
-        return film_rate(par, x[0], x[1], x[2], 0.0, x[3], x[4])
+        faces = rough_faces(x[1])
+        return film_rate(par, x[0], x[1], x[2], 0.0, x[3], x[4], faces[5], faces[6])
 
     slopes = rate(at)
     for slope, i in ((slopes[1], 1), (slopes[3], 3), (slopes[4], 4), (slopes[2], 0)):

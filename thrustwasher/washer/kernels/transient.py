@@ -22,7 +22,7 @@ from .solve import recall_state, scan_holds
 from .workspace import Point, Workspace, fields_of, forget_factor, model_of
 
 ATOL, RTOL = 0.02, 2e-3  # [K], and of the largest rise: what a substep may be off
-SECOND = 0.1  # of what a held flux would be off: what two stages are off, at most as measured
+SECOND = 0.15  # of what a held flux would be off: two stages, measured near rest and after jumps
 LOST_SHARE = 0.7  # the film carries more above every fold where it is lost, less where regained
 ARRIVED = 1e-8  # tolerance of each instant: what is stored counts beside small powers
 NEARLY = 1e-7  # where rounding lets no instant come closer, as with hot asperities
@@ -126,7 +126,8 @@ def advance_heat(w: Workspace, pt: Point, dt: float, first: float) -> tuple[int,
             if h < 1e-9 * dt or is_spent(w):
                 status = status if status != OK else MAX_ITERATIONS
                 break
-            h *= max(0.1, 0.8 / error**1.5)  # after a jump the error falls with h^(2/3)
+            # after a jump the error falls with h^(2/3)
+            h *= max(0.1, 0.8 / (error * math.sqrt(error)))
             copy(f.begin, f.temp)
             status = MAX_ITERATIONS
             continue

@@ -22,6 +22,7 @@ from .solve import recall_state, scan_holds
 from .workspace import Point, Workspace, fields_of, forget_factor, model_of
 
 ATOL, RTOL = 0.02, 2e-3  # [K], and of the largest rise: what a substep may be off
+SECOND = 0.15  # of what a held flux would be off: two stages, measured near rest and after jumps
 LOST_SHARE = 0.7  # the film carries more above every fold where it is lost, less where regained
 ARRIVED = 1e-8  # tolerance of each instant: what is stored counts beside small powers
 NEARLY = 1e-7  # where rounding lets no instant come closer, as with hot asperities
@@ -120,12 +121,13 @@ def advance_heat(w: Workspace, pt: Point, dt: float, first: float) -> tuple[int,
         if held:
             break
         error, largest = ladder.error_of_flux(w)
-        error = error / (ATOL + RTOL * largest) if status == OK else 16.0
+        error = SECOND * error / (ATOL + RTOL * largest) if status == OK else 16.0
         if not error <= 1.0:
             if h < 1e-9 * dt or is_spent(w):
                 status = status if status != OK else MAX_ITERATIONS
                 break
-            h *= max(0.2, 0.9 / math.sqrt(error))
+            # after a jump the error falls with h^(2/3)
+            h *= max(0.1, 0.8 / (error * math.sqrt(error)))
             copy(f.begin, f.temp)
             status = MAX_ITERATIONS
             continue

@@ -122,6 +122,22 @@ def test_substeps_are_of_second_order(params):
     assert 3.2 < errors[0] / errors[1] < 5.0
 
 
+def test_near_rest_few_substeps_are_as_good_as_many():
+    """Each step begins with a jump of the speed; the fine one is cut in 32."""
+    coarse, fine, iterations = Washer(), Washer(), 0.0
+    assert coarse.go(1e-6, load=500.0, speed=50.0) == 0
+    assert fine.go(1e-6, load=500.0, speed=50.0) == 0
+    for speed in np.geomspace(46.0, 10.0, 8):
+        assert coarse.go(0.01, load=500.0, speed=speed) == 0
+        iterations += coarse.work[L.ITERATIONS]
+        for _ in range(32):
+            assert fine.go(0.01 / 32, load=500.0, speed=speed) == 0
+        allowed = 0.02 + 2e-3 * fine.rises().max()
+        assert np.abs(coarse.rises() - fine.rises()).max() < allowed
+        assert coarse.out[TORQUE] == pytest.approx(fine.out[TORQUE], rel=1e-5)
+    assert iterations < 240
+
+
 @pytest.mark.parametrize(
     "params",
     [

@@ -3,7 +3,7 @@
 import json
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -23,6 +23,7 @@ from ...storage.whole_files import whole_file
 from ..evaluators.limits import Beyond, beyond, beyond_ranges, joined
 from ..evaluators.lines import output_signals
 from ..jobs.cluster import INSTALL
+from .csv_text import text_of_rows
 from .run_plan import RunPlan
 from .sweep_plan import Plan
 
@@ -32,7 +33,8 @@ ADVICE = {
 }
 SUFFIXES = (".csv", ".parquet")
 NUMBERED = re.compile(r"[a-z]+_\d+_")  # begin names of a mesh or shaft, which may not be there
-CHUNK = 10_000  # rows made into text, or a group of Parquet, at a time
+CHUNK = 10_000  # rows of a piece, a group of Parquet
+TEXT = 2_000  # rows made into text at a time
 
 
 @dataclass(frozen=True)
@@ -281,24 +283,9 @@ def write_csv(table: SweepTable, stream: IO[str], *, head: bool = True) -> None:
     if head:
         stream.write(",".join(heads) + "\n")
     n = len(table)
-    for a in range(0, n, CHUNK):
-        texts = [_texts(column[a : a + CHUNK]) for column in table.columns.values()]
-        stream.write("\n".join(map(",".join, zip(*texts, strict=True))) + "\n")
-
-
-def _texts(column: NDArray[Any]) -> Sequence[str]:
-    """Return the cells of a column; equal numbers, as on a grid, are made into text once."""
-    if column.dtype.kind == "b":
-        return ["true" if value else "false" for value in column.tolist()]
-    if column.dtype.kind != "f":
-        return [str(value) for value in column.tolist()]
-    bits, where = np.unique(column.view(np.int64), return_inverse=True)
-    if len(bits) > len(column) // 2:
-        texts = list(map(repr, column.tolist()))
-        return [text if text != "nan" else "" for text in texts] if "nan" in texts else texts
-    cells = ["" if text == "nan" else text for text in map(repr, bits.view(np.float64).tolist())]
-    found: list[str] = np.array(cells, object)[where].tolist()
-    return found
+    for a in range(0, n, TEXT):
+        columns = [column[a : a + TEXT] for column in table.columns.values()]
+        stream.write(text_of_rows(columns, many=a >= CHUNK or not head))
 
 
 def _repeating(table: SweepTable) -> list[str]:
@@ -337,7 +324,7 @@ def _arrow(column: NDArray[Any], bad: NDArray[np.bool_] | None) -> Any:
     n, valid, kind = len(column), None, pa.float64()
     if column.dtype == object:
         words = column.tolist()
-        if any(type(word) is not str for word in words):
+        if {*map(type, words)} - {str}:
             return pa.array(words)
         known = {word: i for i, word in enumerate(dict.fromkeys(words))}
         ends = np.cumsum([0, *(len(word.encode()) for word in known)], dtype=np.int32)

@@ -459,8 +459,8 @@ def slopes(
     moved = abs(change.load) + abs(change.speed) + abs(change.tilt)
     moved += abs(change.oil_temperature) + abs(change.far_face)
     fluxes = work[MAP_WORK : MAP_WORK + 3]
-    clear(fluxes)
     if in_time:
+        clear(fluxes)
         states = along[NINP:]
         hold_for_slopes(w, states)
         moved += abs(states[X_CARRIER]) + abs(states[X_WASHER]) + abs(states[X_GEAR])

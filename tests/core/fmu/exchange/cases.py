@@ -107,7 +107,7 @@ CASES = {
     **{f"engagement {k + 1}": engagement(plant) for k, plant in enumerate(TWELVE)},
     "two packs hand over at rest": HANDING,
     "two packs in parallel": PARALLEL,
-    "washer beside a pack that locks": WASHER_BESIDE,
+    "washer next to a pack that locks": WASHER_BESIDE,
     **NOISE,
     **{name: on_shaft(*SHAFTS[name]) for name in SHAFTS},
 }

@@ -6,7 +6,7 @@ from cases import CASES, HANDING, HELD, NOISE, SLIDING
 from coupled import exchanged, lock_up, slip_of, stepped
 
 QUICK = ("noise on the load of a pack that locks",)
-SEVERAL = [n for n in CASES if n.startswith(("two packs", "washer beside"))]
+SEVERAL = [n for n in CASES if n.startswith(("two packs", "washer next"))]
 each = pytest.mark.parametrize(
     "name",
     [pytest.param(n, marks=[pytest.mark.slow] * (n not in QUICK)) for n in (*SEVERAL, *NOISE)],

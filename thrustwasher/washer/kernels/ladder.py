@@ -46,7 +46,7 @@ BODIES = (L.OF_CARRIER, L.OF_WASHER, L.OF_GEAR)
 WITH_LADDER = (L.OF_CARRIER, L.OF_GEAR)
 # States of model exchange: bending [rad], energy [J], then mean temperatures [K]: of the faces of
 # carrier and gear, each with what terms of the ladder after the first have of it; of the washer.
-X_BEND, X_ENERGY, X_CARRIER, X_WASHER, X_GEAR, N_STATES = 0, 1, 2, 5, 6, 10
+X_BEND, X_ENERGY, X_CARRIER, X_WASHER, X_GEAR, N_STATES = 0, 1, 2, 5, 6, L.N_STATES
 REFERENCE = 293.15  # [K] of the far face, where a term's state is its rise
 
 

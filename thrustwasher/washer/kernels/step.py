@@ -15,7 +15,6 @@ from .constants import derive_grid, size_of_par
 from .directional_derivative import differentiate
 from .heat import set_steady
 from .ladder import (
-    N_STATES,
     X_CARRIER,
     X_GEAR,
     X_WASHER,
@@ -56,7 +55,7 @@ NPAR = size_of_par(*FINE_GRID)
 NSTATE = size_of_state(*FINE_GRID)
 MAP_WORK = L.N_HEAD + size_of_work(*FINE_GRID)  # behind the fields: scratch of a look-up, then
 BY_MAP = MAP_WORK + N_MAP_WORK  # 1 if the last solution was looked up, then the map itself
-W_TOLD = L.AT_TOLD
+W_TOLD, W_STATES = L.AT_TOLD, L.AT_STATES
 TABLE_AT = BY_MAP + 1
 TABLE = {
     "AT": TABLE_AT,
@@ -69,8 +68,7 @@ TABLE = {
     "SWITCH": L.P_FIDELITY,
     "ON": L.MAP,
 }
-W_STATES = TABLE_AT + ROOM  # the states of model exchange after a step, but for the energy
-NWORK = W_STATES + N_STATES
+NWORK = TABLE_AT + ROOM
 NSEED = NINP + len(SHARES)  # inputs, then tunable shares of heat
 BUDGET_IN_TIME = 3000.0  # Newton iterations that one step of the bodies' heat may take
 LESS = 0.2  # of the step that was taken: the advice where the speed chatters
@@ -135,7 +133,7 @@ def step(
 ) -> int:
     """Advance by ``dt``, write the outputs; near rest with a share of the torque of sliding."""
     mem, way, speed = work[L.AT_MEMORY : L.AT_TOLD], coupling_of(par), inp[L.I_SPEED]
-    states = work[W_STATES:]
+    states = work[L.AT_STATES : L.AT_FOUND]
     states[X_CARRIER] = states[X_WASHER] = states[X_GEAR] = inp[L.I_OIL]
     if is_bad(inp):
         return slide(par, inp, state, work, out, iout, t, dt, 1.0, 0.0)
@@ -154,7 +152,7 @@ def step(
         keep(way, mem, speed, dt, torque, abs(torque) / share)
         copy(mem, state[L.S_MEMORY : L.S_MEMORY + N_MEMORY])
     if chatters(mem):
-        fill_figures(way, mem, work[L.AT_TOLD : L.AT_FOUND])
+        fill_figures(way, mem, work[L.AT_TOLD : L.AT_STATES])
         iout[L.IO_STATUS] = CHATTER
         if par[L.P_THERMAL_MODE] == L.TRANSIENT and dt > 0.0:
             out[L.O_ADVISED] = min(out[L.O_ADVISED], LESS * dt)
@@ -259,7 +257,7 @@ def _slide_on_mesh(
         out[L.O_OIL_HEAT] = out[L.O_POWER]
     book(made, kept, dt, state, out)
     if in_time:
-        fill_means(w, pt, work[W_STATES:])
+        fill_means(w, pt, work[L.AT_STATES : L.AT_FOUND])
         out[L.O_ADVISED] = substep if dt > 0.0 else state[L.S_SUBSTEP]
     lost = in_time and name_branch(w, w.outputs[L.O_RATIO], w.outputs[L.O_FLUID_SHARE])
     if dt > 0.0 and (status == OK or status == NO_BRANCH):

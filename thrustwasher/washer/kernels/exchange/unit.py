@@ -61,8 +61,6 @@ from .in_time import (
     room_of_film,
     shapes_sign,
     solved_in_time,
-    start_in_time,
-    update_in_time,
 )
 from .kept import (
     A_ANGLE,
@@ -102,6 +100,7 @@ from .kept import NOWN as NOWN
 from .kept import NSIGN as NSIGN
 from .kept import TIME_AT as TIME_AT
 from .on_map import SMALLEST, asks_map, enter_branch, keep_place, looked_up, map_sign
+from .shapes import start_in_time, update_in_time
 
 NEVER = 1.7976931348623157e308
 USUAL = 1e6  # Pa, of the largest capacity

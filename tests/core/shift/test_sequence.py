@@ -52,9 +52,9 @@ def test_a_sequence_is_short_as_text_and_a_dataset_over_time(run):
     package("xarray")
     found = run.to_xarray()
     assert dict(found.sizes) == {"time": len(run.time)}
-    speed = found["transmission.input_speed"]
+    speed = found["transmission.output_speed"]
     assert speed.attrs["units"] == "rad/s"
-    assert speed.values.tolist() == run.signals["transmission.input_speed"].tolist()
+    assert speed.values.tolist() == run.signals["transmission.output_speed"].tolist()
 
 
 def test_figures_alone_are_the_same_and_take_the_rows_of_one_window(run, monkeypatch):

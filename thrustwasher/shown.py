@@ -129,12 +129,7 @@ class Tabled(Shown):
         found = [f"{type(self).__name__}: {n} rows, {len(columns)} columns"]
         if failed := getattr(self, "failures", None):
             found.append(f"  failed: {', '.join(f'{k} {name}' for name, k in failed.items())}")
-        lines = [f"  {line.name}  {line.value}" for line in column_lines(columns, words)]
-        for i, line in enumerate(lines):
-            if sum(map(len, found)) + len(line) > LONGEST_TEXT:
-                return "\n".join([*found, f"  and {len(lines) - i} more columns"])
-            found.append(line)
-        return "\n".join(found)
+        return short_text(found, column_lines(columns, words), "columns")
 
     def to_xarray(self) -> Any:
         """Return the columns as an ``xarray.Dataset``, on the grid of what was varied.
@@ -169,6 +164,17 @@ class Tabled(Shown):
         frame = pandas.DataFrame(own, index=index, copy=True)  # one block of each type
         frame.attrs["units"] = {name: words[name].unit for name in columns if name in words}
         return frame
+
+
+def short_text(head: Sequence[str], lines: Iterable[Line], kind: str) -> str:
+    """Return a head and names with their values, as many as fit, and how many ``kind`` do not."""
+    found = list(head)
+    texts = [f"  {line.name}  {line.value}" for line in lines]
+    for i, text in enumerate(texts):
+        if sum(map(len, found)) + len(text) > LONGEST_TEXT:
+            return "\n".join([*found, f"  and {len(texts) - i} more {kind}"])
+        found.append(text)
+    return "\n".join(found)
 
 
 def pandas_for(result: object) -> Any:

@@ -271,8 +271,9 @@ def _rounded(number: float, digits: int) -> str:
 
 @lru_cache(maxsize=4096)
 def _plain(unit: str) -> str:
-    """Return one spelling for °C and degC, N·m and N m, m² and m^2, µm and um."""
-    text = unit.strip().replace("°", "deg").replace("·", ".").replace("*", ".").replace("^", "")
+    """Return one spelling for °C and degC, N·m, N*m and N m, m² and m^2, µm and um."""
+    text = unit.strip().replace("°", "deg").replace("*", ".").replace("^", "")
+    text = text.replace("·", ".").replace("\u22c5", ".")
     text = text.replace("²", "2").replace("³", "3").replace("µ", "u").replace("μ", "u")
     return re.sub(r"\s+", ".", text)
 

@@ -18,6 +18,7 @@ from ..shown import (
     pandas_for,
     plain,
     public_names,
+    short_text,
     text_of,
 )
 from .point import Point
@@ -40,6 +41,20 @@ class AtPoint(Shown):
     __slots__ = ()
     warnings: tuple[str, ...]
     status: Status
+
+    def __init_subclass__(cls, **more: Any) -> None:
+        """Keep the short text: that of a dataclass would be all fields and parameters."""
+        super().__init_subclass__(**more)
+        if "__repr__" not in cls.__dict__:
+            cls.__repr__ = AtPoint.__repr__  # type: ignore[method-assign]
+
+    def __repr__(self) -> str:
+        """Return point, status, number of warnings and results, in under 1500 characters."""
+        key, params, point = self.request()
+        model = find_model(key)
+        head = f"{type(self).__name__}: {heading(model, params, point)}"
+        said = f"  {self.status.name}, warnings: {len(self.warnings)}"
+        return short_text([head, said], point_lines(model, self, point), "results")
 
     def request(self) -> Asked:
         """Return model, parameters and point that it is the solution of."""

@@ -7,6 +7,7 @@ from pathlib import Path
 from ..errors import ParameterError
 from ..plugins import called
 from .from_fmus import check_levels, fmu_instances, run_scene
+from .run import Progress
 from .scene.scene import Scene, with_fidelities
 from .scene.scene_file import load_scene
 from .several_shifts import SequenceResult
@@ -22,6 +23,7 @@ def run_shift(
     fidelity: Levels | None = None,
     scatter: int | None = None,
     keep: str = "all",
+    progress: bool | Progress | None = None,
 ) -> ShiftResult | SequenceResult:
     """Return the result of a gear shift; its FMUs are built if they are missing, and freed.
 
@@ -38,6 +40,8 @@ def run_shift(
         to a power of two; it takes that many runs for each source of scatter too
     keep : of a scene with a sequence, "all" points or the "figures" alone: a run of any length
         then fits into memory, and its shifts have no signals
+    progress : of the run and its study: True: a bar of tqdm, or a line, on the terminal; or called
+        with steps, then runs, done and all
 
     Returns
     -------
@@ -62,11 +66,12 @@ def run_shift(
         runs = called("runs_of_study")(f"scatter = {scatter!r}", asked, scatter)
     if asked.sequence:
         check_levels(asked)
+    show = called("shown_progress")(progress, asked.name) if progress else None
     with fmu_instances(asked) as make:
-        result = run_scene(asked, make, keep=keep)
+        result = run_scene(asked, make, progress=show, keep=keep)
     if runs is None or isinstance(result, SequenceResult):
         return result
-    return replace(result, scatter=called("propagate")(result.scene, runs=runs))
+    return replace(result, scatter=called("propagate")(result.scene, runs=runs, progress=progress))
 
 
 def _scene(given: object) -> Scene:

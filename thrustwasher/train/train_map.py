@@ -12,6 +12,7 @@ from ..errors import ParameterError, Status
 from ..model.advice import of_whole_map
 from ..model.parameters import check_number
 from ..numerics.power_flow import SELF_LOCKING
+from ..plugins import called
 from ..shown import Card, Tabled, Words, column_lines, plain_dict
 from ..units import format_quantity
 from .parameters import SPEC
@@ -86,7 +87,7 @@ def train_map(
     speed: Iterable[float],
     oil_temperature: Iterable[float] = (353.15,),
     *,
-    progress: Callable[[int, int], None] | None = None,
+    progress: bool | Callable[[int, int], None] | None = None,
 ) -> TrainMap:
     """Return efficiency, losses and limits of a gear train at steady points.
 
@@ -96,7 +97,7 @@ def train_map(
     torque : on the input shaft [N m]; against the speed the output drives
     speed : of the input shaft [rad/s]
     oil_temperature : [K]
-    progress : called with points done and in all
+    progress : True: a bar of tqdm, or a line, on the terminal; or called with points done and all
 
     Raises
     ------
@@ -111,14 +112,15 @@ def train_map(
     params, names = scene.part.params, _names(scene)
     points = list(product(*reversed(axes.values())))
     rows, doubts, flow = [], [], []
+    show = called("shown_progress")(progress, scene.title) if progress else None
     for n, values in enumerate(points, 1):
         point = dict(zip(reversed(axes), values, strict=True))
         row, way, said = _point(scene, params, point)
         rows.append(row)
         flow.append(way)
         doubts.append(said)
-        if progress:
-            progress(n, len(points))
+        if show:
+            show(n, len(points))
     columns = {own: np.array([row[name] for row in rows], float) for name, own in names.items()}
     words = {s.name: Words(s.unit, s.help) for s in (*SPEC.inputs, *SPEC.outputs)}
     words["warnings"] = WARNINGS

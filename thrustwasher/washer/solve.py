@@ -18,6 +18,7 @@ from ..model.prepare import Recent
 from ..model.record import Sweep
 from ..native.load import bound
 from ..numerics.jit import Array
+from ..units import meant
 from .kernel_arguments import constants, work_array
 from .kernels import layout as L
 from .kernels import step as kernel
@@ -85,9 +86,11 @@ def check_far_face(params: WasherParams, far_face_temperature: float) -> None:
             f"'bulk' (here {params.gear_far_face!r}), or 0"
         )
     if far_face_temperature < LEAST_TEMPERATURE:
+        _, unit, _, highest = RANGES[-1]
+        hint = meant(far_face_temperature, unit, LEAST_TEMPERATURE, highest)
         raise ParameterError(
             f"far_face_temperature = {far_face_temperature:g} K, allowed: 0 (the oil's) or "
-            f"{LEAST_TEMPERATURE:g} .. {RANGES[-1][3]:g} K"
+            f"{LEAST_TEMPERATURE:g} .. {highest:g} K{hint}"
         )
 
 

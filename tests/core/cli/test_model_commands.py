@@ -97,6 +97,16 @@ def test_inputs_stand_first_with_where_they_come_from(tmp_path, capsys):
     ]
 
 
+def test_faces_are_not_parallel_by_default_as_these_would_run_dry(capsys):
+    point = ["washer", "--load", "300", "--speed", "953"]
+    tilted = told(point, capsys)
+    assert tilted["tilt"] == 2e-3 and tilted["contact_load"] == 0.0 and not tilted["warnings"]
+    parallel = told([*point, "--tilt", "0"], capsys)
+    assert parallel["contact_load"] == pytest.approx(300.0)
+    assert parallel["friction_torque"] > 5.0 * tilted["friction_torque"]
+    assert "parallel faces build no pressure" in parallel["warnings"][0]
+
+
 def test_a_train_is_shown_with_the_names_of_its_file(capsys):
     assert main(["train", "--preset", "ev-reducer"]) == 0
     out = capsys.readouterr().out

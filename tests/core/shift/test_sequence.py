@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scene_runs import instances, shift
 
+from tests.needed import package
 from thrustwasher.errors import ParameterError
 from thrustwasher.gearmesh.parameters import absent_outputs
 from thrustwasher.shift import cosimulate, load_scene, run_sequence
@@ -43,6 +44,17 @@ def test_the_first_shift_is_the_one_it_is_alone(run):
     for name in ("lock_time", "slip_energy", "filled_time"):
         assert mine.figures[name] == pytest.approx(alone.figures[name], rel=2e-3)
     assert mine.figures["peak_jerk"] == pytest.approx(alone.figures["peak_jerk"], rel=1e-2)
+
+
+def test_a_sequence_is_short_as_text_and_a_dataset_over_time(run):
+    text = repr(run)
+    assert text.startswith(f"SequenceResult: {len(run.time)} rows") and len(text) < 1500
+    package("xarray")
+    found = run.to_xarray()
+    assert dict(found.sizes) == {"time": len(run.time)}
+    speed = found["transmission.output_speed"]
+    assert speed.attrs["units"] == "rad/s"
+    assert speed.values.tolist() == run.signals["transmission.output_speed"].tolist()
 
 
 def test_figures_alone_are_the_same_and_take_the_rows_of_one_window(run, monkeypatch):

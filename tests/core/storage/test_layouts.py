@@ -5,6 +5,7 @@ import pytest
 
 from tests.needed import package
 from thrustwasher.errors import ParameterError
+from thrustwasher.storage.tables.column_names import renamed
 from thrustwasher.storage.tables.heads import Wanted
 from thrustwasher.storage.tables.table import numbers as known_numbers
 from thrustwasher.storage.tables.table_file import read_table
@@ -96,6 +97,29 @@ def test_rows_of_units_and_identifiers_may_stand_under_a_head(tmp_path):
     ]
     assert numbers(table)["load"] == [1234.5, 1300.0]
     assert "units from line 6" in table.remarks
+
+
+@pytest.mark.parametrize("units", ["s,Volt,Volt", "s,V,V", "s,V,mV", "(s),(V),(V)", "s,kg,kg"])
+def test_units_under_a_head_may_be_equal_and_need_not_be_known(tmp_path, units):
+    table = table_of(tmp_path, f"DSO-X 3024\nTime,CH1,CH2\n{units}\n0,1,2\n1e-3,3,4\n")
+    assert [c.name for c in table.columns] == ["Time", "CH1", "CH2"]
+    assert [c.unit for c in table.columns] == [unit.strip("()") for unit in units.split(",")]
+    assert numbers(table) == {"Time": [0.0, 1e-3], "CH1": [1, 3], "CH2": [2, 4]}
+    found = known_numbers(renamed(table, {"friction_torque [N.m]": "CH2"}).columns[2], table, "N.m")
+    assert found == [2.0, 4.0]
+
+
+def test_channels_that_are_numbers_are_told_apart_by_these(tmp_path):
+    table = table_of(tmp_path, "x-axis,1,2\nsecond,Volt,Volt\n0,1,2\n1e-3,3,4\n")
+    assert [c.name for c in table.columns] == ["x-axis", "1", "2"]
+    assert known_numbers(table.columns[0], table, "s") == [0.0, 1e-3]
+
+
+def test_a_head_with_two_equal_names_is_one_below_a_line_of_text(tmp_path):
+    table = table_of(
+        tmp_path, "Step,up,fast,dry\nSpeed (mm/s),Coeff (-),Load (N),Coeff (-)\n1,2,3,4\n"
+    )
+    assert [c.name for c in table.columns] == ["Speed", "Coeff", "Load", "Coeff"]
 
 
 def test_tables_of_different_heads_are_named_and_one_is_chosen(tmp_path):

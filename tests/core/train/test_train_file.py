@@ -204,6 +204,16 @@ def test_taper_bearings_need_an_arrangement_and_balls_take_any():
     assert TrainParams(shaft_2_axial="second", **double).shaft_2_axial == "second"
 
 
+def test_a_map_tells_how_far_it_is():
+    told = []
+    scene = load_train(SCENE)
+    train_map(scene, [50.0], [200.0, 300.0], progress=lambda *now: told.append(now))
+    assert told == [(1, 2), (2, 2)]
+    train_map(scene, [50.0], [300.0], progress=True)
+    with pytest.raises(ParameterError, match="progress = 7"):
+        train_map(scene, [50.0], [300.0], progress=7)
+
+
 def test_a_map_has_the_names_of_the_scene():
     found = train_map(load_train(SCENE), [-50.0, 50.0], [-300.0, 300.0], [313.15, 353.15])
     c = found.columns

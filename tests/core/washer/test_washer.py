@@ -326,7 +326,7 @@ def test_an_insulated_gear_is_between_none_and_one_as_warm_as_it_would_become():
     ("params", "more", "said"),
     [
         (WasherParams(), {"far_face_temperature": 330.0}, "with gear_far_face = 'bulk'"),
-        (BULK, {"far_face_temperature": 80.0}, "0 \\(the oil's\\) or 233.15"),
+        (BULK, {"far_face_temperature": 80.0}, r"0 \(the oil's\) or 233.15.*353.15 K \(80 degC\)"),
         (BULK, {"fidelity": "map"}, "a map has no far_face_temperature"),
     ],
 )

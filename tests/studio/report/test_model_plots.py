@@ -490,6 +490,14 @@ def test_the_text_of_a_part_and_of_a_scene_is_short():
     assert len(repr(scene)) < 1500
 
 
+def test_the_text_of_a_result_at_a_point_is_short():
+    train = repr(tw.solve_train(tw.TrainParams(), torque=150.0, speed=500.0))
+    assert train.startswith("TrainResult: gear train, 2 meshes at torque 150 N·m")
+    assert "efficiency  0.98" in train and "more results" in train and len(train) < 1500
+    mesh = repr(tw.solve_gearmesh(tw.GearMeshParams(), power=7500.0, speed=180.0))
+    assert "OK, warnings: " in mesh and "mean_friction  0.0192" in mesh and len(mesh) < 1500
+
+
 def test_columns_are_told_by_their_ranges():
     columns = {
         "load": np.array([5.0, np.nan, 20.0]),

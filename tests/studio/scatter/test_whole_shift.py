@@ -21,7 +21,9 @@ from thrustwasher.shift import cosimulate
 def test_it_is_the_shift_that_instances_of_ones_own_give():
     scene = load_scene("msl")
     own = cosimulate(scene, instances(scene))
-    result = run_shift("msl")
+    told = []
+    result = run_shift("msl", progress=lambda *now: told.append(now))
+    assert told == sorted(told) and told[-1][0] == told[-1][1] > 1000
     assert isinstance(result, ShiftResult) and result.scatter is None
     assert result.figures == own.figures
     assert result.step_error is not None  # it was checked, as the command checks it

@@ -97,7 +97,8 @@ class _Rows:
         """Return the table with a given head, and those below it."""
         first, units = start + 1, -1
         while first < min(start + 3, self.n) and self._is_text(first):
-            if _are_units(self.cells(first, start), loose=True):
+            row = self.cells(first, start)
+            if _are_units(row, loose=True) or _are_alike(row, self.cells(start, start)):
                 units = first
             first += 1
         return self._ended(
@@ -159,7 +160,9 @@ class _Rows:
             return k >= start and self._is_text(k) and len(self.cells(k, k)) >= max(width, 1)
 
         head, units = i, -1
-        if above(i - 1) and _are_units(self.cells(i, i - 1), loose=True):
+        if i > start and _are_alike(self.cells(i, i - 1), self.cells(i - 1, i - 1)):
+            head, units = i - 1, i
+        elif above(i - 1) and _are_units(self.cells(i, i - 1), loose=True):
             head, units = i - 1, i
             if above(i - 2) and _are_ids(self.cells(i - 1, i - 1)):
                 head = i - 2
@@ -185,6 +188,14 @@ def _are_units(row: Sequence[str], loose: bool = False) -> bool:
         return len(known) == len(row)
     short = all(len(cell) <= SHORT and " " not in cell for cell in row)
     return short and 2 * sum(map(is_unit, named)) >= len(named)
+
+
+def _are_alike(row: Sequence[str], names: Sequence[str]) -> bool:
+    """Tell if short words, some of them equal, stand under names that differ: "s, Volt, Volt"."""
+    if len(row) != len(names) or not all(row) or not all(names) or is_number(names[0]):
+        return False
+    short = all(len(cell) <= SHORT and " " not in cell for cell in row)
+    return short and len({*row}) < len(row) and len({*names}) == len(names)
 
 
 def _are_ids(row: Sequence[str]) -> bool:

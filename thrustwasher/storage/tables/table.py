@@ -14,6 +14,7 @@ from ...units import UNITS, parse_quantity, unit_size
 
 LONGEST = 2_000_000  # rows; a larger file is none of measured points
 UNMEASURED = ("", "-", "--", "nan", "n/a", "na", "#n/a", "null", "none")  # in lower case
+RAW = ("V", "mV", "kV", "Volt", "A", "mA")  # units of signals that nobody has scaled yet
 CLOCK = re.compile(r"(\d{1,2}):(\d\d):(\d\d(?:[.,]\d+)?)")
 CLOCKED = ("", "hh:mm:ss", "hh:mm:ss.fff", "h:m:s")
 MANY = 2_000  # rows from which a column is converted as a whole, rounded once in long double
@@ -145,7 +146,7 @@ def plain_unit(text: str) -> str:
 def is_unit(text: str) -> bool:
     """Tell if a text is a unit of anything, or says that there is none."""
     text = plain_unit(text)
-    if not text:
+    if not text or text in RAW:
         return True
     return any(unit_size(text, unit) for unit in UNITS)
 

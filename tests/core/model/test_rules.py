@@ -101,6 +101,7 @@ BROKEN = {
         {"youngs_modulus_gear": 1e6},
         {"density_gear": 1.0},
         {"pressure_viscosity": 1e-12},
+        {"efficiency_back": 0.005, "friction_law": "efficiency"},
     ),
     "transmission": (
         {"ring_teeth": 30, "planet_teeth": 0},

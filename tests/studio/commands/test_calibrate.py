@@ -102,7 +102,7 @@ def test_points_out_of_reach_are_a_warning_and_no_error(words, tmp_path, capsys)
         ("", "is empty"),
         ("speed,load,friction\n", "no line of numbers"),
         ("speed,load,friction\n1,2,0.1\n\n1,x,0.1\n", "line 4: load = 'x'"),
-        ("speed,load,friction\n1,2,nan\n", "finite"),
+        ("speed,load,friction\n1,2,nan\n", "line 2: friction is missing"),
         ("speed,load,friction\n1,2,0,1\n", "line 2: has 4 cells, the head names 3"),
         ("a,speed,load,friction,,\n\n0,1,2,0,1\n", "line 3: has 5 cells, the head names 4"),
         ("speed,load,friction\n1,2,\0\n", "not text"),

@@ -118,7 +118,7 @@ REFUSED = {
         "different heads, name those to read: --table 1 (line 1): speed [rpm], load [N], friction",
     ),
     "a missing value": (text(rows=changed(4, 2, "")), "line 6: friction is missing"),
-    "a missing value in words": (text(rows=changed(4, 2, "n/a")), "line 6: friction = 'n/a'"),
+    "a missing value in words": (text(rows=changed(4, 2, "n/a")), "line 6: friction is missing"),
     "a unit of something else": (text(["speed [rpm]", "load [bar]", "friction"]), "column load"),
     "a sign against the others": (text(rows=changed(7, 2, -0.11)), "point 8 is -0.11"),
     "no such channel": (

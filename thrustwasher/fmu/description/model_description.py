@@ -22,6 +22,7 @@ HERE = Path(__file__).parent
 # In FMI 3 enumerations are 64-bit integers, whole numbers 32-bit ones; order as in tables.h.
 TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "Enumeration": "Enumeration"}
 Attributes = dict[str, Any]  # of an element; those that are None are left out
+OF_A_BODY = re.compile(r"^((mesh|shaft|bearing) \d: )+")  # which one it is, the name says too
 LAST_SECOND = 253402300799  # 9999-12-31, the last day that the format of dates has
 RELEASED = 1767225600  # without git and SOURCE_DATE_EPOCH: 2026-01-01
 # unit -> its display units
@@ -194,7 +195,7 @@ def head_attributes(v: Variable, is_hidden: bool = False, is_told: bool = False)
     return {
         "name": v.name,
         "valueReference": v.reference,
-        "description": None if is_told else v.help,
+        "description": None if is_told else OF_A_BODY.sub("", v.help),
         "causality": "local" if is_hidden else v.causality,
         "variability": v.variability,
         "initial": v.initial,

@@ -301,6 +301,7 @@ def sens(par: Array, inp: Array, state: Array, work: Array, seed: Array, dout: A
         by_inputs = by_inputs or seed[i] != 0.0
     clear(dout)
     if by_inputs:
+        clear(fields_of(w).small[L.WARMED : L.N_SMALL])
         status = differentiate(w, pt, change, dout)
     steady = par[L.P_THERMAL_MODE] != L.TRANSIENT
     for k in range(len(SHARES)):

@@ -22,7 +22,7 @@ from .solve import recall_state, scan_holds
 from .workspace import Point, Workspace, fields_of, forget_factor, model_of
 
 ATOL, RTOL = 0.02, 2e-3  # [K], and of the largest rise: what a substep may be off
-SECOND = 0.35  # of what a held flux would be off: two stages, measured near rest and after jumps
+SECOND = 0.35  # of what a held flux would be off: two stages, by 80 sequences of steps
 LOST_SHARE = 0.7  # the film carries more above every fold where it is lost, less where regained
 ARRIVED = 1e-8  # tolerance of each instant: what is stored counts beside small powers
 NEARLY = 1e-7  # where rounding lets no instant come closer, as with hot asperities

@@ -34,6 +34,15 @@ CASES = [
     Case(
         "gearmesh", "constant_friction", 0.1, MESH, {"friction_law": "constant"}, "friction_torque"
     ),
+    Case("gearmesh", "efficiency", 0.9, MESH, {"friction_law": "efficiency"}, "friction_torque"),
+    Case(
+        "gearmesh",
+        "efficiency_back",
+        0.9,
+        MESH | {"load": -60.0},
+        {"friction_law": "efficiency"},
+        "friction_torque",
+    ),
     Case("washer", "coupling_inertia", 0.2, WASHER | SLOW, GIVEN, "friction_torque"),
     Case("gearmesh", "coupling_inertia", 1e-3, MESH | SLOW, GIVEN, "friction_torque"),
     Case(

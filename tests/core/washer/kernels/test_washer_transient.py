@@ -63,7 +63,7 @@ class Washer:
         for b in bodies_of(self.m):
             for j in range(b.columns):
                 part = slice(b.at + j * b.step + b.first, b.at + j * b.step + self.m.n_r)
-                total += ladder._angle(self.m, b, j) * (b.weight[b.first :] @ f.flux[part])
+                total += ladder.angle_of(self.m, b, j) * (b.weight[b.first :] @ f.flux[part])
         return total
 
 
@@ -89,7 +89,7 @@ def matrices(w):
     for b in bodies_of(w.m):
         for j in range(b.columns):
             part = slice(b.at + j * b.step + b.first, b.at + j * b.step + w.m.n_r)
-            capacities[part] = b.storage * b.weight[b.first :] * ladder._angle(w.m, b, j)
+            capacities[part] = b.storage * b.weight[b.first :] * ladder.angle_of(w.m, b, j)
     return conductances, capacities
 
 
@@ -135,7 +135,21 @@ def test_near_rest_few_substeps_are_as_good_as_many():
         allowed = 0.02 + 2e-3 * fine.rises().max()
         assert np.abs(coarse.rises() - fine.rises()).max() < allowed
         assert coarse.out[TORQUE] == pytest.approx(fine.out[TORQUE], rel=1e-5)
-    assert iterations < 240
+    assert iterations < 320
+
+
+def test_oil_that_becomes_hot_at_once_leaves_each_node_within_its_tolerance():
+    """A jump of 40 K, whose first step is the one that an estimate misjudges most."""
+    coarse, fine = Washer(grid=(10, 32)), Washer(grid=(10, 32))
+    for washer in (coarse, fine):
+        assert washer.go(1e-6, load=85.0, speed=294.0) == 0
+    hot = OIL + 40.0
+    for _ in range(3):
+        assert coarse.go(0.1, load=85.0, speed=294.0, oil=hot) == 0
+        for _ in range(64):
+            assert fine.go(0.1 / 64, load=85.0, speed=294.0, oil=hot) == 0
+        allowed = 0.02 + 2e-3 * np.abs(fine.rises()).max()
+        assert np.abs(coarse.rises() - fine.rises()).max() < 0.5 * allowed
 
 
 @pytest.mark.parametrize(

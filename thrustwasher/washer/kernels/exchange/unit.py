@@ -458,6 +458,7 @@ def slopes(
     moved = abs(change.load) + abs(change.speed) + abs(change.tilt)
     moved += abs(change.oil_temperature) + abs(change.far_face)
     fluxes = work[MAP_WORK : MAP_WORK + 3]
+    clear(fields_of(w).small[L.WARMED : L.N_SMALL])
     if in_time:
         clear(fluxes)
         states = along[NINP:]

@@ -66,6 +66,7 @@ PLACES = {
         "train.parameters": {"gearmesh", "losses"},
         "train.solve": {"gearmesh", "losses"},
         "train.train_file": {"gearmesh"},
+        "train.train_text": {"gearmesh"},
     },
     "a gearbox is a shift's scene or a train, which has a report of its own": {
         "studio.commands.efficiency": {"train"},

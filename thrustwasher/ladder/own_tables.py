@@ -73,7 +73,10 @@ def serves(tables: Tables, params: object, box: Box, tol: float) -> bool:
     except ParameterError:
         return False
     metadata = tables.find(params).metadata
-    errors = metadata["tolerance"], metadata.get("held_out", {}).get("torque", 0.0)
+    held_out = metadata.get("held_out", {})
+    if held_out is None:  # built without a check of its errors
+        return False
+    errors = metadata["tolerance"], held_out.get("torque", 0.0)
     return max(errors) <= tol and all(
         known[n][0] <= tables.least(n, (low, high)) and high <= known[n][1]
         for n, (low, high) in box.items()

@@ -297,3 +297,8 @@ def test_a_run_whose_forerunner_failed_builds():
 def test_a_map_that_misses_its_tolerance_does_not_serve(held_out, does):
     tables = Tables(tolerance=0.01, held_out={"torque": held_out})
     assert serves(tables, PARAMS, OWN_BOX, 0.01) == does
+
+
+def test_a_map_whose_errors_are_not_known_yet_does_not_serve():
+    """As the draft of another run, which lies there while its errors are measured."""
+    assert not serves(Tables(tolerance=0.01, held_out=None), PARAMS, OWN_BOX, 0.01)

@@ -244,7 +244,7 @@ def _plain(shown: Interface, v: Variable, fmi: int) -> Variable:
     """Return a variable with a type that every host knows: a choice is its number, a flag 0 or 1.
 
     In FMI 3 inputs say what is so anyway, that their start value is exact. In FMI 2 the clock has a
-    name of its own: OpenModelica declares it beside the time of Modelica.
+    name of its own: OpenModelica declares it next to the time of Modelica.
     """
     if v.causality == "input" and fmi == 3:
         v = replace(v, initial="exact")

@@ -87,7 +87,7 @@ def exchanged(u, plant, end, tolerance=1e-6, method="Radau", **parameters):
         events += 1
         if u.get("locked") != before:
             locks.append((t, bool(u.get("locked"))))
-        assert events < 200, "events without end"
+        assert events < 300, "events without end"
     return {
         "time": np.array(times),
         "slip": np.array(slips),

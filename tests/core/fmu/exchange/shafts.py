@@ -118,7 +118,7 @@ def exchanged(u, shaft, end, brake, heat, tolerance=1e-6, method="Radau", **para
         rates(t, y)
         u.event(t, **shaft.inputs(t, y[0]))
         events += 1
-        assert events < 200, "events without end"
+        assert events < 300, "events without end"
     u.fmu.setTime(end)
     return _found(times, speeds, torques, sum(u.get(n) for n in heat)) | {
         "steps": steps,

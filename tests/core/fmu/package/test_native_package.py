@@ -28,7 +28,7 @@ from thrustwasher.native.targets import PLATFORMS
 
 SMALL = "GearMesh"
 LARGEST = 800_000  # bytes of an FMU with the libraries of every platform
-LARGEST_WASHER = 1_900_000  # seven times 200 kB of kernels; with one platform it is below LARGEST
+LARGEST_WASHER = 2_050_000  # seven times 220 kB of kernels; with one platform it is below LARGEST
 NAMES = [*(spec.name for spec in all_specs()), "CommandSource"]
 
 

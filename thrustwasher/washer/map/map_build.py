@@ -95,7 +95,7 @@ def make_map(
 
 
 def _shown(progress: bool | None, label: str) -> Progress:
-    """Return what shows a step of the build; nothing is shown unless that is wanted."""
+    """Return what shows a step of the build; nothing is shown without it."""
     shown: Progress | None = called("shown_progress")(progress, label) if progress else None
     return shown or (lambda _done, _total: None)
 

@@ -16,7 +16,7 @@ from thrustwasher.native.targets import PLATFORMS, TARGETS
 
 KERNELS = [name for name in libraries() if name.startswith("thrustwasher.")]
 GEAR = "thrustwasher.gearmesh.kernels.step"
-LARGEST = 5_400_000  # bytes of compiled files in the repository
+LARGEST = 5_600_000  # bytes of compiled files in the repository
 
 linux = pytest.mark.skipif(
     link.local_machine() != ("Linux", "x86_64"), reason="the shipped library is for Linux on x86-64"

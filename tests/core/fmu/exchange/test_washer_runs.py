@@ -55,6 +55,7 @@ def test_every_tolerance_ends_alike(tolerance):
     assert stop_of(runs[1]) == pytest.approx(stop_of(runs[0]), rel=part)
 
 
+@pytest.mark.slow
 def test_beside_a_locked_pack_both_are_steady():
     """The shaft hangs on a pack and a washer under an outside torque: it stands, and both hold."""
     pack, washer = Kernels(find_spec("clutch")), Kernels(find_spec("washer"))

@@ -115,7 +115,7 @@ class Fits:
 class Sweep:
     """What a sweep does otherwise than by steps of the model's kernel."""
 
-    walk: Callable[..., None] | None = None  # fills the rows of a line
+    walk: Callable[..., None] | None = None  # fills rows, each solved for itself
     not_shown: tuple[str, ...] = ()  # outputs that make no sense there
     doubt: Callable[[Any, str, NDArray[np.float64]], str] | None = None
     """From parameters, fidelity and inputs to a warning or ""."""

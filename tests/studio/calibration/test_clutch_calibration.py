@@ -9,6 +9,7 @@ from sampling import sizes
 from scipy.stats import binom
 
 from thrustwasher import ClutchParams, ParameterError, calibrate, solve_clutch
+from thrustwasher.studio.calibration.friction import friction_law
 from thrustwasher.studio.calibration.friction.friction_law import (
     WANG_CONSTANTS,
     friction_over,
@@ -303,3 +304,14 @@ def test_shear_of_the_settled_film_is_taken_off_for_a_law_of_the_asperities():
     assert "asperities alone" in str(found)
     as_they_are = fitted(**points)
     assert "total friction" in str(as_they_are) and as_they_are.rms > 1e3 * found.rms
+
+
+def test_of_many_points_the_search_takes_some_and_the_fit_all(monkeypatch):
+    monkeypatch.setattr(friction_law, "N_SEARCHED", 20)
+    measured = noisy(5)
+    some = fitted(measured)
+    monkeypatch.setattr(friction_law, "N_SEARCHED", 40)
+    every = fitted(measured)
+    for one, other in zip(some.estimates, every.estimates, strict=True):
+        assert one.value == pytest.approx(other.value, rel=1e-6)
+        assert one.interval == pytest.approx(other.interval, rel=1e-3)

@@ -266,3 +266,31 @@ def test_no_two_threads_write_to_one_work_array():
     with ThreadPoolExecutor(1) as pool:
         there = pool.submit(lines._steps, spec, "field", params).result().work
     assert not np.shares_memory(here, there)
+
+
+@pytest.mark.parametrize(
+    ("model", "level", "over"),
+    [
+        ("clutch", "field", {"load": (500.0, 2e3), "speed": (1.0, 20.0)}),
+        ("gearmesh", "field", {"power": (1e3, 9e3), "speed": (50.0, 500.0)}),
+        ("washer", "map", {"load": (100.0, 900.0), "speed": (300.0, 1300.0)}),
+    ],
+)
+def test_random_points_are_each_solved_from_nothing_and_their_part_is_made_once_a_task(
+    model, level, over, monkeypatch
+):
+    draw = np.random.default_rng(3)
+    points = {name: draw.uniform(*ends, 640) for name, ends in over.items()}
+    made = []
+    monkeypatch.setattr(lines, "_steps", lambda *a, f=lines._steps: made.append(a) or f(*a))
+    table = run_sweep(model, points=points, fidelity=level, workers=1)
+    assert len(made) <= 64  # once a task
+    for i in range(0, 640, 80):
+        alone = {name: column[i : i + 1] for name, column in points.items()}
+        own = run_sweep(model, points=alone, fidelity=level, workers=1)
+        assert own["friction_torque"][0] == table["friction_torque"][i]
+
+
+def test_a_column_with_a_number_out_of_range_names_its_point():
+    with pytest.raises(ParameterError, match=r"point 2: speed = 9000.0 rad/s, allowed: "):
+        run_sweep("clutch", points={"load": [1e3, 1e3], "speed": np.array([5.0, 9e3])})

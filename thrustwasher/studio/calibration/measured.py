@@ -49,6 +49,13 @@ class Measured:
         """Return which values are those of an output, (n,)."""
         return np.array([name == output for name in self.output])
 
+    def some(self, places: NDArray[np.int64]) -> "Measured":
+        """Return the values at these places alone."""
+        output = tuple(self.output[i] for i in places.tolist())
+        error = None if self.error is None else self.error[places]
+        row, value = self.row[places], self.value[places]
+        return replace(self, row=row, output=output, value=value, error=error)
+
     def input(self, name: str) -> Array:
         """Return an input of every value's point, (n,)."""
         place = [s.name for s in self.plan.spec.inputs].index(name)

@@ -6,9 +6,10 @@ loaded washer does: going up in load the film is kept to its fold, coming down a
 regained at the other one. A point that fails leaves the memory as it was.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from itertools import pairwise
 from threading import get_ident
 from typing import Any
 
@@ -52,13 +53,19 @@ def solve_task(task: Task) -> tuple[Array, Flags]:
     real, whole = output_signals(spec)
     numbers = np.empty((len(task.inputs), len(real)))
     flags = np.zeros((len(task.inputs), len(whole)), np.int32)
-    walk = find_model(spec.key).sweep.walk or _walk_kernel
-    for a, b, params in zip(task.starts[:-1], task.starts[1:], task.params, strict=True):
+    walk = find_model(spec.key).sweep.walk
+    for first, last, params in _alike(task):
+        a, b = task.starts[first], task.starts[last]
         if params is None:
             flags[a:b, -1] = Status.BAD_INPUT
         else:
+            rows = task.inputs[a:b], numbers[a:b], flags[a:b]
             try:
-                walk(spec, params, task.fidelity, task.inputs[a:b], numbers[a:b], flags[a:b])
+                if walk:
+                    walk(spec, params, task.fidelity, *rows)
+                else:
+                    starts = [s - a for s in task.starts[first : last + 1]]
+                    _walk_kernel(spec, params, task.fidelity, *rows, starts)
                 absent = spec.absent(params)
                 numbers[a:b, [i for i, s in enumerate(real) if s.name in absent]] = np.nan
             except ParameterError:  # parameters that only the kernel's constants refuse
@@ -67,15 +74,25 @@ def solve_task(task: Task) -> tuple[Array, Flags]:
     return numbers, flags
 
 
+def _alike(task: Task) -> Iterator[tuple[int, int, Any]]:
+    """Give the first line, the one after the last and the parameters of lines that share them."""
+    ends = [*np.flatnonzero([a is not b for a, b in pairwise(task.params)]) + 1, len(task.params)]
+    for first, last in pairwise([0, *ends]):
+        yield first, last, task.params[first]
+
+
 def _walk_kernel(
-    spec: ModelSpec, params: object, fidelity: str, inputs: Array, numbers: Array, flags: Flags
-) -> None:
-    """Fill the rows of one line by steps of the model's kernel."""
+    spec: ModelSpec, params: object, fidelity: str, inputs: Array, numbers: Array, flags: Flags,
+    starts: Sequence[int],
+) -> None:  # fmt: skip
+    """Fill the rows of lines by steps of the model's kernel; each line starts without memory."""
     steps, n = _steps(spec, fidelity, params), len(inputs)
-    steps.state[:], steps.iout[:] = 0.0, 0
+    inputs = np.ascontiguousarray(inputs)
     outs, statuses = np.empty((n, len(steps.out))), np.empty(n, np.int32)
     iouts = np.empty((n, len(steps.iout)), np.int32)
-    steps.over(np.ascontiguousarray(inputs), outs, iouts, statuses)
+    for a, b in pairwise(starts):
+        steps.state[:], steps.iout[:] = 0.0, 0
+        steps.over(inputs[a:b], outs[a:b], iouts[a:b], statuses[a:b])
     real, whole = _places(spec.key)
     numbers[:], flags[:] = outs[:, real], iouts[:, whole]
     failed = statuses >= FIRST_FAILURE
@@ -123,7 +140,8 @@ class _Steps:
 
     def over(self, inputs: Array, outs: Array, iouts: Flags, statuses: Flags) -> None:
         """Step over rows of inputs; fill the outputs and statuses of each."""
-        if rows := getattr(self.kernel, "step_rows", None):
+        rows = getattr(self.kernel, "step_rows", None)
+        if rows and len(inputs) > 1:
             rows(self.par, inputs, self.state, self.work, self.iout, outs, iouts, statuses)
             return
         point, step, out, iout = self.point, self.step, self.out, self.iout

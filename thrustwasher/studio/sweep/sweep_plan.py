@@ -180,12 +180,11 @@ def listed(
         if name == "line":
             continue
         place = find_quantity(name, known, spec)
-        kind = float if place.kind == "real" else object
         if not np.ndim(values):
             raise ParameterError(
                 f"points: {name} = {values!r}, allowed: a column; what all points share: at"
             )
-        columns[name] = np.array([_checked(place, i, v) for i, v in enumerate(values)], kind)
+        columns[name] = _column(place, values)
     lengths = {name: len(values) for name, values in points.items()}
     if not columns or len(set(lengths.values())) != 1 or not 0 < min(lengths.values()):
         raise ParameterError(f"points: columns of {lengths}, allowed: one length for all, above 0")
@@ -200,6 +199,16 @@ def listed(
             if not known[name].is_input:
                 first[1:] |= column[1:] != column[:-1]
     return columns, np.append(np.flatnonzero(first), n), list(columns)
+
+
+def _column(place: Quantity, values: Any) -> NDArray[Any]:
+    """Return a column of allowed values; numbers in their range are checked at once."""
+    if place.kind != "real":
+        return np.array([_checked(place, i, v) for i, v in enumerate(values)], object)
+    plain = np.asarray(values)
+    if plain.dtype.kind in "fiu" and ((place.low <= plain) & (plain <= place.high)).all():
+        return plain.astype(float)
+    return np.array([_checked(place, i, v) for i, v in enumerate(values)], float)
 
 
 def _checked(place: Quantity, i: int, value: object) -> Any:

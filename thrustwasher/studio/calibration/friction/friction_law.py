@@ -34,6 +34,7 @@ LARGEST_FRICTION = 2.0
 SPEEDS, LINEAR = ("stick_speed", "decay_speed"), ("plough_weight", "shear_floor")
 N_STICK, N_DECAY, N_OTHER = 10, 7, 3  # values of each constant that the coarse search tries
 N_STARTS = 4  # best of them, refined
+N_SEARCHED = 4000  # points of the coarse search at most
 TABLE = (
     'take friction_law = "table" (ClutchParams.with_table), which follows a measured curve '
     "in up to six points"
@@ -288,9 +289,24 @@ def _with_law(points: Measured, asked: Asked) -> tuple[Measured, tuple[str, ...]
 
 
 def _starts(law: LawPoints, problem: FitProblem, first: Array) -> list[Array]:
-    """Return the best points of a coarse search; the two weights follow by linear fits."""
+    """Return the best points of a coarse search; the two weights follow by linear fits.
+
+    Of many points it takes ``N_SEARCHED``, evenly among the ranks of their speeds.
+    """
     if law.is_constant:
         return []
+    if len(law.speed) > N_SEARCHED:
+        ranks = np.linspace(0, len(law.speed) - 1, N_SEARCHED).astype(int)
+        rows = np.argsort(law.speed, kind="stable")[ranks]
+        law = LawPoints(law.points.some(rows))
+        problem = replace(
+            problem,
+            computed=law.friction,
+            exact_slopes=law.slopes,
+            measured=problem.measured[rows],
+            weight=problem.weight[rows],
+            kept={},
+        )
     grids = [_candidates(law, problem, i, float(first[i])) for i in range(len(first))]
     linear = [i for i, name in enumerate(problem.names) if name in LINEAR]
     tried = []

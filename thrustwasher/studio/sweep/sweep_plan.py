@@ -184,7 +184,7 @@ def listed(
             raise ParameterError(
                 f"points: {name} = {values!r}, allowed: a column; what all points share: at"
             )
-        columns[name] = _column(place, values)
+        columns[name] = _allowed(place, values)
     lengths = {name: len(values) for name, values in points.items()}
     if not columns or len(set(lengths.values())) != 1 or not 0 < min(lengths.values()):
         raise ParameterError(f"points: columns of {lengths}, allowed: one length for all, above 0")
@@ -201,7 +201,7 @@ def listed(
     return columns, np.append(np.flatnonzero(first), n), list(columns)
 
 
-def _column(place: Quantity, values: Any) -> NDArray[Any]:
+def _allowed(place: Quantity, values: Any) -> NDArray[Any]:
     """Return a column of allowed values; numbers in their range are checked at once."""
     if place.kind != "real":
         return np.array([_checked(place, i, v) for i, v in enumerate(values)], object)

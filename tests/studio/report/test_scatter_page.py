@@ -55,7 +55,7 @@ def test_a_train_leads_with_the_power_lost_and_has_lives_in_hours():
         study(kind="part", series={}, model="train", figures=figures, sample=sample, nearest={})
     )
     lost, life = page.cards[0], page.cards[1]
-    assert (lost.name, lost.value) == ("power lost, of what goes in", "2.29 .. 2.39 %")
+    assert (lost.name, lost.value) == ("loss, of the power in", "2.29 .. 2.39 %")
     assert life.value == "10500 .. 19500 h"
 
 

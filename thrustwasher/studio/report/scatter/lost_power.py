@@ -10,7 +10,7 @@ from .study_data import Study
 from .words import HIGH, LOW
 
 NAME = "efficiency"  # it keeps its name in all tables
-TITLE = "power lost, of what goes in"
+TITLE = "loss, of the power in"
 OTHER_END = {LOW: HIGH, HIGH: LOW}
 
 

@@ -45,6 +45,31 @@ def row(name):
     return [name, shown, *cells], far
 
 
+def grouped(rows):
+    """Return rows whose names differ by a number, or behind a comma, as one of ranges."""
+    groups = {}
+    for name, *cells in rows:
+        groups.setdefault(re.sub(r" \d+$|, .*", "", name), []).append((name, cells))
+    found = []
+    for kind, members in groups.items():
+        columns = zip(*(cells for _, cells in members), strict=True)
+        shown = [
+            ", ".join(_range(parts) for parts in zip(*(c.split(", ") for c in column), strict=True))
+            for column in columns
+        ]
+        own = f"{kind} ({len(members)} runs)" if len(members) > 1 else members[0][0]
+        found.append([own, *shown])
+    return found
+
+
+def _range(values):
+    """Return numbers as text from the least to the largest; "-": there is none."""
+    there = sorted((x for x in values if x != "-"), key=float)
+    if not there:
+        return "-"
+    return there[0] if there[0] == there[-1] else f"{there[0]}..{there[-1]}"
+
+
 def table(names):
     """Return the lines of the table and the sentence on the largest differences."""
     rows, far = [], []
@@ -55,7 +80,7 @@ def table(names):
         print(f"| {' | '.join(cells)} |", flush=True)
     worst = [max(x for run in far for x in run[k] if x is not None) for k in range(len(TOLERANCES))]
     told = ", ".join(f"{100.0 * x:.2f} % at {t:g}" for x, t in zip(worst, TOLERANCES, strict=True))
-    lines = [HEAD, ["---"] * len(HEAD), *rows]
+    lines = [HEAD, ["---"] * len(HEAD), *grouped(rows)]
     return [f"| {' | '.join(x)} |" for x in lines], f"Largest difference of all: {told}."
 
 

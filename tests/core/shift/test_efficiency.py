@@ -7,8 +7,9 @@ import pytest
 from scene_runs import changed, slow_without_jit
 
 from thrustwasher import ParameterError, solve_clutch, solve_gearmesh, solve_losses
-from thrustwasher.shift import load_scene
+from thrustwasher.shift import load_scene, steady_points
 from thrustwasher.shift.checks.steady_doubts import capacity
+from thrustwasher.shift.cosim.system import ConnectedPart
 from thrustwasher.shift.steady_points import SOURCES, efficiency_map
 from thrustwasher.studio.report.model_plots.efficiency_plot import efficiency_figure
 
@@ -34,6 +35,24 @@ def test_power_in_is_power_out_and_losses(scene, gear):
     power = (c["torque"] * c["speed"])[out]
     assert c["efficiency"][out] == pytest.approx(1.0 - c["loss"][out] / power, rel=1e-12)
     assert np.isnan(c["efficiency"][~out]).all()
+
+
+@slow_without_jit
+def test_a_washer_is_solved_at_most_five_times_a_point_and_as_if_solved_in_each_sweep(monkeypatch):
+    solved, refresh = [], ConnectedPart.refresh
+
+    def counted(part, time):
+        solved.append(part.name)
+        refresh(part, time)
+
+    scene, points = load_scene("planetary"), ([100.0, 150.0], [200.0])
+    monkeypatch.setattr(ConnectedPart, "refresh", counted)
+    found = efficiency_map(scene, *points)
+    assert solved.count("washer") <= 10
+    monkeypatch.setattr(steady_points, "NEAR", 0.0)
+    each = efficiency_map(scene, *points)
+    for name in ("loss", "washer_loss", "efficiency"):
+        assert found.columns[name] == pytest.approx(each.columns[name], rel=1e-7)
 
 
 @slow_without_jit

@@ -1,4 +1,18 @@
-"""The bristle of friction at rest: passive, limited, exact slopes, no creep, the right lock-up."""
+"""The bristle of friction at rest: passive, limited, exact slopes, no creep, the right lock-up.
+
+Why the heat T v - k z z' is never negative (symbols: docs/theory/bristle.md):
+
+1. Leaks. The last two terms of z' have the sign of -z: in -k z z' they give heat. Left is T v - k
+   z r.
+2. Without the cut. Let rho = (1 - alpha x)/(1 + alpha abs(v)/v_c) <= 1, so that r = n v rho. Then
+   T v - k z r = n k z v (1 - rho) + d n v^2 rho. For v z <= 0 rho is 1, and d n v^2 is left. For
+   v z > 0 only the second term can be negative, for x > 1. There d abs(v) <= b <= k abs(z)/2: it
+   is at most half of n k abs(z) abs(v) abs(rho), less than the first.
+3. Cut at C, v > 0. n k abs(z) <= C by the choice of n, and rho <= 1: for z > 0 k z r <= C v; for
+   z <= 0 k z r <= 0. So C v - k z r >= 0.
+4. Cut at C, v < 0 does not occur: for z > 0 r < 0 and n k z + d r < C; for z <= 0 r > 0 only with
+   rho < 0, and then d r <= C/2 - C abs(n k z)/C < C.
+"""
 
 import numpy as np
 import pytest

@@ -395,6 +395,18 @@ def test_a_geometry_that_the_kernel_refuses_says_why_and_the_last_one_stays(
 
 
 @pytest.mark.browser
+def test_lines_along_the_path_have_no_kinks_within_a_piece(opened):
+    """The Hertz pressure from A to B falls ever less steeply, by small turns."""
+    panel = opened("gearmesh").page.locator("#views .panel", has_text="Hertz pressure")
+    text = panel.locator("polyline.line").first.get_attribute("points")
+    x, y = np.array([p.split(",") for p in text.split()], float).T
+    first = slice(0, int(np.argmax(np.diff(x) == 0.0)))  # to the jump at B
+    turns = np.diff(np.arctan2(np.diff(y[first]), np.diff(x[first])))
+    assert len(x[first]) > 20 and np.abs(turns).max() < np.radians(5.0)
+    assert np.all(np.diff(y[first]) > 0.0)  # drawn downwards
+
+
+@pytest.mark.browser
 def test_the_shift_slider_moves_the_teeth(opened):
     page = opened("gearmesh")
     page.page.locator("#in-profile_shift_pinion-slider").fill("650")

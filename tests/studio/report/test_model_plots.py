@@ -25,6 +25,7 @@ from thrustwasher.shift import cosimulate, load_scene, run_sequence
 from thrustwasher.shift.steady_points import efficiency_map
 from thrustwasher.shown import Card, Line, Shown, Tabled, Words, column_lines, plain
 from thrustwasher.studio.report.model_plots.clutch_plot import clutch_figure
+from thrustwasher.studio.report.model_plots.contours import numbered_contours
 from thrustwasher.studio.report.model_plots.fit_plot import calibration_figure
 from thrustwasher.studio.report.model_plots.gearmesh_plot import gearmesh_figure, over_teeth
 from thrustwasher.studio.report.model_plots.losses_plot import losses_figure
@@ -520,3 +521,11 @@ def test_a_study_stands_beside_the_figures_of_its_shift(made):
     shift = replace(made("ShiftResult"), scatter=made("ScatterResult"))
     assert shift.to_dict()["scatter"]["runs"] == 64
     assert "scatter" not in made("ShiftResult").to_dict()
+
+
+def test_lines_of_equal_value_have_no_kinks_from_the_grid():
+    """On 7 x 7 points of x y the line of 2 lies within 0.2 %, with straight pieces 0.9 %."""
+    axis, at = Figure().add_subplot(), np.linspace(1.0, 2.0, 7)
+    assert numbered_contours(axis, at, at, np.outer(at, at) ** 4, [16.0], "black") == [16.0]
+    x, y = axis.collections[-1].get_paths()[0].vertices.T
+    assert x * y == pytest.approx(2.0, rel=2e-3) and len(x) > 24

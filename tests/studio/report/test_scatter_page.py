@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scatter_stand_in import LEVELS, NOTHING, SOURCES, band, study
 
-from thrustwasher.studio.report.html import Plot, Table, render, themed
+from thrustwasher.studio.report.html import Plot, Section, Table, render, themed
 from thrustwasher.studio.report.scatter import scatter_page
 from thrustwasher.studio.report.scatter.decides import RANK, leading, shares, verdict
 from thrustwasher.studio.report.scatter.scatter_plots import bar_figure, decided_over_time
@@ -16,7 +16,7 @@ from thrustwasher.studio.report.scatter.scatter_tables import (
     figure_table,
     matrix_table,
 )
-from thrustwasher.studio.report.scatter.words import band_words, named, percent
+from thrustwasher.studio.report.scatter.words import band_words, named, percent, short_title
 from thrustwasher.studio.scatter.result import Probability
 
 FILM = "minimum_washer_film_ratio"
@@ -55,7 +55,7 @@ def test_a_train_leads_with_the_power_lost_and_has_lives_in_hours():
         study(kind="part", series={}, model="train", figures=figures, sample=sample, nearest={})
     )
     lost, life = page.cards[0], page.cards[1]
-    assert (lost.name, lost.value) == ("power lost, of what goes in", "2.29 .. 2.39 %")
+    assert (lost.name, lost.value) == ("loss, of the power in", "2.29 .. 2.39 %")
     assert life.value == "10500 .. 19500 h"
 
 
@@ -120,6 +120,30 @@ def test_a_loose_quantile_shows_its_confidence_on_the_card():
     own = notes["minimum film ratio of the washers"]
     assert own.endswith("95 % quantile by 95 % confidence: 5 or more")
     assert "confidence" not in notes["heat in the clutch"]
+
+
+def test_errors_are_compared_only_where_more_than_the_inputs_is_known():
+    """A choice of the model, or a numerical error; else notes stand with the runs."""
+    found = study()
+    bare = {name: replace(own, error=None) for name, own in found.figures.items()}
+    known = tuple(s for s in found.sources if not isinstance(s.nominal, str))
+    alone = scatter_page(replace(found, figures=bare, sources=known, notes=("a note",)))
+    assert "errors" not in [s.anchor for s in alone.sections]
+    assert section(alone, "runs").texts[-1] == "A note."
+    assert section(scatter_page(found), "errors").tables
+
+
+def test_a_title_above_a_small_picture_is_short():
+    lock, long = study().figures["slip_energy"], "minimum separation of the mean surfaces"
+    assert short_title("slip_energy", lock) == "heat in the clutch"
+    assert short_title("film_thickness", replace(lock, help=long)) == "film thickness"
+
+
+def test_what_stays_folded_alone_is_not_printed():
+    folded = Table(["a"], [["1"]], folded=True, stays=True)
+    assert Section("s", "S", texts=["words"], tables=[folded]).unprinted
+    assert not Section("s", "S", tables=[folded, replace(folded, stays=False)]).unprinted
+    assert not Section("s", "S", texts=["words"]).unprinted
 
 
 def test_both_ends_of_a_band_have_as_many_digits():

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 
-from ...model.toml_tables import read_file
 from .comparison import Comparison
 from .data_set_file import DataSet
 
@@ -67,15 +66,9 @@ def collection_page(blind: Sequence[Comparison], fits: Sequence[Comparison], wan
         )
         lines += ["", f"## {c.data_set.name}", "", textwrap.fill(text, WIDTH), "", *_points(c)]
         lines += [f"\n{text.replace(DEFAULTS, 'Default')}." for text in c.warnings]
-    lines += [
-        "",
-        "## Wanted",
-        "",
-        "Numbers that are not available; contributions are welcome.",
-        "",
-    ]
-    table = read_file("wanted", wanted) if wanted.is_file() else {}
-    lines += [f"- {row['source']}: {row['what']}" for row in table.get("wanted", [])]
+    if wanted.is_file():
+        text = "lists numbers that are not available. Contributions are welcome."
+        lines += ["", "## Wanted", "", f"`{wanted.as_posix()}` {text}"]
     return "\n".join([*lines, "", OWN])
 
 

@@ -119,6 +119,12 @@ class Section:
         without = self.plots or self.tables or (self.texts and not self.widgets)
         return "" if without else "widget"
 
+    @property
+    def unprinted(self) -> bool:
+        """Whether there is nothing to print: all of it stays folded."""
+        there = bool(self.tables) and not (self.plots or self.widgets)
+        return there and all(table.folded and table.stays for table in self.tables)
+
 
 @dataclass(frozen=True)
 class Card:
@@ -128,6 +134,11 @@ class Card:
     value: str
     note: str = ""
     figure: str = ""
+
+    @property
+    def pieces(self) -> list[str]:
+        """The note in pieces that are not broken where they have room; markup is one."""
+        return [self.note] if hasattr(self.note, "__html__") else re.split("(?<=[:;]) ", self.note)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -104,7 +104,7 @@ def reducer_page(
     sections = [
         *([_design_section(optimum)] if optimum else []),
         Section("points", "Operating points", tables=[_point_table(found)]),
-        Section("losses", "Losses by source", tables=[_loss_table(found)]),
+        Section("losses", "Losses by source", tables=_loss_tables(found)),
         Section("safeties", "Safeties", texts=[note], tables=[_safety_table(found)]),
         Section(
             "lives",
@@ -256,16 +256,24 @@ def _point_table(found: Sequence[OperatingPoint]) -> Table:
     return Table([*heads, "loss of the power", "loss"], rows, range(1, 8))
 
 
-def _loss_table(found: Sequence[OperatingPoint]) -> Table:
-    heads = ["source", *(f"point {i}" for i in range(1, len(found) + 1))]
-    rows = []
-    for name, (words, _) in SOURCES.items():
-        rows.append([words, *(_part_of(p.figures[name], p.figures["loss"]) for p in found)])
+def _loss_tables(found: Sequence[OperatingPoint]) -> list[Table]:
+    """Return the losses by source, which add up, and those of single meshes and bearings."""
+    heads = [f"point {i}" for i in range(1, len(found) + 1)]
     whole = {name.removesuffix("_loss") for name in SOURCES}
     single = [name for name in found[0].ending("loss") if name not in whole]
-    for name in single:
-        rows.append([name, *(say(p.ending("loss")[name], "W", digits=3) for p in found)])
-    return Table(heads, rows, range(1, len(heads)))
+    sources = [
+        [words, *(_part_of(p.figures[name], p.figures["loss"]) for p in found)]
+        for name, (words, _) in SOURCES.items()
+    ]
+    parts = [
+        [name, *(_part_of(p.ending("loss")[name], p.figures["loss"]) for p in found)]
+        for name in single
+    ]
+    numbers = range(1, len(heads) + 1)
+    return [
+        Table(["source", *heads], sources, numbers),
+        Table(["mesh, bearing", *heads], parts, numbers),
+    ]
 
 
 def _part_of(loss: float, whole: float) -> str:

@@ -11,7 +11,7 @@ from .target import Target
 DRAWS = 1000  # quantiles that a law's standard deviation is taken of
 SHARE = 0.02  # of the standard deviation, to either side
 APART = 0.2  # of the sampled deviation: more is worth a warning
-ROUNDING = 1e-9  # of a nominal value: deviations below are none
+ROUNDING = 1e-6  # of a nominal value: deviations below are none
 SURE = 0.01  # probability below which the other branch does not count
 
 

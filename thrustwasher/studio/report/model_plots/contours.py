@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 TRIED = 40  # places for a number along a line
+FINE = 4  # pieces of an interval: lines have no kinks from the grid
 
 
 def numbered_contours(
@@ -14,8 +15,10 @@ def numbered_contours(
 ) -> list[float]:
     """Draw the lines that have room for their numbers; return their levels, rising.
 
-    ``values`` (y, x). A number lies inside the axes and on no other one; the highest come first.
+    ``values`` (y, x); between them lines follow the monotone cubic through them. A number lies
+    inside the axes and on no other one; the highest come first.
     """
+    x, y, values = _refined(x, y, values)
     axis.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
     axis.figure.canvas.draw()
     box, taken, named = axis.get_window_extent(), list[Any](), list[float]()
@@ -40,6 +43,19 @@ def numbered_contours(
     if found:
         axis.contour(x, y, values, levels=found, colors=colour)
     return found
+
+
+def _refined(x: Any, y: Any, values: Any) -> tuple[Any, Any, Any]:
+    """Return a map on a finer grid; as it is where values are missing."""
+    from scipy.interpolate import PchipInterpolator
+
+    if not np.isfinite(values).all() or min(len(x), len(y)) < 3:
+        return x, y, values
+    for axis, at in ((1, np.asarray(x, float)), (0, np.asarray(y, float))):
+        places = np.interp(np.arange(FINE * (len(at) - 1) + 1) / FINE, np.arange(len(at)), at)
+        values = PchipInterpolator(at, values, axis=axis)(places)
+        x, y = (places, y) if axis else (x, places)
+    return x, y, values
 
 
 def _places(piece: Any) -> list[tuple[float, float]]:

@@ -33,7 +33,9 @@ def calibration_figure(found: Any, *, residuals: bool = True) -> Figure:
     counts = [min(len(over), over_inputs if residuals else 0) for over, _ in drawn]
     wide = max(1 + bool(f) + n for f, n in zip(beside, counts, strict=True))
     shape: Any = (11.0 if wide > 1 else 6.4, 1.2 + 3.0 * len(shown), len(shown), wide)
-    figure, panels = new_figure(*shape, head=2, choose="residuals = False: of one output")
+    figure, panels = new_figure(
+        *shape, head=2, across=1.0, choose="residuals = False: of one output"
+    )
     rows = [panels[i : i + wide] for i in range(0, len(panels), wide)]
     for series, (inputs, apart), friction, n, (left, *others) in zip(
         shown, drawn, beside, counts, rows, strict=True

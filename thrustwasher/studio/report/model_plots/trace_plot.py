@@ -1,5 +1,6 @@
 """A calibration on recordings: measured and fitted over time, and what is left."""
 
+from pathlib import Path
 from typing import Any
 
 from matplotlib.axes import Axes
@@ -45,5 +46,6 @@ def _draw_history(axis: Axes, found: Any, history: Any, unit: str, factor: float
         name = f"{100 * found.confidence:g} % band"
         axis.fill_between(time, computed - half, computed + half, color=SKY, alpha=0.6, label=name)
     axis.plot(time, computed, color=ORANGE, label="fit", zorder=4)
-    label(axis, f"{history.name.replace('_', ' ')}, {history.recording}", "time [s]", f"[{unit}]")
+    of = Path(history.recording).name  # of a file its name alone
+    label(axis, f"{history.name.replace('_', ' ')}, {of}", "time [s]", f"[{unit}]")
     axis.legend(edgecolor=GREY)

@@ -10,7 +10,8 @@ from .study_data import Study
 from .words import HIGH, LOW
 
 NAME = "efficiency"  # it keeps its name in all tables
-TITLE = "power lost, of what goes in"
+TITLE = "loss, of the power in"
+LOSS = "loss"  # [W]: called as in the other reports
 OTHER_END = {LOW: HIGH, HIGH: LOW}
 
 
@@ -41,7 +42,10 @@ def with_lost_power(result: Study) -> Study:
     if key in sample:
         sample[key] = 100.0 * (1.0 - np.asarray(sample[key], float))
     nearest = {n: other_ends(x) if n == NAME else x for n, x in told.nearest.items()}
-    figures = {n: lost if n == NAME else x for n, x in result.figures.items()}
+    own: Any = {NAME: lost}
+    if LOSS in result.figures:
+        own[LOSS] = replace(told.figures[LOSS], help=LOSS)
+    figures = {n: own.get(n, x) for n, x in result.figures.items()}
     changed: Study = replace(told, figures=figures, sample=sample, nearest=nearest)
     return changed
 

@@ -131,7 +131,8 @@ def _draw_distribution(axis: Axes, result: Study, name: str) -> Scale:
     shown = (values - scale.zero) / scale.size
     low, high = np.quantile(shown[sound], [0.005, 0.995])
     logarithmic = low > 0.0 and high > 30.0 * low
-    ends = np.geomspace(low, high, 33) if logarithmic else np.linspace(low, high, 33)
+    count = int(np.clip(np.ceil(2.0 * sound.sum() ** (1.0 / 3.0)), 8, 32)) + 1  # Rice's rule
+    ends = np.geomspace(low, high, count) if logarithmic else np.linspace(low, high, count)
     if not high > low:
         ends = np.linspace(low - 0.5, low + 0.5, 4)
     kept, is_lost = np.clip(shown[sound], ends[0], ends[-1]), None if lost is None else lost[sound]

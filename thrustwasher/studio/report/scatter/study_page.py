@@ -37,6 +37,7 @@ from .words import (
     percent,
     relative_spread,
     sentence,
+    short_title,
     steady_texts,
     title_of,
     varies,
@@ -110,9 +111,9 @@ def scatter_page(result: Study, files: tables.Files | None = None) -> Page:
             *decided_sections(result, chosen),
             *over_time_sections(result),
             source_section(result),
-            error_section(result, chosen),
+            *error_sections(result, chosen),
             *_nearest_sections(result, chosen, files or {}),
-            Section("runs", "The runs", texts=_run_texts(result), tables=_failed(result)),
+            Section("runs", "The runs", texts=_run_texts(result, chosen), tables=_failed(result)),
         ],
         footer="One file, readable offline. The same numbers: sample.csv, figures.csv and, of a "
         "scene, series.csv next to this page, and thrustwasher scatter --json.",
@@ -178,7 +179,7 @@ def _first_decided(result: Study, names: Sequence[str]) -> list[str]:
         if varies(band):
             most = most_words(shares(result, name), flagged(result))
             texts.append(f"{title_of(name, band)}: {band_words(band)}, {most}")
-    return [f"{'; '.join(texts)}."] if texts else []
+    return [sentence("; ".join(texts))] if texts else []
 
 
 def _chance_text(result: Study) -> list[str]:
@@ -227,7 +228,7 @@ def _distribution_sections(result: Study, names: Sequence[str]) -> list[Section]
     for i, name in enumerate(names):
         if column(result.sample, name) is not None:
             band = result.figures[name]
-            figure = plots.distribution_figure(result, name, title_of(name, band))
+            figure = plots.distribution_figure(result, name, short_title(name, band))
             caption = f"{title_of(name, band)}: {band_words(band)}"
             tiles.append(Plot(f"spread-{i}", figure, caption, tiles=3))
     title = "Distributions of the figures"
@@ -260,7 +261,7 @@ def decided_sections(result: Study, names: Sequence[str]) -> list[Section]:
     tiles = [
         Plot(
             f"decides-{i}",
-            plots.bar_figure(of, title_of(name, result.figures[name])),
+            plots.bar_figure(of, short_title(name, result.figures[name])),
             f"{title_of(name, result.figures[name])}: {most_words(of)}",
             tiles=3,
         )
@@ -314,11 +315,13 @@ def source_texts(result: Study) -> list[str]:
     ]
 
 
-def error_section(result: Study, names: Sequence[str]) -> Section:
-    """Return mesh, model and inputs side by side."""
-    table = tables.error_table(result, names)
-    texts = [ERROR_TEXT, *map(sentence, result.notes)]
-    return Section("errors", "Mesh, model, inputs", texts=texts, tables=[table])
+def error_sections(result: Study, names: Sequence[str]) -> list[Section]:
+    """Return mesh, model and inputs side by side; none where inputs alone are known."""
+    if not tables.choices_of(result) and all(result.figures[n].error is None for n in names):
+        return []
+    table, notes = tables.error_table(result, names), map(sentence, result.notes)
+    title = "Mesh, model, inputs"
+    return [Section("errors", title, texts=[ERROR_TEXT, *notes], tables=[table])]
 
 
 def _nearest_sections(
@@ -337,7 +340,7 @@ def _nearest_sections(
     return [Section("nearest", title, texts=[text], tables=found)] if found else []
 
 
-def _run_texts(result: Study) -> list[str]:
+def _run_texts(result: Study, names: Sequence[str]) -> list[str]:
     side = "up from light load" if result.reached == "below" else "down from a high load"
     return [
         tables.share_of_failed(result),
@@ -345,6 +348,7 @@ def _run_texts(result: Study) -> list[str]:
         f"{result.runs} base runs, indices of exchanges between them (Saltelli's design), "
         "confidence of eight independent scrambles. Where several solutions exist, the branch is "
         f"the one reached {side}. Took {say(result.wall_time, 's', digits=3)}.",
+        *([] if error_sections(result, names) else map(sentence, result.notes)),
     ]
 
 

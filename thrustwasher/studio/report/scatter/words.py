@@ -15,6 +15,7 @@ NONE = "\N{EN DASH}"
 LOW, MIDDLE, HIGH = 0.05, 0.5, 0.95
 BAND = "5 .. 95 %"  # the head of a column
 MOST_DIGITS = 6
+SHORT = 24  # letters of a title that fits above a small picture with its unit
 LIFE = 1e5  # s
 LOST = "film_lost"
 LOST_TEXTS = {
@@ -125,6 +126,12 @@ def spoken(help: str) -> str:
 def title_of(name: str, band: Band) -> str:
     """Return what a figure is, its name where nothing says it."""
     return spoken(band.help) or named(name)
+
+
+def short_title(name: str, band: Band) -> str:
+    """Return a title for a small picture: what a figure is if that is short, else its name."""
+    title = title_of(name, band)
+    return title if len(title) <= SHORT else named(name)
 
 
 def steady_texts(result: Study) -> list[str]:

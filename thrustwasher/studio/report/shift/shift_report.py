@@ -178,7 +178,7 @@ def _cards(record: Record) -> list[Card]:
             notes += [*known, f"nominal values: {ends[2]}"]
         name = f"{f.text}, median" if spread else f.text
         own = "" if spread or f.name in usual else f.name  # whose nominal value a script writes
-        return Card(name, words_of(f, shown), Markup("<br>").join(notes), own)
+        return Card(name, words_of(f, shown, 3 if spread else 4), Markup("<br>").join(notes), own)
 
     found = [f for name in names if (f := record.figure(name)) is not None]
     cards = [card(f, f.value) for f in found if f.value is not None]

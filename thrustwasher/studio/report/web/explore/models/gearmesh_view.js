@@ -18,6 +18,55 @@ function between(path, key, x) {
 
 const FLANK = 14,
   NEAR = 0.12; // points on a flank; base pitches within which two letters share a place
+const NODES = 5, // of a piece of the path
+  FINE = 6; // steps of a curve between two of them
+
+/** Return the slope at the first of three points, of the sign of the first interval. */
+function endSlope(h, g, d, e) {
+  const m = ((2 * h + g) * d - h * e) / (h + g);
+  if (m * d <= 0) return 0;
+  return d * e <= 0 && Math.abs(m) > Math.abs(3 * d) ? 3 * d : m;
+}
+
+/** Return points of the monotone cubic through some points, which rise in x. */
+function smooth(points) {
+  const h = points.slice(1).map(([x], k) => x - points[k][0]),
+    d = h.map((step, k) => (points[k + 1][1] - points[k][1]) / step),
+    n = h.length - 1;
+  if (!h.every((step) => step > 0) || !d.every(Number.isFinite)) return points;
+  const inner = (k) => {
+    const [one, two] = [h[k] + 2 * h[k - 1], 2 * h[k] + h[k - 1]];
+    return d[k - 1] * d[k] > 0 ? (one + two) / (two / d[k - 1] + one / d[k]) : 0;
+  };
+  const slopes = [
+    endSlope(h[0], h[1], d[0], d[1]),
+    ...d.slice(1).map((_, k) => inner(k + 1)),
+    endSlope(h[n], h[n - 1], d[n], d[n - 1]),
+  ];
+  const along = h.flatMap((step, k) =>
+    Array.from({ length: FINE }, (_, i) => {
+      const s = i / FINE,
+        [[x, y], m, w] = [points[k], slopes[k], slopes[k + 1]],
+        cubic = m + w - 2 * d[k],
+        square = 3 * d[k] - 2 * m - w;
+      return [x + s * step, y + step * s * (m + s * (square + s * cubic))];
+    }),
+  );
+  return [...along, points[points.length - 1]];
+}
+
+/** Return a curve along the path: through the nodes of each piece, with jumps between pieces. */
+function curve(path, values) {
+  const pieces = [];
+  for (let k = 0; k < path.position.length; k += NODES)
+    pieces.push(
+      path.position
+        .slice(k, k + NODES)
+        .map((s, i) => [s, values[k + i]])
+        .sort((a, b) => a[0] - b[0]),
+    );
+  return pieces.sort((a, b) => a[0][0] - b[0][0]).flatMap(smooth);
+}
 
 /** Two gears in the transverse section, the pinion below; the pitch point is the origin, lengths in m. */
 class Teeth {
@@ -331,7 +380,7 @@ export const VIEW = {
     const line = (name, values, look) => ({
       name,
       look,
-      points: path.position.map((s, k) => [s, values[k]]).sort((a, b) => a[0] - b[0]),
+      points: curve(path, values),
     });
     const level = (name, value, look) =>
       line(

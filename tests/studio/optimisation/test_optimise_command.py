@@ -51,6 +51,12 @@ def test_figures_of_the_target_are_listed(said):
     assert status == 0 and "film_lost_load [N]: load at which the oil film is lost" in out
 
 
+def test_figures_of_a_train_are_told_without_what_an_fmu_has_for_none(said):
+    status, out, _ = said("ev-reducer", "--figures")
+    assert status == 0 and "first.loss [W]: first: tooth friction\n" in out
+    assert "no such" not in out
+
+
 @pytest.mark.parametrize(
     ("words", "status", "text"),
     [

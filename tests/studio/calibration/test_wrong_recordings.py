@@ -104,3 +104,12 @@ def test_time_by_another_name_is_asked_for_with_all_other_columns(head, rig, tmp
     said, time = capsys.readouterr().err, head.split(";")[0].removesuffix(" [s]")
     assert f'--column "time={time}"' in said and '"friction_torque=M"' in said
     assert f'if it is none: --column "_{time}={time}"' in said
+
+
+def test_channels_of_an_oscilloscope_are_asked_for_by_name(tmp_path, capsys):
+    rows = "".join(f"{t},1,2\n" for t in range(6))
+    (tmp_path / "scope.csv").write_text(f"Time,CH1,CH2\ns,Volt,Volt\n{rows}", "utf-8")
+    assert main(["calibrate", "clutch", str(tmp_path / "scope.csv")]) == 2
+    said = capsys.readouterr().err
+    assert "column load or pressure is missing; found, but not known: CH1, CH2; say what" in said
+    assert '--column "load [N]=CH1"' in said

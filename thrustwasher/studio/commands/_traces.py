@@ -24,6 +24,7 @@ OPTIONS = {
     "--torque-offset TORQUE": "of recordings: torque that the sensor shows in addition to the true "
     "one; or in --fit torque_offset",
 }
+SHOWN = 12  # names that a message lists
 UNITS = {
     "piston_area": "m2",
     "inertia": "kg.m2",
@@ -71,6 +72,13 @@ def read_recordings(tables: Sequence["Table"], kind: "Traces") -> dict[str, Any]
             raise ParameterError(f"{table.path}: is given twice, allowed: once")
         needed = kind.needed if is_trace(table) else (("time",), *kind.needed)
         own, passed, remarks = columns_of(table, kind.columns, kind.measured, needed)
+        force = kind.needed[0]
+        if passed and not any({*force} & {*columns} for columns in own.values()):
+            raise ParameterError(
+                f"{table.path}: column {' or '.join(force)} is missing; found, but not known: "
+                f"{', '.join(passed[:SHOWN])}; say what they hold, with the unit if it is not "
+                f'theirs: --column "{force[0]} [N]={passed[0]}"'
+            )
         found |= own
         tell(table.path, remarks, passed)
     return found

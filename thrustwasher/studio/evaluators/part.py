@@ -81,7 +81,10 @@ class PartEvaluator:
         if self.part.spec.key == "washer":
             for name, (_, words) in FOLDS.items():
                 found[name] = Figure(name, "N", words, of_curve=True)
-        return self.part.named(found)
+        named = self.part.named(found)
+        absent = self.part.spec.absent(self.part.params)
+        named.absent = tuple(map(self.part.own_name, absent))
+        return named
 
     @cached_property
     def measurable(self) -> dict[str, Figure]:

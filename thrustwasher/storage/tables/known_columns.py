@@ -137,6 +137,20 @@ def _meant(
     return hint and (name or hint)
 
 
+def refuse_misnamed(table: Table, units: Mapping[str, str], found: Sorted) -> None:
+    """Raise ParameterError for a column passed over whose unit and name say what it holds."""
+    free = set(units) - {*found.found} - {EITHER.get(name, name) for name in found.found}
+    passed = [c for c in table.columns if c.name in found.passed and c.plain not in WORDS]
+    guesses = guessed(passed, {name: unit for name, unit in units.items() if name in free})
+    sure = {name: meant for name, (meant, points) in guesses.items() if points >= SURE}
+    if sure:
+        told = ", ".join(f"{name} (is it {meant}?)" for name, meant in sure.items())
+        raise ParameterError(
+            f"{table.path}: not known: {told}; give columns that count (slip is the difference of "
+            "two speeds) these names, begin others with _"
+        )
+
+
 def guessed(unknown: Sequence[Column], units: Mapping[str, str]) -> dict[str, tuple[str, int]]:
     """Return for columns what they probably hold by name and unit, and the points of it.
 

@@ -35,6 +35,8 @@ class Suggesting(dict[str, T]):
     """What there is by name, with the names among them or for them that are suggested."""
 
     suggested: Iterable[str] = ()
+    absent: Iterable[str] = ()
+    """Names of what has no value here."""
 
 
 def suggestion(

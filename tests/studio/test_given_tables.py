@@ -5,6 +5,7 @@ import pytest
 
 from tests.needed import package
 from thrustwasher import ClutchParams, calibrate, calibrate_traces, engage_clutch, run_sweep
+from thrustwasher.storage.tables.given import columns_given
 
 RPM = np.pi / 30.0
 PACK = ClutchParams(friction_law="constant", constant_friction=0.1)
@@ -129,3 +130,15 @@ def test_pandas_finds_the_units_in_a_parquet_file_and_it_is_read_again(tmp_path)
     assert read.attrs["units"]["friction_torque"] == "N.m" and read.attrs["units"]["load"] == "N"
     again = run_sweep("clutch", points=path, workers=1)
     np.testing.assert_array_equal(again["friction_torque"], table["friction_torque"])
+
+
+def test_two_speeds_in_place_of_slip_are_refused_and_other_columns_are_told():
+    two = {"n_in": [100.0, 200.0], "n_out": [0.0, 50.0], "load": [1.0, 2.0]}
+    units = {"n_in": "rpm", "n_out": "rpm", "load": "kN"}
+    with pytest.raises(ValueError, match=r"not known: n_in \(is it speed\?\); give columns"):
+        run_sweep("clutch", points=frame(two, units), workers=1)
+    own = {"load": [1.0, 2.0], "_n_in": [1.0, 2.0], "gear": [3.0, 4.0], "temperature": [9.0, 9.0]}
+    given = frame(own, {"load": "kN", "temperature": "K"})
+    assert len(run_sweep("clutch", points=given, workers=1)) == 2
+    said = columns_given(given, {"load": "N", "oil_temperature": "K"}).remarks
+    assert said == ["passed over, as no column that counts: gear, temperature"]

@@ -26,6 +26,7 @@ EXAMPLES = (
     "thrustwasher part list washer",
 )
 AT_REST = ("N", "N.m", "rad/s")  # units of inputs that are 0 where a part is at rest
+SHOWN = 20  # parameters that a line lists
 NEW = ("name", "preset", "settings", "out")  # of a new part alone
 OPTIONS = {
     "--name NAME": "new: name of the part and of its FMU, default MyMODEL",
@@ -128,7 +129,8 @@ def _show(arguments: argparse.Namespace, path: Path, part: PartFile, words: str)
     given = (
         f"{len(changed)} parameters not at their defaults: " if changed else "all at the defaults"
     )
-    print(f"{words}: {part.name}, {part.spec.name}, {given}{', '.join(changed)}")
+    named = ", ".join(map(part.own_name, changed[:SHOWN])) + (", .." if changed[SHOWN:] else "")
+    print(f"{words}: {part.name}, {part.spec.name}, {given}{named}")
     if part.oil:
         print(part.oil_words)
     for s in scatter.sources:

@@ -66,11 +66,11 @@ class Engagement(OverTime):
 def engage_clutch(
     params: ClutchParams,
     *,
-    time: ArrayLike,
-    load: ArrayLike,
-    speed: ArrayLike,
+    time: "ArrayLike",
+    load: "ArrayLike",
+    speed: "ArrayLike",
     oil_temperature: float = 297.15,
-    drum_speed: ArrayLike = 0.0,
+    drum_speed: "ArrayLike" = 0.0,
     fidelity: str = "field",
 ) -> Engagement:
     """Return film, temperature and torque of a pack whose load and slip are given over time.

@@ -16,7 +16,7 @@ from ..storage.journal import Journal, when_free
 from .error_table import Box
 
 LINE = 0.021  # seconds that a line of a map takes on one core, about
-LONGER = "up to ten times that if all its lines need a finer mesh"
+LONGER = "up to ten times that if all its lines need a finer mesh; --no-maps leaves it out"
 Say = Callable[[str], None]
 
 

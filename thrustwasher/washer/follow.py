@@ -83,12 +83,12 @@ class HistoryError(SolveError):
 def follow_washer(
     params: WasherParams,
     *,
-    time: ArrayLike,
-    load: ArrayLike,
-    speed: ArrayLike,
-    tilt: ArrayLike,
-    oil_temperature: ArrayLike = 297.15,
-    far_face_temperature: ArrayLike = 0.0,
+    time: "ArrayLike",
+    load: "ArrayLike",
+    speed: "ArrayLike",
+    tilt: "ArrayLike" = 0.0,
+    oil_temperature: "ArrayLike" = 297.15,
+    far_face_temperature: "ArrayLike" = 0.0,
     fidelity: str = "field",
     grid: tuple[int, int] | None = None,
 ) -> WasherHistory:

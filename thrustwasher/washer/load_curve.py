@@ -135,7 +135,7 @@ def load_curve(
     params: WasherParams,
     *,
     speed: float,
-    tilt: float,
+    tilt: float = 0.0,
     oil_temperature: float = 297.15,
     far_face_temperature: float = 0.0,
     fidelity: str = "field",

@@ -147,7 +147,7 @@ def solve_washer(
     *,
     load: float,
     speed: float,
-    tilt: float,
+    tilt: float = 0.0,
     oil_temperature: float = 297.15,
     far_face_temperature: float = 0.0,
     fidelity: str = "field",
@@ -163,7 +163,7 @@ def solve_washer(
     params : geometry, surfaces, oil
     load : axial load [N], 1 .. 2e5
     speed : [rad/s] of washer and gear against the carrier, either sign, up to 2000
-    tilt : of the gear [rad], 0 .. 0.01
+    tilt : of the gear [rad], 0 .. 0.01; default 0, parallel
     oil_temperature : [K], 233.15 .. 473.15
     far_face_temperature : [K] at the gear's far face, with ``gear_far_face = "bulk"``; 0: the oil's
     fidelity : "field" (10 x 32 nodes), "fine" (19 x 64) or "map", which does outside its box what

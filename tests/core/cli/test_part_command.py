@@ -297,3 +297,11 @@ def test_the_scene_takes_its_profiles_from_its_files():
 def test_the_commands_of_the_pages_work_on_them(folder, capsys, words, said):
     assert main(words.split()) == 0
     assert said in capsys.readouterr().out
+
+
+def test_what_a_train_has_of_its_own_is_named_as_in_its_file(tmp_path, capsys):
+    text = Path("examples/ev-reducer.toml").read_text("utf-8")
+    (tmp_path / "mine.toml").write_text(text.replace("section = 0.67", "section = 0.6"), "utf-8")
+    assert main(["part", "check", str(tmp_path / "mine.toml")]) == 0
+    said = capsys.readouterr().out
+    assert "rotor.bearing_1_section" in said and "shaft_1" not in said

@@ -125,3 +125,36 @@ def test_columns_that_no_name_nearly_has_are_passed_over(tmp_path):
     assert known_columns(table, UNITS, strict=True).passed == ["gear", "mark"]
     with pytest.raises(ParameterError, match="column 'loda' is not known; did you mean load"):
         known_columns(rig(tmp_path, "speed;loda", "1;2"), UNITS)
+
+
+def test_speeds_that_differ_by_a_number_are_two_also_without_units(tmp_path):
+    package("scipy.io").savemat(tmp_path / "rig.mat", {"n1": [3.0, 2.0], "n2": [1.0, 2.0]})
+    table = read_table(tmp_path / "rig.mat")
+    for given in (table, renamed(table, {"speed": "n1"})):
+        with pytest.raises(ParameterError, match='--column "speed=n1 - n2"'):
+            known_columns(given, UNITS, [("speed",)])
+    assert "speed" in known_columns(renamed(table, {"speed": "n1", "_n2": "n2"}), UNITS).found
+
+
+def test_channels_of_one_name_are_told_by_their_groups(tmp_path):
+    mdf = package("asammdf")
+    with mdf.MDF() as file:
+        for rows in (11, 3):
+            time = np.linspace(0.0, 1.0, rows)
+            file.append([mdf.Signal(time + rows, time, name="n", unit="rpm")])
+        file.save(tmp_path / "rig.mf4")
+    table = read_table(tmp_path / "rig.mf4")
+    assert renamed(table, {"speed": "0:n - 1:n"}).remarks == ["speed = 0:n - 1:n"]
+    with pytest.raises(ParameterError) as problem:
+        known_columns(table, {"time": "s", **UNITS}, [("speed",)], may_lack=True)
+    assert '0:n (is it speed?), 1:n (is it speed?); if so: --column "speed=0:n - 1:n"' in str(
+        problem.value
+    )
+
+
+def test_units_behind_the_names_of_a_parquet_file_are_read(tmp_path):
+    pyarrow = package("pyarrow")
+    names = {"n [rpm]": [300.0], "load": [1.0]}
+    package("pyarrow.parquet").write_table(pyarrow.table(names), tmp_path / "rig.parquet")
+    table = renamed(read_table(tmp_path / "rig.parquet"), {"speed": "n"})
+    assert value(table, "speed", "rad/s") == pytest.approx(300.0 * RPM, rel=1e-12)

@@ -402,3 +402,9 @@ def test_pressures_outside_the_data_are_told():
     assert not any("dry friction" in line for line in (*inside.warnings, *full.warnings))
     (line,) = (line for line in below.warnings if "dry friction" in line)
     assert "held" in line
+
+
+def test_tilt_is_zero_unless_given():
+    given, left = ({"load": 300.0, "speed": 953.0, **more} for more in ({"tilt": 0.0}, {}))
+    plain, short = solve_washer(WasherParams(), **given), solve_washer(WasherParams(), **left)
+    assert short.tilt == 0.0 and short.friction_torque == plain.friction_torque

@@ -5,6 +5,7 @@ import pytest
 from rigs import PACK, history, recorded
 
 from thrustwasher import ParameterError, SolveError, Status, calibrate, calibrate_traces
+from thrustwasher.cli import main
 from thrustwasher.studio.calibration.engagement import pack_history
 
 
@@ -92,3 +93,23 @@ def test_a_recording_that_a_pack_cannot_be_stepped_along_is_named(monkeypatch):
     monkeypatch.setattr(pack_history.clutch_advance, "advance", lambda *_: int(Status.NOT_FINITE))
     with pytest.raises(SolveError, match=r"rig 3\.csv: the part cannot be stepped along it"):
         calibrate_traces(PACK, data, fit=["friction_scale"])
+
+
+@pytest.mark.parametrize("head", ["Zeit abs. [s];p [bar];n1 [rpm];M [Nm]", "X_Value;load;speed;M"])
+@pytest.mark.parametrize("rig", [(), ("--piston-area", "60 cm2")])
+def test_time_by_another_name_is_asked_for_with_all_other_columns(head, rig, tmp_path, capsys):
+    rows = "".join(f"{t};1;9;5\n" for t in (0, 1, 2, 3, 4, 5))
+    (tmp_path / "rig.csv").write_text(f"{head}\n{rows}", "utf-8")
+    assert main(["calibrate", "clutch", str(tmp_path / "rig.csv"), *rig]) == 2
+    said, time = capsys.readouterr().err, head.split(";")[0].removesuffix(" [s]")
+    assert f'--column "time={time}"' in said and '"friction_torque=M"' in said
+    assert f'if it is none: --column "_{time}={time}"' in said
+
+
+def test_channels_of_an_oscilloscope_are_asked_for_by_name(tmp_path, capsys):
+    rows = "".join(f"{t},1,2\n" for t in range(6))
+    (tmp_path / "scope.csv").write_text(f"Time,CH1,CH2\ns,Volt,Volt\n{rows}", "utf-8")
+    assert main(["calibrate", "clutch", str(tmp_path / "scope.csv")]) == 2
+    said = capsys.readouterr().err
+    assert "column load or pressure is missing; found, but not known: CH1, CH2; say what" in said
+    assert '--column "load [N]=CH1"' in said

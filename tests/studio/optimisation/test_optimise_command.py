@@ -2,6 +2,7 @@
 
 import json
 import signal
+from pathlib import Path
 
 import pytest
 from children import started, stopped
@@ -12,6 +13,7 @@ from thrustwasher.studio.optimisation.whole_search import JOURNAL
 
 CLUTCH = ["clutch", "--load", "9 kN", "--speed", "5", "--vary", "land_share=0.5:0.95"]
 STOPPABLE = ["optimise", *CLUTCH, "--vary", "groove_width=1 mm:3 mm", "--minimise", "temperature"]
+EXAMPLES = Path(__file__).parents[3] / "examples"
 KEPT = "thrustwasher.storage.journal.Journal.put"
 
 
@@ -49,6 +51,22 @@ def test_a_front_is_shown_as_a_table(said, tmp_path):
 def test_figures_of_the_target_are_listed(said):
     status, out, _ = said("washer", "--figures")
     assert status == 0 and "film_lost_load [N]: load at which the oil film is lost" in out
+
+
+def test_figures_of_a_train_are_told_without_what_an_fmu_has_for_none(said):
+    status, out, _ = said("ev-reducer", "--figures")
+    assert status == 0 and "first.loss [W]: first: tooth friction\n" in out
+    assert "no such" not in out
+
+
+def test_a_limit_by_a_figure_without_a_value_says_why(said, tmp_path):
+    scene = (EXAMPLES / "ev-reducer.toml").read_text("utf-8")
+    (tmp_path / "mine.toml").write_text(scene.replace('root_limit = "430 MPa"\n', ""), "utf-8")
+    vary = ("--vary", "first.helix_angle=20 deg:24 deg", "--minimise", "loss")
+    for name in ("root_safety", "second.root_safety"):
+        status, _, err = said(str(tmp_path / "mine.toml"), *vary, "--limit", f"{name}>=1.4")
+        assert status == 2 and f"limit {name}: has no value with these parameters" in err
+        assert "root_limit" in err
 
 
 @pytest.mark.parametrize(

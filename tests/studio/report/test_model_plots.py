@@ -26,7 +26,7 @@ from thrustwasher.shift.steady_points import efficiency_map
 from thrustwasher.shown import Card, Line, Shown, Tabled, Words, column_lines, plain
 from thrustwasher.studio.report.model_plots.clutch_plot import clutch_figure
 from thrustwasher.studio.report.model_plots.contours import numbered_contours
-from thrustwasher.studio.report.model_plots.fit_plot import calibration_figure
+from thrustwasher.studio.report.model_plots.fit_plot import calibration_figure, fit_heading
 from thrustwasher.studio.report.model_plots.gearmesh_plot import gearmesh_figure, over_teeth
 from thrustwasher.studio.report.model_plots.losses_plot import losses_figure
 from thrustwasher.studio.report.model_plots.optimum_plot import optimum_figure
@@ -234,6 +234,18 @@ def test_without_limits_all_designs_look_alike():
 
 AT = {"load": 300.0, "speed": 953.0, "tilt": 0.002}
 TIME = np.linspace(0.0, 0.3, 31)
+
+
+@pytest.mark.parametrize("width", [6.4, 11.0])
+def test_a_heading_of_many_fitted_values_stays_in_its_picture(width):
+    value = {"value": 5.13e4, "standard_error": 3e3, "unit": "Pa", "identifiable": True}
+    many = [SimpleNamespace(name=f"kiss_pressure_{i}", **value) for i in range(6)]
+    found = SimpleNamespace(estimates=many, residuals=[0.0], warnings=())
+    figure = Figure(figsize=(width, 4.0))
+    text = figure.suptitle(fit_heading(found, width), fontsize=10)
+    box = text.get_window_extent()
+    assert 0.0 <= box.x0 and box.x1 <= figure.bbox.x1
+    assert all(estimate.name in text.get_text() for estimate in many)
 
 
 def calibration():

@@ -109,3 +109,16 @@ def test_a_warning_alone_is_said_whole_and_once(page):
     )
     assert one.count("w" * 200) == 1 and 'href="#warnings"' not in one
     assert two.count("w" * 200) == 1 and 'href="#warnings"' in two
+
+
+def test_a_train_without_limits_of_root_stress_has_a_report_too(tmp_path):
+    text = re.sub(r'root_limit = "430 MPa"\n', "", SCENE.read_text("utf-8"))
+    (tmp_path / "mine.toml").write_text(text, "utf-8")
+    found = reducer_page(load_train(tmp_path / "mine.toml"), [POINT])
+    assert rows(found, "safeties")["second"][1] == "no limit given"
+    assert "minimum root safety" not in {card.name for card in found.cards}
+    one = text.replace("angle = ", 'root_limit = "430 MPa"\nangle = ', 1)
+    (tmp_path / "one.toml").write_text(one, "utf-8")
+    found = reducer_page(load_train(tmp_path / "one.toml"), [POINT])
+    assert float(rows(found, "safeties")["first"][1]) > 0.0
+    assert rows(found, "safeties")["second"][1] == "no limit given"

@@ -51,9 +51,11 @@ def renamed(table: Table, names: Mapping[str, str]) -> Table:
         terms = _terms(table, name, text)
         sums.append(_sum(table, name, unit, text, terms))
         used += [column.name for _, column in terms]
-        own = sums[-1].unit or "no unit"
-        signed = [f"{'+' if sign > 0.0 else '-'} {column.name}" for sign, column in terms]
-        remarks.append(f"{name} = {' '.join(signed).removeprefix('+ ')} [{own}]")
+        units = dict.fromkeys(column.unit for _, column in terms)
+        own = sums[-1].unit or ", ".join(filter(None, units)) or ("" if table.binary else "no unit")
+        signed = [f"{'+' if sign > 0.0 else '-'} {_whole(table, c)}" for sign, c in terms]
+        behind = f" [{own}]" if own else ""  # of channels that are not read yet
+        remarks.append(f"{name} = {' '.join(signed).removeprefix('+ ')}{behind}")
     columns: list[Column] = []
     for i, c in enumerate(table.columns):
         own_names = single.get(i, [])
@@ -86,6 +88,12 @@ def _one(table: Table, name: str, text: str) -> int | None:
         if found:
             return found[0]
     return None
+
+
+def _whole(table: Table, column: Column) -> str:
+    """Return a column's name, with its group where several groups have it."""
+    alike = [c for c in table.columns if c.name == column.name]
+    return f"{column.group}:{column.name}" if len(alike) > 1 and column.group else column.name
 
 
 def _terms(table: Table, name: str, text: str) -> list[tuple[float, Column]]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import ParameterError
-from .known_columns import known_columns
+from .known_columns import known_columns, refuse_misnamed
 from .measuring_file import read_channels
 from .table import Column, Columns, Table, numbers, plain_unit, split_head
 from .table_file import read_table
@@ -47,12 +47,16 @@ def columns_given(
         else:
             table = _of_frame(data) if _is_frame(data) else read_table(data)
         table = table.of_columns(units, lacking)
-    found = known_columns(table, units).found
+    sort = known_columns(table, units)
+    refuse_misnamed(table, units, sort)
+    found = sort.found
     columns = Columns(
         {name: numbers(c, table, units[name], name=name) for name, c in found.items()}
     )
     columns.units = {name: c.unit for name, c in found.items() if c.unit}
     columns.remarks = list(table.remarks)
+    if sort.passed:
+        columns.remarks.append(f"passed over, as no column that counts: {', '.join(sort.passed)}")
     return columns
 
 

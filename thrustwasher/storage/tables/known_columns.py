@@ -80,7 +80,7 @@ def known_columns(
     missing = [group for group in needed if not {*group} & {*found}]
     if may_lack:
         likely = {name for name, _ in guesses.values()}
-        missing = [group for group in missing if likely & {*group} and not table.binary]
+        missing = [group for group in missing if likely & {*group}]
     near = {
         c.name: hint
         for c in unknown
@@ -91,9 +91,11 @@ def known_columns(
         told = " or ".join(missing[0])
         names = ", ".join(c.name for c in table.columns[:SHOWN])
         wanted = ", ".join(" or ".join(group) for group in needed)
+        said = {n: g for n, (g, _) in guesses.items()}
+        settled = [_option(f"_{n}", n) for n, g in said.items() if g == TIME]
         raise ParameterError(
             f"{table.path}: column {told} is missing; required: {wanted}; found: {names}"
-            f"{_asked(unknown, {n: g for n, (g, _) in guesses.items()})}"
+            f"{_asked(unknown, said)}{f'; if it is none: {settled[0]}' if settled else ''}"
         )
     if near:
         many = len(near) > 1
@@ -135,6 +137,20 @@ def _meant(
     return hint and (name or hint)
 
 
+def refuse_misnamed(table: Table, units: Mapping[str, str], found: Sorted) -> None:
+    """Raise ParameterError for a column passed over whose unit and name say what it holds."""
+    free = set(units) - {*found.found} - {EITHER.get(name, name) for name in found.found}
+    passed = [c for c in table.columns if c.name in found.passed and c.plain not in WORDS]
+    guesses = guessed(passed, {name: unit for name, unit in units.items() if name in free})
+    sure = {name: meant for name, (meant, points) in guesses.items() if points >= SURE}
+    if sure:
+        told = ", ".join(f"{name} (is it {meant}?)" for name, meant in sure.items())
+        raise ParameterError(
+            f"{table.path}: not known: {told}; give columns that count (slip is the difference of "
+            "two speeds) these names, begin others with _"
+        )
+
+
 def guessed(unknown: Sequence[Column], units: Mapping[str, str]) -> dict[str, tuple[str, int]]:
     """Return for columns what they probably hold by name and unit, and the points of it.
 
@@ -161,9 +177,8 @@ def _points(column: Column, name: str, unit: str) -> int:
         if unit == "1" or unit_size(column.unit, unit) is None:
             return 0
         fits = 2
-    words = {w for w in re.split(r"[^\w]|_|\d", column.name.lower()) if w}
     own = WORDS[name]
-    known = words & {*own}
+    known = _words(column) & {*own}
     if known:
         return fits + 1 + bool(known & {*own[:2]}) + (len(known) > 1)
     return (
@@ -179,22 +194,32 @@ def _asked(unknown: Sequence[Column], guesses: Mapping[str, str]) -> str:
     likely = [c for c in unknown if c.name in guesses]
     if not likely:
         return ""
+    names = [c.name for c in unknown]
+    whole = {
+        id(c): f"{c.group}:{c.name}" if names.count(c.name) > 1 and c.group else c.name
+        for c in unknown
+    }
     told = [
-        f"{c.name}{f' [{c.unit}]' if c.unit else ''}"
+        f"{whole[id(c)]}{f' [{c.unit}]' if c.unit else ''}"
         + (f" (is it {guesses[c.name]}?)" if c.name in guesses else "")
         for c in [*likely, *(c for c in unknown if c.name not in guesses)]
     ]
     more = f" and {len(told) - SHOWN} more" if len(told) > SHOWN else ""
-    options = [_option(guesses[c.name], c.name) for c in likely]
-    speeds = [c for c in unknown if c.unit and unit_size(c.unit, "rad/s")]
+    options = {guesses[c.name]: whole[id(c)] for c in reversed(likely)}
+    speeds = [c for c in unknown if _is_speed(c)]
     slip = {"slip", "schlupf"}
-    if len(speeds) == 2 and not any(w in c.plain for c in speeds for w in slip):
-        both = f"{speeds[0].name} - {speeds[1].name}"
-        options = [
-            _option("speed", both) if guesses[c.name] == "speed" else option
-            for c, option in zip(likely, options, strict=True)
-        ]
-    return f"; not known: {', '.join(told[:SHOWN])}{more}; if so: {' '.join(options)}"
+    if "speed" in options and len(speeds) == 2 and not slip & (_words(speeds[0], speeds[1])):
+        options["speed"] = f"{whole[id(speeds[0])]} - {whole[id(speeds[1])]}"
+    order = [*dict.fromkeys(guesses[c.name] for c in likely)]
+    copy = " ".join(_option(name, options[name]) for name in order)
+    return f"; not known: {', '.join(told[:SHOWN])}{more}; if so: {copy}"
+
+
+def _is_speed(column: Column) -> bool:
+    """Tell if a column has a unit of rotation, or without one a name of it."""
+    if column.unit:
+        return unit_size(column.unit, "rad/s") is not None
+    return bool(_words(column) & {*WORDS["speed"]})
 
 
 def _option(name: str, text: str) -> str:
@@ -207,10 +232,11 @@ def _refuse_half_of_speed(
 ) -> None:
     """Raise ParameterError where one of two speeds was named to be the speed."""
     named = table.given.get("speed")
-    if named is None or "speed" not in units or table.binary:
+    if named is None or "speed" not in units:
         return
     own = next((c for c in table.columns if c.plain == "speed"), None)
-    others = [c for c in unknown if c.unit and unit_size(c.unit, "rad/s")]
+    stem = re.sub(r"\d", "", named)
+    others = [c for c in unknown if _is_speed(c) and (c.unit or re.sub(r"\d", "", c.name) == stem)]
     if own is None or not others or named in [c.name for c in others] or table.used:
         return
     other = others[0].name
@@ -221,9 +247,27 @@ def _refuse_half_of_speed(
     )
 
 
+def time_like(columns: Collection[Column]) -> Column | None:
+    """Return the column that is time by another name, None if there is none or one is time."""
+    if any(column.plain == TIME for column in columns):
+        return None
+    for column in columns:
+        words = _words(column)
+        is_time = column.unit and unit_size(column.unit, "s") is not None and words & {*TIMES, TIME}
+        if not column.name.startswith("_") and (column.plain in TIMES or is_time):
+            return column
+    return None
+
+
 def time_hint(columns: Collection[Column]) -> str:
     """Return how a column that is time by another name is named; "" where there is none."""
-    for column in columns:
-        if column.plain in TIMES:
-            return f'if {column.name} is the time of a recording: --column "time={column.name}"; '
+    if column := time_like(columns):
+        return f'if {column.name} is the time of a recording: --column "time={column.name}"; '
     return ""
+
+
+def _words(*columns: Column) -> set[str]:
+    found = {c.plain for c in columns}
+    for column in columns:
+        found |= {w for w in re.split(r"[^\w]|_|\d", column.name.lower()) if w}
+    return found

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import ParameterError
-from .table import LONGEST, Column, Table, plain_unit
+from .table import LONGEST, Column, Table, plain_unit, split_head
 
 INSTALL = 'pip install "thrustwasher[sweep]"'
 
@@ -15,7 +15,8 @@ INSTALL = 'pip install "thrustwasher[sweep]"'
 def read_parquet(path: Path) -> Table:
     """Return the columns of numbers.
 
-    Their units are those of the field's metadata (``unit``) or of pandas' attributes (``units``).
+    Their units are those of the field's metadata (``unit``), of pandas' attributes (``units``), or
+    behind their names.
 
     Raises
     ------
@@ -34,9 +35,10 @@ def read_parquet(path: Path) -> Table:
     units = _pandas_units(found.schema.metadata or {})
     columns = []
     for field, values in zip(found.schema, found.columns, strict=True):
-        unit = (field.metadata or {}).get(b"unit", b"").decode() or units.get(field.name, "")
+        name, own = split_head(field.name)
+        unit = (field.metadata or {}).get(b"unit", b"").decode() or units.get(field.name, own)
         cells = _cells(values.to_pylist())
-        columns.append(Column(field.name, plain_unit(str(unit)), cells))
+        columns.append(Column(name, plain_unit(str(unit)), cells))
     return Table(str(path), columns, list(range(1, found.num_rows + 1)), binary=True)
 
 

@@ -24,6 +24,7 @@ OPTIONS = {
     "--torque-offset TORQUE": "of recordings: torque that the sensor shows in addition to the true "
     "one; or in --fit torque_offset",
 }
+SHOWN = 12  # names that a message lists
 UNITS = {
     "piston_area": "m2",
     "inertia": "kg.m2",
@@ -62,14 +63,22 @@ def read_tables(
 
 def read_recordings(tables: Sequence["Table"], kind: "Traces") -> dict[str, Any]:
     """Return columns by the files' names, and say what was read and passed over."""
-    from ..calibration.traces.trace_file import columns_of
+    from ..calibration.traces.trace_file import columns_of, is_trace
 
     found: dict[str, Any] = {}
     paths = [table.path for table in tables]
     for table in tables:
         if paths.count(table.path) > 1:
             raise ParameterError(f"{table.path}: is given twice, allowed: once")
-        own, passed, remarks = columns_of(table, kind.columns, kind.measured, kind.needed)
+        needed = kind.needed if is_trace(table) else (("time",), *kind.needed)
+        own, passed, remarks = columns_of(table, kind.columns, kind.measured, needed)
+        force = kind.needed[0]
+        if passed and not any({*force} & {*columns} for columns in own.values()):
+            raise ParameterError(
+                f"{table.path}: column {' or '.join(force)} is missing; found, but not known: "
+                f"{', '.join(passed[:SHOWN])}; say what they hold, with the unit if it is not "
+                f'theirs: --column "{force[0]} [N]={passed[0]}"'
+            )
         found |= own
         tell(table.path, remarks, passed)
     return found
@@ -93,6 +102,13 @@ def refuse_rig(arguments: argparse.Namespace) -> None:
         if getattr(arguments, name) is not None:
             option = f"--{name.replace('_', '-')}"
             raise ParameterError(f"{option}: allowed: with recordings, which have a column time")
+
+
+def may_be_recording(tables: Sequence["Table"]) -> bool:
+    """Tell if a column without the name time probably holds it."""
+    from ...storage.tables.known_columns import time_like
+
+    return any(time_like(table.columns) for table in tables)
 
 
 def bounds_of(texts: Mapping[str, str], spec: "ModelSpec") -> dict[str, tuple[float, float]]:

@@ -185,6 +185,8 @@ def _tables(
             f"(thrustwasher calibrate {able} {shlex.quote(paths[0])}). Of settled points name the "
             "column _time"
         )
+    if kind and _traces.may_be_recording(tables):
+        return tables, kind  # whose reader asks about all columns at once
     if not kind or not over_time:
         _traces.refuse_rig(arguments)
         kind = None

@@ -190,6 +190,7 @@ def some_figures(evaluator: Evaluator, names: Iterable[str]) -> Suggesting[Figur
     every = evaluator.figures
     found = Suggesting({name: every[name] for name in names})
     found.suggested = getattr(every, "suggested", every)
+    found.absent = getattr(every, "absent", ())
     return found
 
 

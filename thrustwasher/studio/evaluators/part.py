@@ -76,11 +76,15 @@ class PartEvaluator:
     def figures(self) -> dict[str, Figure]:
         """Its outputs and outcomes; of a washer the loads of its folds too."""
         found = {f.name: f for f in (*self._outputs(), *self._outcomes())}
-        found = {n: replace(f, help=self.part.own_text(f.help)) for n, f in found.items()}
+        told = find_model(self.part.spec.key).own_names(None)
+        found = {n: replace(f, help=self.part.own_text(told(f.help))) for n, f in found.items()}
         if self.part.spec.key == "washer":
             for name, (_, words) in FOLDS.items():
                 found[name] = Figure(name, "N", words, of_curve=True)
-        return self.part.named(found)
+        named = self.part.named(found)
+        absent = self.part.spec.absent(self.part.params)
+        named.absent = tuple(map(self.part.own_name, absent))
+        return named
 
     @cached_property
     def measurable(self) -> dict[str, Figure]:

@@ -156,6 +156,11 @@ def read_problem(
 
 
 def _figure(option: str, name: str, figures: Mapping[str, Figure]) -> Figure:
+    if name in getattr(figures, "absent", ()):
+        raise ParameterError(
+            f"{option} {name}: has no value with these parameters: a limit that it is measured by "
+            "(root_limit), or what it is of, is not given"
+        )
     if name not in figures:
         hint = suggestion(name, figures, "; did you mean {}?")
         raise ParameterError(f"{option} {name}: allowed: {', '.join(figures)}{hint}")

@@ -162,8 +162,8 @@ def _doubts(scene: "TrainScene", points: Sequence[Mapping[str, float]]) -> list[
 
 
 def _figure(point: OperatingPoint, of: str, end: str) -> str:
-    """Return the column of a mesh's or bearing's figure."""
-    return next(n for n in point.figures if n.removesuffix(end).rstrip("._") == of)
+    """Return the column of a mesh's or bearing's figure, "" where it has none."""
+    return next((n for n in point.figures if n.removesuffix(end).rstrip("._") == of), "")
 
 
 def _rpm(speed: float) -> str:
@@ -216,10 +216,9 @@ def _cards(first: OperatingPoint) -> list[Card]:
         ),
     ]
     for name, words in SAFETIES.items():
-        if first.figures[name] < NO_LIMIT:
-            cards.append(
-                Card(f"minimum {words} safety", f"{first.figures[name]:.3g}", _span(first, name))
-            )
+        least = first.figures.get(name, NO_LIMIT)  # absent where no mesh has its limit
+        if least < NO_LIMIT:
+            cards.append(Card(f"minimum {words} safety", f"{least:.3g}", _span(first, name)))
     return cards
 
 
@@ -284,7 +283,7 @@ def _part_of(loss: float, whole: float) -> str:
 def _safety_table(found: Sequence[OperatingPoint]) -> Table:
     heads = ["mesh", *(f"{w}, {i}" for i in range(1, len(found) + 1) for w in SAFETIES.values())]
     rows = []
-    for mesh in found[0].ending("root_safety"):
+    for mesh in found[0].ending("pitting_safety"):
         row = [mesh]
         for point in found:
             for end in SAFETIES:

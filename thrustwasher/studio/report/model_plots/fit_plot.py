@@ -1,6 +1,7 @@
 """A calibration: measured values, the fit with its confidence band, residuals."""
 
 from collections.abc import Sequence
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ COLOURS = (BLUE, RED, GREEN, PURPLE, ORANGE)  # of as many loads, told apart
 SAME = 0.02  # of the largest value: nearer ones are one level of an input
 TORQUE = "friction_torque"
 N_RESIDUALS = 2  # panels of residuals per output: over the inputs that vary most
+CHARACTERS = 12.0  # of a heading, per inch
 
 
 @styled
@@ -33,9 +35,9 @@ def calibration_figure(found: Any, *, residuals: bool = True) -> Figure:
     counts = [min(len(over), over_inputs if residuals else 0) for over, _ in drawn]
     wide = max(1 + bool(f) + n for f, n in zip(beside, counts, strict=True))
     shape: Any = (11.0 if wide > 1 else 6.4, 1.2 + 3.0 * len(shown), len(shown), wide)
-    figure, panels = new_figure(
-        *shape, head=2, across=1.0, choose="residuals = False: of one output"
-    )
+    told = fit_heading(found, shape[0])
+    options: Any = {"across": 1.0, "choose": "residuals = False: of one output"}
+    figure, panels = new_figure(*shape, head=1 + told.count("\n"), **options)
     rows = [panels[i : i + wide] for i in range(0, len(panels), wide)]
     for series, (inputs, apart), friction, n, (left, *others) in zip(
         shown, drawn, beside, counts, rows, strict=True
@@ -55,7 +57,7 @@ def calibration_figure(found: Any, *, residuals: bool = True) -> Figure:
             label(axis, "Residuals", _words(over, unit), _words("measured - fitted", series.unit))
         for axis in others[len(inputs) :]:
             axis.set_visible(False)
-    heading(figure, fit_heading(found), fontsize=10)
+    heading(figure, told, fontsize=10)
     return figure
 
 
@@ -203,8 +205,11 @@ def _words(name: str, unit: str) -> str:
     return f"{name.replace('_', ' ')} [{unit or 1}]".strip()
 
 
-def fit_heading(found: Any) -> str:
-    """Return the constants that the points determine, and the number of those that are not."""
+def fit_heading(found: Any, width: float) -> str:
+    """Return the constants that the points determine, and the number of those that are not.
+
+    Lines are as long as a picture of this width [inch] takes.
+    """
     known = [e for e in found.estimates if e.identifiable]
     values = (f"{e.name} {e.value:.3g} ± {e.standard_error:.1g} {e.unit}" for e in known)
     words = [text.removesuffix(" 1") for text in values]
@@ -215,4 +220,5 @@ def fit_heading(found: Any) -> str:
         second += f"; not determined: {', '.join(lost)}"
     if found.warnings:
         second += "; WARNING: the law cannot follow these points"
-    return f"{first}\n{second}"
+    length = int(CHARACTERS * width)
+    return "\n".join(part for text in (first, second) for part in wrap(text, length))

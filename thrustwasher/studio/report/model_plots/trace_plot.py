@@ -12,6 +12,7 @@ from ..style import heading, label, new_figure, styled
 from .fit_plot import fit_heading
 
 MOST_RECORDINGS = 4  # that are drawn, each in a row of panels
+WIDTH = 11.0  # inch
 
 
 @styled
@@ -22,7 +23,9 @@ def trace_figure(found: Any) -> Figure:
     shown = [
         c for name in names for c in [x for x in histories if x.name == name][:MOST_RECORDINGS]
     ]
-    figure, panels = new_figure(11.0, 1.2 + 2.8 * len(shown), len(shown), 2, head=2)
+    told = fit_heading(found, WIDTH)
+    lines = 1 + told.count("\n")
+    figure, panels = new_figure(WIDTH, 1.2 + 2.8 * len(shown), len(shown), 2, head=lines)
     for history, left, right in zip(shown, panels[::2], panels[1::2], strict=True):
         unit, factor = display_unit(float(abs(history.measured).max()), history.unit)
         _draw_history(left, found, history, unit, factor)
@@ -32,7 +35,7 @@ def trace_figure(found: Any) -> Figure:
         label(right, "Residuals", "time [s]", f"measured - fitted [{unit}]")
     left_out = len(histories) - len(shown)
     more = f"; {left_out} more are not drawn" if left_out else ""
-    heading(figure, fit_heading(found) + more, fontsize=10)
+    heading(figure, told + more, fontsize=10)
     return figure
 
 

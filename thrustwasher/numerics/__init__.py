@@ -5,6 +5,7 @@
 ``banded``      band matrices, symmetric and general: factor and solve
 ``chebyshev``   charts: piecewise Chebyshev interpolants of three parameters
 ``dense``       small dense linear systems: Gaussian elimination
+``elementary``  exponential and logarithm of several numbers side by side
 ``jit``         the one decorator of kernels
 ``power_flow``  which way power runs between two shafts, the efficiency in that direction
 ``profiles``    inputs that run straight within a step: values at its start, then rates

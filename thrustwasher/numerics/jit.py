@@ -20,6 +20,8 @@ from functools import cache, update_wrapper
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
+import numpy as np
+
 from ..errors import EnvironmentProblem
 from ..native.digest import digest
 from ..native.entries import libraries
@@ -222,3 +224,40 @@ def _matrix(a: Array, rows: int, columns: int) -> Array:
 
 
 matrix = cast(Callable[[Array, int, int], Array], _View(_matrix, _compiled_matrix))
+
+
+@cache
+def _cast_of(back: bool) -> Any:
+    """Return the type of ``word_of``, or of ``number_of``, in numba."""
+    import numba
+    from numba.core.registry import cpu_target
+    from numba.extending import intrinsic
+
+    types: Any = numba.types
+
+    @intrinsic
+    def cast_bits(_typing: Any, x: Any) -> Any:
+        made = types.float64 if back else types.uint64
+
+        def code(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+            return builder.bitcast(values[0], context.get_value_type(made))
+
+        return made(types.uint64 if back else types.float64), code
+
+    known: Any = cpu_target.typing_context
+    known.refresh()
+    return known.resolve_value_type(cast_bits)
+
+
+def _word_of(x: float) -> Any:
+    """Return the 64 bits of a number, as numpy's uint64."""
+    return np.float64(x).view(np.uint64)
+
+
+def _number_of(word: Any) -> float:
+    """Return the number that has these 64 bits."""
+    return float(np.uint64(word).view(np.float64))
+
+
+word_of = cast(Callable[[float], Any], _View(_word_of, lambda: _cast_of(False)))
+number_of = cast(Callable[[Any], float], _View(_number_of, lambda: _cast_of(True)))

@@ -9,6 +9,7 @@
 ``greenwood_williamson``  real contact area of rough surfaces: F_1 and the area ratio
 ``holding``               units that hold between two shafts of a driveline they do not know
 ``lumped_body``           a body that is heated and cooled: its temperature after a time, exactly
+``viscosities``           viscosity at several temperatures side by side
 ``viscosity``             viscosity of the oil over temperature, with its slope
 ========================  ========================================================================
 """

@@ -119,18 +119,34 @@ def separation_and_slope(pressure_ratio: float, guess: float) -> tuple[float, fl
 
 
 @kernel
+def normal_heights(u: float) -> tuple[float, float, float]:
+    """Return the standard normal density at ``u``, and the shares of heights below and above.
+
+    The smaller share is good to its rounding; that below holds from u = -30 down.
+    """
+    pdf = INV_SQRT2PI * math.exp(-0.5 * u * u)
+    less = 0.5 * math.erfc(min(abs(u), 30.0) * INV_SQRT2)
+    return (pdf, 1.0 - less, less) if u >= 0.0 else (pdf, less, 1.0 - less)
+
+
+@kernel
 def area_integrals(u: float) -> tuple[float, float]:
     """Return F_2(u) and F_1(u) [-]; dF_2/du = -2 F_1.
 
     F_1 = pdf - u Q and F_2 = (1 + u^2) Q - u pdf with Q(u) = erfc(u/sqrt 2)/2. Above u = 5, where
     the differences cancel, both come from a continued fraction of Q/pdf; to 1e-13.
     """
+    pdf, _, above = normal_heights(u)
+    return areas_of(u, pdf, above)
+
+
+@kernel
+def areas_of(u: float, pdf: float, above: float) -> tuple[float, float]:
+    """Return ``area_integrals``; ``pdf``, ``above``: those of ``normal_heights``."""
     if not u < 38.0:
         return (u if math.isnan(u) else 0.0), 0.0
-    pdf = INV_SQRT2PI * math.exp(-0.5 * u * u)
     if u <= 5.0:
-        tail = 0.5 * math.erfc(u * INV_SQRT2)
-        return (1.0 + u * u) * tail - u * pdf, pdf - u * tail
+        return (1.0 + u * u) * above - u * pdf, pdf - u * above
     # Q/pdf = 1/(u + 1/(u + 2/(u + 3/(u + ...)))); k_n is the fraction from n on
     k = u
     for n in range(12 + int(600.0 / (u * u)), 2, -1):

@@ -138,19 +138,25 @@ W_SURFACE = W_VARIED_STAGES + N_STAGES * NY
 (
     W_SURFACE_CHANGE,
     W_POWER_CHANGE,
-    W_DECAY,
+    W_COOLED,
     W_WARMED,
     W_DIAGONAL,
     W_FILM_PIVOT,
     W_DETERMINANT,
+    W_COUPLED,
     W_HELD,
     W_RING_SHARE,  # of the rings in a power that is given
+    W_VISCOSITY,  # of the rings' oil [Pa s], and its slopes [Pa s/K]
+    W_VISCOSITY_SLOPE,
     W_GIVEN,
-) = (W_SURFACE + i * MAX_RINGS for i in range(1, 11))
+) = (W_SURFACE + i * MAX_RINGS for i in range(1, 14))
 # 1: the power of a face is given; that at no slip [W], and how it grows with the slip. Then the
-# bend of a substep's unknown for the film (rosenbrock), and its change.
+# bend of a substep's unknown for the film (rosenbrock), its change, and what it is where the rates
+# were taken last.
 W_GIVEN_POWER, W_GIVEN_SLOPE, W_BEND, W_BEND_CHANGE = (W_GIVEN + i for i in range(1, 5))
-W_MEMORY = W_GIVEN + 5
+W_BEND_HERE = W_GIVEN + 5
+W_PIVOT = W_GIVEN + 6  # 1 over what all stages' systems of a substep divide the heats by
+W_MEMORY = W_PIVOT + NY
 # The torque that was decided on, its slopes over slip and capacity; that of the bound of a lock
 # over the capacity.
 W_GIVEN_TORQUE, W_BY_SLIP, W_BY_CAPACITY, W_BOUND_SLOPE = (

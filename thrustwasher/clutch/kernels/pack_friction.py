@@ -11,7 +11,13 @@ import numpy as np
 from ...numerics.jit import Array, kernel
 from ...numerics.status import OK
 from ...tribology.flow_factors import INV_SQRT2PI, mean_gap
-from ...tribology.greenwood_tripp import area_integrals, contact_integral, separation_and_slope
+from ...tribology.greenwood_tripp import (
+    area_integrals,
+    areas_of,
+    contact_integral,
+    normal_heights,
+    separation_and_slope,
+)
 from ...tribology.viscosity import viscosity
 from . import layout as L
 
@@ -21,6 +27,7 @@ N_TERMS = 40  # 0.25^40 < 1e-24
 # F_5/2 and its slope, F_2, F_1, mean gap over roughness, share of the area where the mean planes do
 # not overlap, the density of heights there, share of oil that is sheared and its log slope.
 Faces = tuple[float, float, float, float, float, float, float, float, float]
+Oil = tuple[float, float, float]  # temperature [K], viscosity [Pa s], its slope [Pa s/K]
 SETTLED = 1.0 - 1e-11  # share of the load from which on asperities carry it all
 
 
@@ -141,10 +148,10 @@ def settled_slope(par: Array, load: float, guess: float) -> tuple[float, float, 
 def rough_faces(u: float) -> Faces:
     """Return what two rough faces are at the film ratio ``u``, the same for all rings of a pack."""
     height, rise = contact_integral(u)
-    second, first = area_integrals(u)
-    gap, cdf = mean_gap(u, 1.0)
+    density, cdf, above = normal_heights(u)
+    second, first = areas_of(u, density, above)
+    gap = u * cdf + density if u >= -30.0 else mean_gap(u, 1.0)[0]
     sheared, steep = sheared_share(cdf, u)
-    density = INV_SQRT2PI * math.exp(-0.5 * u * u)
     return height, rise, second, first, gap, cdf, density, sheared, steep
 
 
@@ -196,17 +203,17 @@ def cooling_slope(par: Array, share: float) -> tuple[float, float]:
 
 @kernel
 def pack_torques(
-    par: Array, load: float, slip: float, drum: float, faces: Faces, temperature: float
+    par: Array, load: float, slip: float, drum: float, faces: Faces, oil: Oil
 ) -> tuple[
     tuple[float, float, float, float, float],
     tuple[float, float, float, float, float, float],
     tuple[float, float, float, float, float],
-    tuple[float, float, float, float],
+    tuple[float, float],
 ]:
     """Return the torques [N m >= 0] of asperities and oil, with slopes, and what they come from.
 
     Asperities: (torque, d/du, d/dT [N m/K], d/d|slip|, d/dload); oil: the same and d/ddrum; then
-    ``load_share``; (eta [Pa s], d eta/dT, share of the area in contact, its d/du).
+    ``load_share``; (share of the area in contact, its d/du).
 
     The law of friction is that of a settled pack, shear of its oil included: shear beside it counts
     for the load that asperities do not carry. All of it counts where the law is that of the
@@ -214,7 +221,7 @@ def pack_torques(
     """
     carried = share_of_load(par, load, faces[0], faces[1])
     share, share_u, share_f, pressure, rise = carried
-    mu, mu_t, mu_s = coefficient_slopes(par, slip, temperature)
+    mu, mu_t, mu_s = coefficient_slopes(par, slip, oil[0])
     lever, whole = par[L.P_FACES] * par[L.D_RADIUS], load / par[L.D_AREA]
     normal, normal_u, grows = lever * share * load, lever * share_u * load, 0.0
     if share >= 1.0 or whole < L.OPEN_PRESSURE:
@@ -222,11 +229,9 @@ def pack_torques(
         if pressure > whole + L.AMBIENT:
             normal, normal_u, grows = lever * (load + L.AMBIENT * par[L.D_AREA]), 0.0, lever
     contact = (normal * mu, mu * normal_u, normal * mu_t, normal * mu_s, mu * grows)
-    full, by_u, by_t, by_s, by_d, eta, eta_t, area, area_u = viscous_between(
-        par, slip, drum, faces, temperature
-    )
+    full, by_u, by_t, by_s, by_d, area, area_u = viscous_between(par, slip, drum, faces, oil)
     if par[L.P_FRICTION_DATA] == L.BOUNDARY_DATA:
-        return contact, (full, by_u, by_t, by_s, by_d, 0.0), carried, (eta, eta_t, area, area_u)
+        return contact, (full, by_u, by_t, by_s, by_d, 0.0), carried, (area, area_u)
     rest = 1.0 - share
     shear = (
         rest * full,
@@ -236,7 +241,7 @@ def pack_torques(
         rest * by_d,
         -share_f * full,
     )
-    return contact, shear, carried, (eta, eta_t, area, area_u)
+    return contact, shear, carried, (area, area_u)
 
 
 @kernel
@@ -314,22 +319,30 @@ def filled_share(
 def viscous_slopes(
     par: Array, slip: float, drum: float, u: float, temperature: float
 ) -> tuple[float, float, float, float, float, float, float, float, float]:
-    """Return ``viscous_between`` at the film ratio ``u``."""
-    return viscous_between(par, slip, drum, rough_faces(u), temperature)
+    """Return ``viscous_between`` at the film ratio ``u``, viscosity and slope before the shares."""
+    oil = oil_at(par, temperature)
+    shear = viscous_between(par, slip, drum, rough_faces(u), oil)
+    return shear[0], shear[1], shear[2], shear[3], shear[4], oil[1], oil[2], shear[5], shear[6]
+
+
+@kernel
+def oil_at(par: Array, temperature: float) -> Oil:
+    """Return what the oil is at a temperature [K]."""
+    scale, constant = par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_CONSTANT]
+    eta, slope = viscosity(temperature, scale, constant, par[L.P_VISCOSITY_EXPONENT])
+    return temperature, eta, slope
 
 
 @kernel
 def viscous_between(
-    par: Array, slip: float, drum: float, faces: Faces, temperature: float
-) -> tuple[float, float, float, float, float, float, float, float, float]:
-    """Return the torque [N m >= 0] of the oil's shear at |slip|; slopes; viscosity; contact share.
+    par: Array, slip: float, drum: float, faces: Faces, oil: Oil
+) -> tuple[float, float, float, float, float, float, float]:
+    """Return the torque [N m >= 0] of the oil's shear at |slip|; slopes; contact share.
 
-    (torque, d/du, d/dT, d/d|slip|, d/ddrum, eta [Pa s], d eta/dT, share of the area in contact, its
-    d/du). Couette flow over the mean gap h_T where lands do not touch, and over h_T and the depth
-    of the grooves.
+    (torque, d/du, d/dT, d/d|slip|, d/ddrum, share of the area in contact, its d/du). Couette flow
+    over the mean gap h_T where lands do not touch, and over h_T and the depth of the grooves.
     """
-    scale, constant = par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_CONSTANT]
-    eta, eta_slope = viscosity(temperature, scale, constant, par[L.P_VISCOSITY_EXPONENT])
+    temperature, eta, eta_slope = oil
     share, share_slope = share_in_contact(par, faces[2], faces[3])
     gap, gap_slope, open_share, open_slope = faces[4], faces[5], faces[7], faces[8]
     land, deep = par[L.P_LAND_SHARE] * open_share / gap, gap + par[L.D_GROOVE_RATIO]
@@ -363,8 +376,6 @@ def viscous_between(
         torque * relative_t,
         full * thin * (power + by_slip * slip),
         torque * by_drum,
-        eta,
-        eta_slope,
         share,
         share_slope,
     )

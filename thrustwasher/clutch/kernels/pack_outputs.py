@@ -9,7 +9,7 @@ from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import sign_of
 from . import layout as L
 from .pack_friction import coefficient_slopes, cooling_slope, pack_torques, rough_faces
-from .rates import moves_film, ring_of, settled_cooling, surfaces
+from .rates import fill_viscosities, moves_film, oil_of, ring_of, settled_cooling, surfaces
 
 
 @kernel
@@ -43,6 +43,7 @@ def ring_outputs(
     turn, faces = sign_of(slip) * change[1], rough_faces(u)
     dry, ddry, wet, dwet, wet_slip = 0.0, 0.0, 0.0, 0.0, 0.0
     eta, deta, mu, dmu, arm = 0.0, 0.0, 0.0, 0.0, 0.0
+    fill_viscosities(par, work)
     for k in range(int(par[L.D_RINGS])):
         ring = ring_of(par, k)
         share = ring[L.D_AREA] / par[L.D_AREA]
@@ -51,9 +52,10 @@ def ring_outputs(
         f, by_t, by_s = coefficient_slopes(ring, slip, t)
         lever = share * ring[L.D_RADIUS]
         mu, dmu, arm = mu + lever * f, dmu + lever * (by_t * dt + by_s * turn), arm + lever
-        contact, viscous, carried, oil = pack_torques(ring, load * share, slip, drum, faces, t)
-        eta, deta = eta + share * oil[0], deta + share * oil[1] * dt
-        out[L.O_CONTACT_SHARE], dout[L.O_CONTACT_SHARE] = oil[2], oil[3] * change[2]
+        oil = oil_of(work, k)
+        contact, viscous, carried, area = pack_torques(ring, load * share, slip, drum, faces, oil)
+        eta, deta = eta + share * oil[1], deta + share * oil[2] * dt
+        out[L.O_CONTACT_SHARE], dout[L.O_CONTACT_SHARE] = area[0], area[1] * change[2]
         if moves_film(par):
             work[L.W_COOLING] = cooling_slope(par, carried[0])[0]
             more = share * change[0]
@@ -79,8 +81,8 @@ def ring_outputs(
     out[L.O_CAPACITY], dout[L.O_CAPACITY] = dry + wet, ddry + dwet + wet_slip * turn
     out[L.O_POWER] = out[L.O_TORQUE] * slip
     dout[L.O_POWER] = dout[L.O_TORQUE] * slip + out[L.O_TORQUE] * change[1]
-    area = par[L.P_FACES] * par[L.D_AREA]
-    out[L.O_HEAT_FLUX], dout[L.O_HEAT_FLUX] = out[L.O_POWER] / area, dout[L.O_POWER] / area
+    whole = par[L.P_FACES] * par[L.D_AREA]
+    out[L.O_HEAT_FLUX], dout[L.O_HEAT_FLUX] = out[L.O_POWER] / whole, dout[L.O_POWER] / whole
     out[L.O_COEFFICIENT], dout[L.O_COEFFICIENT] = mu / arm, dmu / arm
     out[L.O_FILM], dout[L.O_FILM] = u * par[L.P_ROUGHNESS], change[2] * par[L.P_ROUGHNESS]
     out[L.O_RATIO], dout[L.O_RATIO] = u, change[2]

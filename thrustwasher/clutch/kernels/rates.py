@@ -12,9 +12,20 @@ import numpy as np
 
 from ...numerics.jit import Array, kernel
 from ...numerics.smoothing import sign_of
-from ...tribology.flow_factors import INV_SQRT2, INV_SQRT2PI, gap_flow
+from ...tribology.flow_factors import gap_flow
+from ...tribology.greenwood_tripp import contact_integral, normal_heights
+from ...tribology.viscosities import straight_viscosity
+from ...tribology.viscosity import viscosity
 from . import layout as L
-from .pack_friction import Faces, coefficient_slopes, cooling_slope, pack_torques, rough_faces
+from .pack_friction import (
+    Faces,
+    Oil,
+    coefficient_slopes,
+    cooling_slope,
+    pack_torques,
+    rough_faces,
+    share_of_load,
+)
 
 LEAST_CDF = 1e-3
 MOST_TORN = 85.0  # times as fast as untorn oil lets them: no more
@@ -31,6 +42,12 @@ def ring_of(par: Array, k: int) -> Array:
     """Return the k-th ring's block of ``par``."""
     first = int(par[L.D_FIRST]) + k * L.N_PACK
     return par[first : first + L.N_PACK]
+
+
+@kernel
+def ring_at(par: Array, k: int) -> int:
+    """Return where the k-th ring's block begins in ``par``."""
+    return int(par[L.D_FIRST]) + k * L.N_PACK
 
 
 @kernel
@@ -104,8 +121,8 @@ def film_rate(
     slip: float,
     cdf: float,
     density: float,
-) -> tuple[float, float, float, float, float]:
-    """Return du/dt [1/s] of the film ratio; slopes over u, pressure, eta and |slip|.
+) -> tuple[float, float, float, float, float, float]:
+    """Return du/dt [1/s] of the film ratio; slopes over u, pressure, eta and |slip|; ``film_bend``.
 
     The film carries what the asperities do not: d h_T/dt = cdf(u) dh/dt is what flows out between
     the rough faces and through the lining (Darcy). Where the faces overlap by more than 3 sigma the
@@ -125,6 +142,7 @@ def film_rate(
     flow, flow_slope = gap_flow(u)
     if cdf < LEAST_CDF:
         cdf, density = LEAST_CDF, 0.0
+    bend = 0.0 if opens else _bend(par, flow, flow_slope, cdf, density)
     ease = par[L.D_CLOSING] / (eta * cdf)
     open_for = flow + par[L.D_SEEPAGE]
     gives = open_for
@@ -137,7 +155,7 @@ def film_rate(
     slope = -ease * (flow_slope * squeezed + gives * squeezed_u) - rate * density / cdf
     by_squeezed = -ease * gives
     by_eta = by_squeezed * by_eta - rate / eta
-    return rate, slope, 0.0 if opens else by_squeezed, by_eta, by_squeezed * by_slip
+    return rate, slope, 0.0 if opens else by_squeezed, by_eta, by_squeezed * by_slip, bend
 
 
 @kernel
@@ -150,11 +168,26 @@ def film_bend(par: Array, load: float, u: float) -> float:
     if not moves_film(par) or load < L.OPEN_PRESSURE * par[L.D_AREA]:
         return 0.0
     flow, slope = gap_flow(u)
-    cdf = 0.5 * math.erfc(-max(u, -30.0) * INV_SQRT2)
-    grows = slope / (flow + par[L.D_SEEPAGE])
-    if cdf >= LEAST_CDF:
-        grows -= INV_SQRT2PI * math.exp(-0.5 * min(u * u, 1400.0)) / cdf
-    return max(grows / 3.0, 0.0)
+    density, cdf, _ = normal_heights(u)
+    if cdf < LEAST_CDF:
+        cdf, density = LEAST_CDF, 0.0
+    return _bend(par, flow, slope, cdf, density)
+
+
+@kernel
+def _bend(par: Array, flow: float, slope: float, cdf: float, density: float) -> float:
+    """Return a closing film's ``film_bend`` from what ``film_rate`` has."""
+    return max((slope / (flow + par[L.D_SEEPAGE]) - density / cdf) / 3.0, 0.0)
+
+
+@kernel
+def oil_of(work: Array, k: int) -> Oil:
+    """Return what the oil of the k-th ring is, after ``fill_viscosities``."""
+    return (
+        work[np.uintp(L.W_SURFACE + k)],
+        work[np.uintp(L.W_VISCOSITY + k)],
+        work[np.uintp(L.W_VISCOSITY_SLOPE + k)],
+    )
 
 
 @kernel
@@ -165,19 +198,19 @@ def heat_slopes(
     drum: float,
     faces: Faces,
     smooth: float,
-    temperature: float,
+    oil: Oil,
 ) -> tuple[
     tuple[float, float, float, float, float, float],
     tuple[float, float, float],
-    tuple[float, float, float, float],
+    tuple[float, float],
 ]:
     """Return power, cooling of a pack of one temperature, their slopes, what moves its film.
 
     (power of a face [W], its slopes over u, T, load, |slip| and drum), (cooling of a face [W/K],
-    its slopes over u and load), (pressure of the asperities [Pa], its slope over u, viscosity and
-    its slope). ``smooth``: tanh of the slip over its smoothing.
+    its slopes over u and load), (pressure of the asperities [Pa], its slope over u). ``smooth``:
+    tanh of the slip over its smoothing.
     """
-    contact, viscous, carried, oil = pack_torques(par, load, slip, drum, faces, temperature)
+    contact, viscous, carried, _ = pack_torques(par, load, slip, drum, faces, oil)
     number, width = par[L.P_FACES], par[L.P_SPEED_SMOOTHING]
     speed = abs(slip) / number
     steep = (1.0 - smooth) * (1.0 + smooth) / width
@@ -192,8 +225,7 @@ def heat_slopes(
     )
     cooling, over = cooling_slope(par, carried[0])
     cooling, over = cooling * par[L.D_AREA], over * par[L.D_AREA]
-    moves = carried[3], carried[4], oil[0], oil[1]
-    return power, (cooling, over * carried[1], over * carried[2]), moves
+    return power, (cooling, over * carried[1], over * carried[2]), (carried[3], carried[4])
 
 
 @kernel
@@ -263,50 +295,113 @@ def pack_rates(
     ``u``: film ratio; the rings' temperatures are those in W_SURFACE.
     """
     at = to + L.R_RINGS
+    given, rings = work[L.W_GIVEN] != 0.0, int(par[L.D_RINGS])
     if moves_film(par):
-        _moving_film(par, load, slip, drum, u, work, to)
-    else:
-        for k in range(int(par[L.D_RINGS])):
-            _settled_power(par, load, slip, k, at + k * L.N_OF_RING, work)
-        for i in range(L.R_RINGS):
-            work[np.uintp(to + i)] = 0.0
-    if work[L.W_GIVEN] != 0.0:
-        _give_power(par, slip, work, at)
+        if given:
+            _given_heat(par, load, slip, u, work, to)
+        else:
+            _own_heat(par, load, slip, drum, u, work, to)
+        return
+    work[L.W_BEND_HERE] = 0.0
+    for k in range(rings):
+        _settled_power(par, load, slip, k, at + k * L.N_OF_RING, work)
+    for i in range(L.R_RINGS):
+        work[np.uintp(to + i)] = 0.0
+    if given:
+        for k in range(rings):
+            _give_power(work, slip, k, at + k * L.N_OF_RING)
 
 
 @kernel
-def _moving_film(
+def fill_viscosities(par: Array, work: Array) -> None:
+    """Fill W_VISCOSITY and the slopes behind it at the temperatures in W_SURFACE.
+
+    Several rings in whole groups of four, which go side by side: those that a pack does not have
+    count for nothing.
+    """
+    scale, constant = par[L.P_VISCOSITY_SCALE], par[L.P_VISCOSITY_CONSTANT]
+    exponent = par[L.P_VISCOSITY_EXPONENT]
+    if par[L.D_RINGS] == 1.0:
+        eta, slope = viscosity(work[L.W_SURFACE], scale, constant, exponent)
+        work[L.W_VISCOSITY], work[L.W_VISCOSITY_SLOPE] = eta, slope
+        return
+    for k in range(4 * ((int(par[L.D_RINGS]) + 3) // 4)):
+        warmth = work[np.uintp(L.W_SURFACE + k)]
+        eta, slope = straight_viscosity(warmth, scale, constant, exponent)
+        work[np.uintp(L.W_VISCOSITY + k)] = eta
+        work[np.uintp(L.W_VISCOSITY_SLOPE + k)] = slope
+
+
+@kernel
+def _own_heat(
     par: Array, load: float, slip: float, drum: float, u: float, work: Array, to: int
 ) -> None:
-    """Fill ``work[to:]`` as ``pack_rates`` where the film is a state."""
-    rate, rate_u, rate_f, rate_s, own, mean, first = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0
-    at, rings = to + L.R_RINGS, int(par[L.D_RINGS])
+    """Fill ``work[to:]`` as ``pack_rates`` where the film is a state and the heat the pack's."""
+    at, pressure, rise = to + L.R_RINGS, 0.0, 0.0
+    fill_viscosities(par, work)
     faces, smooth = rough_faces(u), math.tanh(abs(slip) / par[L.P_SPEED_SMOOTHING])
-    for k in range(rings):
-        ring, place = ring_of(par, k), at + k * L.N_OF_RING
-        share, weight = ring[L.D_AREA] / par[L.D_AREA], par[np.uintp(L.D_SQUEEZE + k)]
-        power, cooling, (pressure, rise, eta, eta_t) = heat_slopes(
-            ring, load * share, slip, drum, faces, smooth, work[np.uintp(L.W_SURFACE + k)]
+    for k in range(int(par[L.D_RINGS])):
+        ring = ring_of(par, k)
+        share = ring[L.D_AREA] / par[L.D_AREA]
+        oil = oil_of(work, k)
+        power, cooling, (pressure, rise) = heat_slopes(
+            ring, load * share, slip, drum, faces, smooth, oil
         )
-        _keep(power, cooling, share, slip, place, work)
-        work[np.uintp(place + L.R_RATE_T)] = weight * eta_t
-        mean += weight * eta
-        if k == 0:
-            whole = load * share / ring[L.D_AREA]
-            film = film_rate(ring, whole, u, pressure, rise, eta, slip, faces[5], faces[6])
-            first, rate, rate_u = eta, film[0], film[1]
-            rate_f = film[2] / ring[L.D_AREA] * share
-            own, rate_s = (film[3] + rate / eta) * eta_t, film[4] * sign_of(slip)
-    thick = first / mean
-    rate, rate_u, rate_f, rate_s = rate * thick, rate_u * thick, rate_f * thick, rate_s * thick
+        _keep(power, cooling, share, slip, at + k * L.N_OF_RING, work)
+    _film_of_rings(par, load, slip, u, (pressure, rise, faces[5], faces[6]), work, to)
+
+
+@kernel
+def _given_heat(par: Array, load: float, slip: float, u: float, work: Array, to: int) -> None:
+    """Fill ``work[to:]`` as ``pack_rates`` where the film is a state and the heat is given."""
+    at = to + L.R_RINGS
+    fill_viscosities(par, work)
+    height, slope = contact_integral(u)
+    density, cdf, _ = normal_heights(u)
+    share, share_u, share_f, pressure, rise = share_of_load(par, load, height, slope)
+    cooling, over = cooling_slope(par, share)
+    for k in range(int(par[L.D_RINGS])):
+        place, area = at + k * L.N_OF_RING, par[np.uintp(ring_at(par, k) + L.D_AREA)]
+        _give_power(work, slip, k, place)
+        work[np.uintp(place + L.R_COOL)] = cooling * area
+        work[np.uintp(place + L.R_COOL_U)] = over * area * share_u
+        work[np.uintp(place + L.R_COOL_F)] = over * area * share_f
+    _film_of_rings(par, load, slip, u, (pressure, rise, cdf, density), work, to)
+
+
+@kernel
+def _film_of_rings(
+    par: Array,
+    load: float,
+    slip: float,
+    u: float,
+    carried: tuple[float, float, float, float],
+    work: Array,
+    to: int,
+) -> None:
+    """Fill the film's rate and slopes in ``work[to:]``; the viscosities are in W_VISCOSITY.
+
+    ``carried``: pressure of the asperities [Pa], its slope over u, share of heights below u, their
+    density there. An open film follows the first ring's viscosity, whatever the others'.
+    """
+    pressure, rise, cdf, density = carried
+    at, rings, first = to + L.R_RINGS, int(par[L.D_RINGS]), work[L.W_VISCOSITY]
+    film = film_rate(par, load / par[L.D_AREA], u, pressure, rise, first, slip, cdf, density)
+    own = (film[3] + film[0] / first) * work[L.W_VISCOSITY_SLOPE]
+    mean = 0.0
     for k in range(rings):
-        place = at + k * L.N_OF_RING + L.R_RATE_T
-        work[np.uintp(place)] = -rate * work[np.uintp(place)] / mean
+        mean += par[np.uintp(L.D_SQUEEZE + k)] * work[np.uintp(L.W_VISCOSITY + k)]
+    thick = first / mean
+    rate = film[0] * thick
+    for k in range(rings):
+        weight = par[np.uintp(L.D_SQUEEZE + k)] * work[np.uintp(L.W_VISCOSITY_SLOPE + k)]
+        work[np.uintp(at + k * L.N_OF_RING + L.R_RATE_T)] = -rate * weight / mean
     if load < L.OPEN_PRESSURE * par[L.D_AREA]:
         work[np.uintp(at + L.R_RATE_T)] += own * thick
-    work[np.uintp(to + L.R_RATE)] = rate
-    work[np.uintp(to + L.R_RATE_U)], work[np.uintp(to + L.R_RATE_F)] = rate_u, rate_f
-    work[np.uintp(to + L.R_RATE_S)] = rate_s
+    work[np.uintp(to + L.R_RATE)], work[np.uintp(to + L.R_RATE_U)] = rate, film[1] * thick
+    work[np.uintp(to + L.R_RATE_F)] = film[2] / par[L.D_AREA] * thick
+    work[np.uintp(to + L.R_RATE_S)] = film[4] * sign_of(slip) * thick
+    work[L.W_BEND_HERE] = film[5]
 
 
 @kernel
@@ -316,14 +411,13 @@ def given_power(work: Array, slip: float) -> float:
 
 
 @kernel
-def _give_power(par: Array, slip: float, work: Array, at: int) -> None:
-    """Put the power that is given in place of the pack's own."""
-    for k in range(int(par[L.D_RINGS])):
-        ring, share = at + k * L.N_OF_RING, work[np.uintp(L.W_RING_SHARE + k)]
-        for i in range(L.R_POWER, L.R_POWER_D + 1):
-            work[np.uintp(ring + i)] = 0.0
-        work[np.uintp(ring + L.R_POWER)] = share * given_power(work, slip)
-        work[np.uintp(ring + L.R_POWER_S)] = share * work[L.W_GIVEN_SLOPE]
+def _give_power(work: Array, slip: float, k: int, place: int) -> None:
+    """Put a ring's share of the power that is given at ``work[place:]``."""
+    share = work[np.uintp(L.W_RING_SHARE + k)]
+    for i in range(L.R_POWER, L.R_POWER_D + 1):
+        work[np.uintp(place + i)] = 0.0
+    work[np.uintp(place + L.R_POWER)] = share * given_power(work, slip)
+    work[np.uintp(place + L.R_POWER_S)] = share * work[L.W_GIVEN_SLOPE]
 
 
 @kernel

@@ -21,7 +21,7 @@ from ...numerics.arrays import copy
 from ...numerics.jit import Array, kernel
 from ...numerics.status import NOT_FINITE, OK
 from . import layout as L
-from .rates import film_bend, kept_of, n_unknowns, pack_rates, ring_of, surfaces
+from .rates import n_unknowns, pack_rates, ring_at, surfaces
 
 Ramp = tuple[float, float, float, float, float, float, float, float]
 GAMMA = 0.25
@@ -82,15 +82,16 @@ def bend_rates(par: Array, work: Array, kept: int, u: float) -> None:
     if bend == 0.0:
         return
     w = 1.0 + bend * (u - work[np.uintp(L.W_NOW + L.Y_FILM)])
-    steep = 1.0 / (w * w * w)
+    cube = w * w * w
+    steep = 1.0 / cube
     work[np.uintp(kept + L.R_RATE_U)] -= 3.0 * bend / w * work[np.uintp(kept + L.R_RATE)]
     work[np.uintp(kept + L.R_RATE)] *= steep
     work[np.uintp(kept + L.R_RATE_F)] *= steep
     for k in range(int(par[L.D_RINGS])):
         ring = kept + L.R_RINGS + k * L.N_OF_RING
         work[np.uintp(ring + L.R_RATE_T)] *= steep
-        work[np.uintp(ring + L.R_POWER_U)] /= steep
-        work[np.uintp(ring + L.R_COOL_U)] /= steep
+        work[np.uintp(ring + L.R_POWER_U)] *= cube
+        work[np.uintp(ring + L.R_COOL_U)] *= cube
 
 
 @kernel
@@ -109,14 +110,17 @@ def _rates(par: Array, ramp: Ramp, x: float, work: Array, base: int, place: int)
     pack_rates(par, max(load, 0.0), slip, drum, work[np.uintp(base + L.Y_FILM)], work, kept)
     n, total = 1 + int(par[L.D_MODES]), 0.0
     for k in range(int(par[L.D_RINGS])):
-        ring, own, heat = ring_of(par, k), kept_of(work, place, k), L.Y_HEAT + k * n
-        power = own[L.R_POWER]
+        ring, own, heat = ring_at(par, k), kept + L.R_RINGS + k * L.N_OF_RING, L.Y_HEAT + k * n
+        power = work[np.uintp(own + L.R_POWER)]
         total += power
-        excess = own[L.R_EXCESS] = work[np.uintp(base + heat)] - oil
-        work[np.uintp(L.W_RATE + heat)] = ring[L.D_GAIN] * (power - own[L.R_COOL] * excess)
+        excess = work[np.uintp(base + heat)] - oil
+        work[np.uintp(own + L.R_EXCESS)] = excess
+        net = power - work[np.uintp(own + L.R_COOL)] * excess
+        work[np.uintp(L.W_RATE + heat)] = par[np.uintp(ring + L.D_GAIN)] * net
         for i in range(1, n):
-            cooled = ring[np.uintp(L.D_DECAY + i)] * work[np.uintp(base + heat + i)]
-            work[np.uintp(L.W_RATE + heat + i)] = ring[np.uintp(L.D_GAIN + i)] * power - cooled
+            cooled = par[np.uintp(ring + L.D_DECAY + i)] * work[np.uintp(base + heat + i)]
+            warmed = par[np.uintp(ring + L.D_GAIN + i)] * power
+            work[np.uintp(L.W_RATE + heat + i)] = warmed - cooled
     bend_rates(par, work, kept, work[np.uintp(base + L.Y_FILM)])
     work[np.uintp(L.W_RATE + L.Y_FILM)] = work[np.uintp(kept + L.R_RATE)]
     work[np.uintp(L.W_RATE + L.Y_ENERGY)] = total
@@ -127,28 +131,35 @@ def factorise(par: Array, s: float, work: Array) -> None:
     """Fill what all stages' systems (s - J) U = right side share; J is kept at the first place.
 
     A ring and the film: (s - f_u) du - f_T D = r, (1 - gain P_T) D - warmed du = held, D being the
-    change of the ring's interface. Each ring has its own such system, from which the other rings
-    are eliminated.
+    change of the ring's interface. The other rings are eliminated from that of the film and the
+    first one, which needs no pivot but its determinant.
     """
-    n, rings = 1 + int(par[L.D_MODES]), int(par[L.D_RINGS])
-    for k in range(rings):
-        ring, own = ring_of(par, k), kept_of(work, 0, k)
-        decay = ring[L.D_GAIN] * own[L.R_COOL]
-        work[np.uintp(L.W_DECAY + k)] = decay
-        gain = mean = ring[L.D_GAIN] / (s + decay)
+    n, others = 1 + int(par[L.D_MODES]), 0.0
+    for k in range(int(par[L.D_RINGS])):
+        ring, own = ring_at(par, k), L.W_KEPT + L.R_RINGS + k * L.N_OF_RING
+        pivot = L.W_PIVOT + k * n
+        first = par[np.uintp(ring + L.D_GAIN)]
+        per = 1.0 / (s + first * work[np.uintp(own + L.R_COOL)])
+        work[np.uintp(pivot)] = per
+        gain = mean = first * per
         for i in range(1, n):
-            gain += ring[np.uintp(L.D_GAIN + i)] / (s + ring[np.uintp(L.D_DECAY + i)])
-        warmed = gain * own[L.R_POWER_U] - mean * cooled_by_film(own)
-        work[np.uintp(L.W_WARMED + k)] = warmed
-        work[np.uintp(L.W_DIAGONAL + k)] = 1.0 - gain * own[L.R_POWER_T]
-    for k in range(rings):
-        pivot = s - work[np.uintp(L.W_KEPT + L.R_RATE_U)]
-        for j in range(rings):
-            if j != k:
-                pivot -= _coupling(work, j) / work[np.uintp(L.W_DIAGONAL + j)]
-        work[np.uintp(L.W_FILM_PIVOT + k)] = pivot
-        determinant = pivot * work[np.uintp(L.W_DIAGONAL + k)] - _coupling(work, k)
-        work[np.uintp(L.W_DETERMINANT + k)] = determinant if determinant != 0.0 else math.nan
+            per = 1.0 / (s + par[np.uintp(ring + L.D_DECAY + i)])
+            work[np.uintp(pivot + i)] = per
+            gain += par[np.uintp(ring + L.D_GAIN + i)] * per
+        cooled = work[np.uintp(own + L.R_COOL_U)] * work[np.uintp(own + L.R_EXCESS)]
+        warmed = gain * work[np.uintp(own + L.R_POWER_U)] - mean * cooled
+        diagonal = 1.0 - gain * work[np.uintp(own + L.R_POWER_T)]
+        work[np.uintp(L.W_WARMED + k)], work[np.uintp(L.W_DIAGONAL + k)] = warmed, diagonal
+        work[np.uintp(L.W_COOLED + k)] = cooled
+        if k > 0:
+            slope = work[np.uintp(own + L.R_RATE_T)] / diagonal
+            work[np.uintp(L.W_COUPLED + k)] = slope
+            others += slope * warmed
+    left = s - work[L.W_KEPT + L.R_RATE_U] - others
+    coupled = work[L.W_KEPT + L.R_RINGS + L.R_RATE_T]
+    determinant = left * work[L.W_DIAGONAL] - coupled * work[L.W_WARMED]
+    work[L.W_FILM_PIVOT], work[L.W_COUPLED] = left, coupled
+    work[L.W_DETERMINANT] = determinant if determinant != 0.0 else math.nan
 
 
 @kernel
@@ -158,60 +169,74 @@ def cooled_by_film(own: Array) -> float:
 
 
 @kernel
-def _coupling(work: Array, k: int) -> float:
-    """Return the product of a ring's and the film's slopes over each other."""
-    return kept_of(work, 0, k)[L.R_RATE_T] * work[np.uintp(L.W_WARMED + k)]
-
-
-@kernel
 def solve_stage(par: Array, s: float, work: Array, stage: int) -> None:
     """Turn the right side in the stage's place into its solution, with what ``factorise`` left."""
     n, rings = 1 + int(par[L.D_MODES]), int(par[L.D_RINGS])
+    right, energy = work[np.uintp(stage + L.Y_FILM)], work[np.uintp(stage + L.Y_ENERGY)]
+    heat, pivot = stage + L.Y_HEAT, L.W_PIVOT
     for k in range(rings):
-        ring, heat = ring_of(par, k), stage + L.Y_HEAT + k * n
-        held = work[np.uintp(heat)] / (s + work[np.uintp(L.W_DECAY + k)])
-        for i in range(1, n):
-            held += work[np.uintp(heat + i)] / (s + ring[np.uintp(L.D_DECAY + i)])
+        held = 0.0
+        for i in range(n):
+            held += work[np.uintp(heat + i)] * work[np.uintp(pivot + i)]
         work[np.uintp(L.W_HELD + k)] = held
-    film, energy = 0.0, work[np.uintp(stage + L.Y_ENERGY)]
-    right = work[np.uintp(stage + L.Y_FILM)]
+        if k > 0:
+            right += work[np.uintp(L.W_COUPLED + k)] * held
+        heat, pivot = heat + n, pivot + n
+    per, first = 1.0 / work[L.W_DETERMINANT], work[L.W_HELD]
+    film = (right * work[L.W_DIAGONAL] + work[L.W_COUPLED] * first) * per
+    surface = (work[L.W_FILM_PIVOT] * first + work[L.W_WARMED] * right) * per
+    heat, pivot = stage + L.Y_HEAT, L.W_PIVOT
     for k in range(rings):
-        r = right
-        for j in range(rings):
-            if j != k:
-                coupled = kept_of(work, 0, j)[L.R_RATE_T] * work[np.uintp(L.W_HELD + j)]
-                r += coupled / work[np.uintp(L.W_DIAGONAL + j)]
-        ring, own, heat = ring_of(par, k), kept_of(work, 0, k), stage + L.Y_HEAT + k * n
-        held, warmed = work[np.uintp(L.W_HELD + k)], work[np.uintp(L.W_WARMED + k)]
-        determinant = work[np.uintp(L.W_DETERMINANT + k)]
-        if k == 0:
-            film = (r * work[np.uintp(L.W_DIAGONAL)] + own[L.R_RATE_T] * held) / determinant
-        surface = (work[np.uintp(L.W_FILM_PIVOT + k)] * held + warmed * r) / determinant
-        power = own[L.R_POWER_U] * film + own[L.R_POWER_T] * surface
+        ring, own = ring_at(par, k), L.W_KEPT + L.R_RINGS + k * L.N_OF_RING
+        if k > 0:
+            surface = work[np.uintp(L.W_HELD + k)] + work[np.uintp(L.W_WARMED + k)] * film
+            surface /= work[np.uintp(L.W_DIAGONAL + k)]
+        power = work[np.uintp(own + L.R_POWER_U)] * film
+        power += work[np.uintp(own + L.R_POWER_T)] * surface
         energy += power
-        net = power - cooled_by_film(own) * film
-        pivot = s + work[np.uintp(L.W_DECAY + k)]
-        work[np.uintp(heat)] = (work[np.uintp(heat)] + ring[L.D_GAIN] * net) / pivot
-        for i in range(1, n):
-            place, pivot = np.uintp(heat + i), s + ring[np.uintp(L.D_DECAY + i)]
-            work[place] = (work[place] + ring[np.uintp(L.D_GAIN + i)] * power) / pivot
+        net = power - work[np.uintp(L.W_COOLED + k)] * film
+        for i in range(n):
+            gained = par[np.uintp(ring + L.D_GAIN + i)] * (net if i == 0 else power)
+            place = np.uintp(heat + i)
+            work[place] = (work[place] + gained) * work[np.uintp(pivot + i)]
+        heat, pivot = heat + n, pivot + n
     work[np.uintp(stage + L.Y_FILM)] = film
     work[np.uintp(stage + L.Y_ENERGY)] = energy / s
+
+
+@kernel
+def _sum_up(work: Array, shares: Array, k: int, i: int) -> float:
+    """Return the sum of the stages before ``k`` times their shares; of the i-th unknown."""
+    total = 0.0
+    for j in range(k):
+        total += shares[k, j] * work[np.uintp(L.W_STAGES + j * L.NY + i)]
+    return total
+
+
+@kernel
+def _start_bend(work: Array, kept: int) -> None:
+    """Turn the slope over the film at a substep's start into that over q; the rest is the same."""
+    bent = 3.0 * work[L.W_BEND] * work[np.uintp(kept + L.R_RATE)]
+    work[np.uintp(kept + L.R_RATE_U)] -= bent
 
 
 @kernel
 def substep(par: Array, ramp: Ramp, x: float, share: float, duration: float, work: Array) -> float:
     """Fill W_TRIAL with the state a substep later; return its error in units of the tolerance."""
     n, h = n_unknowns(par), share * duration
-    s = 1.0 / (GAMMA * h)
+    s, per = 1.0 / (GAMMA * h), 1.0 / h
     moving = is_moving(ramp)
     last = L.W_STAGES + (L.N_STAGES - 1) * L.NY
     now, film = work[np.uintp(L.W_NOW + L.Y_FILM)], np.uintp(L.W_TRIAL + L.Y_FILM)
-    bend = work[L.W_BEND] = film_bend(par, ramp[0] + (ramp[3] - ramp[0]) * x, now)
+    work[L.W_BEND] = 0.0
     if moving:  # the drift of the rates is differenced; it goes where the last stage will be
         _rates(par, ramp, x + NUDGE * share, work, L.W_NOW, L.DRIFTED)
         copy(work[L.W_RATE :], work[last : last + n])
     _rates(par, ramp, x, work, L.W_NOW, 0)
+    bend = work[L.W_BEND] = work[L.W_BEND_HERE]
+    _start_bend(work, L.W_KEPT)
+    if moving:
+        _start_bend(work, L.W_KEPT + L.DRIFTED * L.N_RATES)
     factorise(par, s, work)
     if moving:
         for i in range(n):
@@ -219,20 +244,16 @@ def substep(par: Array, ramp: Ramp, x: float, share: float, duration: float, wor
             work[place] = (work[place] - work[np.uintp(L.W_RATE + i)]) / (NUDGE * h)
     for k in range(L.N_STAGES):
         if k > 0:
-            for i in range(n):
-                value = work[np.uintp(L.W_NOW + i)] if i != L.Y_FILM else 0.0
-                for j in range(k):
-                    value += A[k, j] * work[np.uintp(L.W_STAGES + j * L.NY + i)]
+            for i in range(L.Y_ENERGY, n):
+                value = work[np.uintp(L.W_NOW + i)] + _sum_up(work, A, k, i)
                 work[np.uintp(L.W_TRIAL + i)] = value
-            q = work[film]
+            q = _sum_up(work, A, k, L.Y_FILM)
             work[film] = now + unbent(q, bend)
             _rates(par, ramp, x + ALPHA[k] * share, work, L.W_TRIAL, k)
             work[film] = q
         stage = L.W_STAGES + k * L.NY
         for i in range(n):
-            value = work[np.uintp(L.W_RATE + i)]
-            for j in range(k):
-                value += C[k, j] / h * work[np.uintp(L.W_STAGES + j * L.NY + i)]
+            value = work[np.uintp(L.W_RATE + i)] + _sum_up(work, C, k, i) * per
             if moving and k < 4:
                 value += DRIFT[k] * h * work[np.uintp(last + i)]
             work[np.uintp(stage + i)] = value

@@ -19,6 +19,7 @@ from .pack_friction import (
     contact_share,
     cooling_slope,
     load_share,
+    oil_at,
     pack_torques,
     regime_of,
     rough_faces,
@@ -49,7 +50,8 @@ def steady_torques(
         mu, mu_slope, _ = coefficient_slopes(par, slip, temperature)
         lever = par[L.P_FACES] * par[L.D_RADIUS] * load
         return lever * mu, 0.0, lever * mu_slope
-    contact, viscous, _, _ = pack_torques(par, load, slip, drum, rough_faces(u), temperature)
+    oil = oil_at(par, temperature)
+    contact, viscous, _, _ = pack_torques(par, load, slip, drum, rough_faces(u), oil)
     return contact[0], viscous[0], contact[2] + viscous[2]
 
 

@@ -79,10 +79,10 @@ AGAIN = "thrustwasher/__init__.py::thrustwasher."
 
 
 def pytest_collection_modifyitems(items):
-    """Begin with what compiles for minutes, so that the processes end at about the same time.
+    """Begin with what takes minutes in one test, so that the processes end at about the same time.
 
     Examples of public functions are run where these are defined, not once more as public names.
     """
-    compiling = {"test_compiled_here"}
+    long = {"test_compiled_here", "test_gearmesh"}
     items[:] = [item for item in items if not item.nodeid.startswith(AGAIN)]
-    items.sort(key=lambda item: item.path.stem not in compiling)
+    items.sort(key=lambda item: item.path.stem not in long)

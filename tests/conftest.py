@@ -1,5 +1,6 @@
 """Where tests keep what is built for them, and which warnings are theirs."""
 
+import gc
 import os
 import shutil
 from pathlib import Path
@@ -39,6 +40,17 @@ def pytest_configure(config):
     paths = [*TESTS.rglob("*.py"), *(TESTS.parent / "examples").glob("*.py")]
     names = {path.stem for path in paths} | {path.parent.name for path in paths}
     config.addinivalue_line("filterwarnings", rf"error:::({'|'.join(sorted(names))})(\.|$)")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection():
+    """Look for no garbage among the tests that are found: it takes a sixth of the time."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 @pytest.fixture(scope="module")

@@ -154,6 +154,7 @@ def rows():
     return corrections()
 
 
+@pytest.mark.slow
 @slow_without_jit
 def test_a_settled_pack_has_the_friction_that_the_rig_measured(rows):
     means = [r for r in rows if r["figure"].startswith("mean friction")]
@@ -161,12 +162,14 @@ def test_a_settled_pack_has_the_friction_that_the_rig_measured(rows):
     assert all(r["recorded"] and r["before"] > 1.2 * r["after"] for r in means)
 
 
+@pytest.mark.slow
 @slow_without_jit
 def test_a_watt_of_loss_warms_the_flank_more_than_ten_times_as_much(rows):
     (flank,) = (r for r in rows if r["unit"] == "K/kW")
     assert flank["after"] > 10.0 * flank["before"] > 0.0
 
 
+@pytest.mark.slow
 @slow_without_jit
 def test_the_chapter_has_a_line_for_each_figure_and_marks_recorded_ones(rows):
     (table,) = corrections_section(rows).tables

@@ -111,18 +111,21 @@ def slopes(way, steps, limit):
     return [math.log(a / b) / ratio for a, b in zip(coarse, fine, strict=True)]
 
 
+@pytest.mark.slow
 def test_both_masters_tend_to_one_limit(limit):
     truth, apart = limit
     assert apart["lock_time"] < 1e-5 * truth["lock_time"]
     assert apart["slip_energy"] < 5e-5 * truth["slip_energy"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("master", ["gauss-seidel", "jacobi"])
 def test_held_capacities_couple_with_order_one(master, limit):
     lock, _, peak = slopes(Way(master, extrapolation=False), (8e-3, 2e-3), limit)
     assert lock == pytest.approx(1.0, abs=0.15) and peak == pytest.approx(1.0, abs=0.15)
 
 
+@pytest.mark.slow
 def test_extrapolated_capacities_couple_with_order_two_nearly(limit):
     """Lock-up and the release are corners: each run meets them elsewhere in its steps."""
     found = slopes(Way("jacobi"), (2e-3, 1e-3), limit)

@@ -53,13 +53,21 @@ def tree_of(path: Path) -> ast.Module:
     return ast.parse(path.read_text("utf-8"))
 
 
+def statements(within: ast.AST) -> Iterable[ast.AST]:
+    """Yield all statements, however deep; in expressions there are none."""
+    for name in ("body", "handlers", "orelse", "finalbody", "cases"):
+        for one in getattr(within, name, ()):
+            yield one
+            yield from statements(one)
+
+
 @cache
 def imports() -> dict[str, set[str]]:
     """Return which modules of the package each one imports, wherever in the file it does so."""
     found: dict[str, set[str]] = {}
     for name, path in modules().items():
         package = name if path.name == "__init__.py" else name.rpartition(".")[0]
-        targets = {t for node in ast.walk(tree_of(path)) for t in _targets(node, package)}
+        targets = {t for node in statements(tree_of(path)) for t in _targets(node, package)}
         found[name] = (targets & modules().keys()) - {name}
     return found
 

@@ -3,7 +3,8 @@
     python -m lab.tables [NAME ...]        write them into the pages; default: all
     python -m lab.tables --check [NAME ...]
 
-``tests/lab/test_docs.py`` makes them all anew and compares.
+``tests/lab/test_docs.py`` makes them anew and compares; that of jumps, with its scans, a test of
+the mesh.
 """
 
 import argparse
@@ -37,17 +38,14 @@ HERE = Path(__file__).parents[1] / "docs"
 PAGES = [HERE.parent / "README.md", *sorted(HERE.rglob("*.md"))]
 BLOCK = re.compile(r"(?s)(<!-- table: ([\w-]+) -->\n)(.*?)(<!-- end -->)")
 MADE: dict[str, Callable[[], str]] = {}
-SLOW = set[str]()  # a minute or more
 CELSIUS = 273.15
 
 
-def made(name: str, *, slow: bool = False) -> Callable[[Callable[[], str]], Callable[[], str]]:
+def made(name: str) -> Callable[[Callable[[], str]], Callable[[], str]]:
     """Keep a function under the name of the block that it makes."""
 
     def keep(make: Callable[[], str]) -> Callable[[], str]:
         MADE[name] = make
-        if slow:
-            SLOW.add(name)
         return make
 
     return keep
@@ -148,7 +146,7 @@ def _law_ranges(ranges) -> str:
     return "".join(f"{textwrap.fill(line, 150, subsequent_indent='  ')}\n" for line in lines)
 
 
-@made("mesh-jumps", slow=True)
+@made("mesh-jumps")
 def _mesh_jumps() -> str:
     return jumps_table((pair, jumps) for pair, _, _, jumps in scan_all())
 
@@ -290,7 +288,7 @@ def _thrust() -> str:
     )
 
 
-@made("sump", slow=True)
+@made("sump")
 def _sump() -> str:
     found = shift("duty-cycle")
     oil = found.oil_temperature - CELSIUS

@@ -87,6 +87,7 @@ def fmu(run, folder):
     return folder / made["fmus"][0]
 
 
+@pytest.mark.slow
 def test_the_fmu_gives_the_same_numbers(fmu, solved):
     names = ("friction_torque", "temperature", "film_thickness")
     options = {"stop_time": 2e-3, "output_interval": 1e-3, "start_values": POINT, "output": names}
@@ -94,6 +95,7 @@ def test_the_fmu_gives_the_same_numbers(fmu, solved):
     assert [series[name][-1] for name in names] == [solved[name] for name in names]
 
 
+@pytest.mark.slow
 def test_the_page_inside_lists_its_variables(fmu):
     page = zipfile.ZipFile(fmu).read("documentation/index.html").decode()
     for name in (*POINT, "clearance", "friction_torque", "film_thickness", "solver_status"):

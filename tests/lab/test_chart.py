@@ -7,6 +7,7 @@ import shlex
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
+from functools import cache
 from pathlib import Path
 
 import chart_records
@@ -232,15 +233,17 @@ def parsed(line):
     return name, parser.parse_args(words)
 
 
-LINES = {
-    (model, tuple(command_lines(study, model, sample, worst)))
-    for model, study, sample, worst in marks()
-}
+@cache
+def lines_of_marks():
+    return {
+        (model, tuple(command_lines(study, model, sample, worst)))
+        for model, study, sample, worst in marks()
+    }
 
 
 def test_each_command_of_a_chart_is_understood():
     found = set()
-    for model, (line, *_) in LINES:
+    for model, (line, *_) in lines_of_marks():
         if line.startswith("command: "):
             name, arguments = parsed(line)
             found.add(name)
@@ -268,7 +271,7 @@ PACK = "engage --load 12000 --speed 350 --oil-temperature 297.15 --ramp 0.1 --du
     ],
 )
 def test_a_command_solves_its_case(words, name, value, capsys):
-    assert f"command: thrustwasher {words}" in {lines[0] for _, lines in LINES}
+    assert f"command: thrustwasher {words}" in {lines[0] for _, lines in lines_of_marks()}
     assert cli.main([*shlex.split(words), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)[name] == value
 

@@ -130,6 +130,7 @@ def test_no_folder_holds_too_many_files():
     assert {folder: n for folder, n in widths.items() if n > FOLDER_FILES} == {}
 
 
+@pytest.mark.slow
 def test_no_modules_import_each_other_in_a_circle():
     """Wherever in a file they do so."""
     assert structure.circles(structure.imports()) == []

@@ -111,18 +111,21 @@ def slopes(way, steps, limit):
     return [math.log(a / b) / ratio for a, b in zip(coarse, fine, strict=True)]
 
 
+@pytest.mark.slow
 def test_both_masters_tend_to_one_limit(limit):
     truth, apart = limit
     assert apart["lock_time"] < 1e-5 * truth["lock_time"]
     assert apart["slip_energy"] < 5e-5 * truth["slip_energy"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("master", ["gauss-seidel", "jacobi"])
 def test_held_capacities_couple_with_order_one(master, limit):
     lock, _, peak = slopes(Way(master, extrapolation=False), (8e-3, 2e-3), limit)
     assert lock == pytest.approx(1.0, abs=0.15) and peak == pytest.approx(1.0, abs=0.15)
 
 
+@pytest.mark.slow
 def test_extrapolated_capacities_couple_with_order_two_nearly(limit):
     """Lock-up and the release are corners: each run meets them elsewhere in its steps."""
     found = slopes(Way("jacobi"), (2e-3, 1e-3), limit)
@@ -154,6 +157,7 @@ def rows():
     return corrections()
 
 
+@pytest.mark.slow
 @slow_without_jit
 def test_a_settled_pack_has_the_friction_that_the_rig_measured(rows):
     means = [r for r in rows if r["figure"].startswith("mean friction")]
@@ -161,12 +165,14 @@ def test_a_settled_pack_has_the_friction_that_the_rig_measured(rows):
     assert all(r["recorded"] and r["before"] > 1.2 * r["after"] for r in means)
 
 
+@pytest.mark.slow
 @slow_without_jit
 def test_a_watt_of_loss_warms_the_flank_more_than_ten_times_as_much(rows):
     (flank,) = (r for r in rows if r["unit"] == "K/kW")
     assert flank["after"] > 10.0 * flank["before"] > 0.0
 
 
+@pytest.mark.slow
 @slow_without_jit
 def test_the_chapter_has_a_line_for_each_figure_and_marks_recorded_ones(rows):
     (table,) = corrections_section(rows).tables

@@ -117,7 +117,8 @@ def portable(kernel: str, made_of: str) -> dict[str, bytes]:
 def unpack(data: bytes) -> dict[str, bytes]:
     """Return the files in an archive."""
     with tarfile.open(fileobj=io.BytesIO(data), mode="r:xz") as archive:
-        members = [(about.name, archive.extractfile(about)) for about in archive]
+        # one after the other: to go back in it is to unpack it again
+        members = ((about.name, archive.extractfile(about)) for about in archive)
         return {name: file.read() for name, file in members if file}
 
 

@@ -162,12 +162,16 @@ def answers(line, *, code="from thrustwasher.cli import main; main()"):
     ("line", "found"),
     [
         ("thrustwasher sw", {"sweep"}),
-        ("thrustwasher washer --lo", {"--load"}),
-        ("thrustwasher clutch --preset ", {"automatic", "paper"}),
+        pytest.param("thrustwasher washer --lo", {"--load"}, marks=pytest.mark.slow),
+        pytest.param(
+            "thrustwasher clutch --preset ", {"automatic", "paper"}, marks=pytest.mark.slow
+        ),
         ("thrustwasher clutch --set friction_sc", {"friction_scale="}),
         ("thrustwasher shift --scene planetary-h", {"planetary-hot-oil"}),
-        ("thrustwasher explore planetary-h", {"planetary-hot-oil"}),
-        ("thrustwasher part new gear", {"gearmesh"}),
+        pytest.param(
+            "thrustwasher explore planetary-h", {"planetary-hot-oil"}, marks=pytest.mark.slow
+        ),
+        pytest.param("thrustwasher part new gear", {"gearmesh"}, marks=pytest.mark.slow),
     ],
 )
 def test_words_are_completed(line, found):

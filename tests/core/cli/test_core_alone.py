@@ -55,7 +55,9 @@ def test_a_command_of_the_core_runs(words, alone):
     assert json.loads(done.stdout)["warnings"] is not None
 
 
-@pytest.mark.parametrize("name", STUDIO)
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=[pytest.mark.slow] * (i > 1)) for i, n in enumerate(STUDIO)]
+)
 def test_a_command_of_the_studio_says_that_it_is_missing(name, alone):
     done = child(RUN, name, "--help", path=[alone], PYTHONSAFEPATH="1")
     assert (done.returncode, done.stdout) == (2, "")

@@ -146,7 +146,12 @@ def test_the_table_of_a_mesh_sets_both_steels_side_by_side(capsys):
 
 @pytest.mark.parametrize(
     "words",
-    ["washer", "clutch", "clutch --set friction_law=constant", "gearmesh --power 0 --speed 0"],
+    [
+        "washer",
+        "clutch",
+        pytest.param("clutch --set friction_law=constant", marks=pytest.mark.slow),
+        pytest.param("gearmesh --power 0 --speed 0", marks=pytest.mark.slow),
+    ],
 )
 def test_a_picture_is_drawn_and_named(words, tmp_path, capsys):
     target = tmp_path / "shown.svg"

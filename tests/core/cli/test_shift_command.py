@@ -146,7 +146,7 @@ def scattered(tmp_path):
     """Write a scene of which one input scatters."""
     scene = tmp_path / "scattered.toml"
     scene.write_text(SCATTERED, encoding="utf-8")
-    return f"shift --scene {scene} --scatter 8 --out {tmp_path / 'r'}".split()
+    return f"shift --scene {scene} --step 4ms --scatter 8 --out {tmp_path / 'r'}".split()
 
 
 @pytest.mark.slow

@@ -174,7 +174,10 @@ def test_first_builds_with_zig_go_one_by_one(monkeypatch, tmp_path):
     assert said == 2 * ["waiting for another first build with ziglang"]
 
 
-@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize(
+    "model",
+    [pytest.param(m, marks=[pytest.mark.slow] * (m not in ("washer", "train"))) for m in MODELS],
+)
 def test_code_is_kept_under_all_that_a_kernel_imports(model):
     kernel = find_spec(model).kernel
     found, called = digest.sources(kernel), [kernel, *called_modules(kernel)]

@@ -150,6 +150,7 @@ def test_half_shafts_swing_at_the_frequency_of_two_inertias():
     assert np.median(period) == pytest.approx(2.0 * np.pi / pulse, rel=0.03)
 
 
+@pytest.mark.slow
 def test_cold_oil_makes_the_pack_drag_and_the_same_pressures_misfit(nominal, tmp_path):
     scene = changed(tmp_path, NOMINAL, "planetary-cold")
     cold = cosimulate(scene, instances(scene))
@@ -205,6 +206,7 @@ def test_a_moving_film_shifts_sooner_because_its_oil_resists():
     assert 2.0 < open_drag < 10.0
 
 
+@pytest.mark.slow
 def test_least_film_ratios_do_not_hang_on_where_samples_lie():
     """Film vanishes with speed: counted above a speed, and read at that speed, it is a figure."""
     coarse, fine = (shift("planetary-sun", step=h) for h in (1e-3, 5e-4))
@@ -245,6 +247,7 @@ def test_the_washer_gets_what_the_planets_give():
     assert (s["transmission.washer_torque"][1:] == s["washer.friction_torque"][1:]).all()
 
 
+@pytest.mark.slow
 @slow_without_jit
 def test_plain_torque_loop_finds_the_same_shift_at_small_steps():
     """Coupling torque needs steps below 2 w0 J/T; it creeps instead of sticking."""
@@ -303,6 +306,7 @@ def test_lock_time_converges_with_the_order_of_the_capacities(master, extrapolat
     assert found == pytest.approx([order, order], abs=0.1)
 
 
+@pytest.mark.slow
 @slow_without_jit
 def test_drum_inertia_delays_the_lock_up_in_proportion():
     """First order in J_r: + 0.0257 s and - 0.419 rad/s per kg m2."""

@@ -124,6 +124,7 @@ def test_steps_are_long_between_the_shifts(run):
     assert {1.3, 6.0, 7.3} <= set(run.time.tolist())
 
 
+@pytest.mark.slow
 def test_the_steps_between_hardly_matter_to_the_oil(run, tmp_path):
     fine = scene(tmp_path)
     fine = replace(fine, sequence=replace(fine.sequence, pause_step=0.05))

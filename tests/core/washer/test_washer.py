@@ -218,7 +218,7 @@ LAWS = {
 BASE = {"load": 300.0, "speed": 545.0, "tilt": 2e-3}
 
 
-@sizes(25, 250)
+@sizes(10, 250)
 @pytest.mark.parametrize("name", LAWS)
 def test_friction_power_reaches_the_oil_at_every_point_of_the_box(name, n):
     rng = np.random.default_rng(11)

@@ -273,7 +273,9 @@ def test_washers_that_are_alike_answer_alike(params, size, load, speed):
     assert scaled.film_ratio == pytest.approx(one.film_ratio, rel=1e-7)
 
 
-@pytest.mark.parametrize("width", [1e-4, 5e-4, 9e-4])
+@pytest.mark.parametrize(
+    "width", [1e-4, *(pytest.param(x, marks=pytest.mark.slow) for x in (5e-4, 9e-4))]
+)
 def test_a_face_below_a_millimetre_is_as_on_the_finer_mesh(width):
     radii = {"inner_radius": 0.0227 - width, "gear_inner_radius": 0.0227 - 0.5 * width}
     narrow = WasherParams(outer_radius=0.0227, **radii)

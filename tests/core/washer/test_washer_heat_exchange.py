@@ -107,7 +107,8 @@ COURSE = profile(
 MARKS = [0.05, 0.1, 0.15, 0.18, 0.22, 0.26, 0.3]
 
 
-@pytest.mark.parametrize("start", [pytest.param("steady", marks=pytest.mark.slow), "oil"])
+@pytest.mark.slow
+@pytest.mark.parametrize("start", ["steady", "oil"])
 def test_a_run_up_a_jump_and_a_stop_are_those_of_co_simulation(start):
     """At 0.1 ms: all within 0.2 %; the hottest spot as far as fields may be off."""
     inputs, kinks = COURSE

@@ -3,6 +3,7 @@
 import numpy as np
 
 from thrustwasher import ClutchParams, engage_clutch
+from thrustwasher.studio.calibration.engagement import pack_history
 
 OIL = 353.15  # K
 PACK = ClutchParams()
@@ -23,3 +24,14 @@ def recorded(pack=WORN, noise=1.5, seed=1, way=None):
     made = engage_clutch(pack, **way, oil_temperature=OIL).friction_torque
     scatter = noise * np.random.default_rng(seed).standard_normal(len(made))
     return {**way, "oil_temperature": OIL, "friction_torque": made + scatter}
+
+
+def advances_by(monkeypatch, other):
+    """Let fits step a pack by ``other(advance)``, where ``advance`` is the kernel's step."""
+    bound, advance = pack_history.bound, pack_history.clutch_advance.advance
+
+    def taken(kernel, **arrays):
+        made = bound(kernel, **arrays)
+        return other(made) if kernel is advance else made
+
+    monkeypatch.setattr(pack_history, "bound", taken)

@@ -34,7 +34,14 @@ WHEEL = {"inertia": 0.25, "errors": {"slip": 0.3, "friction_torque": 1.0}}
 
 
 @pytest.mark.parametrize(
-    ("low", "about"), [(0.08, {}), (0.12, WHEEL), (0.2, {}), (0.3, WHEEL)], ids=str
+    ("low", "about"),
+    [
+        (0.08, {}),
+        pytest.param(0.12, WHEEL, marks=pytest.mark.slow),
+        pytest.param(0.2, {}, marks=pytest.mark.slow),
+        (0.3, WHEEL),
+    ],
+    ids=str,
 )
 def test_a_short_gap_in_an_engagement_carries_film_and_heat_on(low, about):
     """The same recording without its gap gives 0.9 too; two recordings would give 0.87 .. 0.895."""

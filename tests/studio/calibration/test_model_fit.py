@@ -51,8 +51,8 @@ def test_exact_data_give_the_parameters_back(model):
 @pytest.mark.parametrize("model", BY_MODEL)
 def test_95_percent_intervals_hold_the_truth_in_95_percent_of_experiments(model):
     """Between the 0.05 % and 99.95 % quantiles of the binomial distribution."""
-    low, high = binom.interval(0.999, 200, 0.95)
-    counts = held(BY_MODEL[model], 200)
+    low, high = binom.interval(0.999, 100, 0.95)
+    counts = held(BY_MODEL[model], 100)
     assert all(low <= count <= high for count in counts.values()), counts
 
 

@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from rigs import PACK, history, recorded
+from rigs import PACK, advances_by, history, recorded
 
 from thrustwasher import ParameterError, SolveError, Status, calibrate, calibrate_traces
 from thrustwasher.cli import main
-from thrustwasher.studio.calibration.engagement import pack_history
 
 
 def wrong(**changes):
@@ -90,7 +89,7 @@ def test_settled_points_are_not_taken_for_a_recording():
 
 def test_a_recording_that_a_pack_cannot_be_stepped_along_is_named(monkeypatch):
     data = {"rig 3.csv": recorded()}
-    monkeypatch.setattr(pack_history.clutch_advance, "advance", lambda *_: int(Status.NOT_FINITE))
+    advances_by(monkeypatch, lambda _: lambda *_: int(Status.NOT_FINITE))
     with pytest.raises(SolveError, match=r"rig 3\.csv: the part cannot be stepped along it"):
         calibrate_traces(PACK, data, fit=["friction_scale"])
 

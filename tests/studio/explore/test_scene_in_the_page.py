@@ -239,12 +239,14 @@ def test_profiles_give_the_warnings_of_pythons_loop(washers, k, tmp_path):
 
 
 @node
+@pytest.mark.slow
 def test_a_tie_up_is_seen_in_the_page():
     _, (found, *_) = of_profiles()
     assert any(w.startswith("Tie-up: from ") for w in found["warnings"])
 
 
 @node
+@pytest.mark.slow
 def test_a_weak_pack_is_the_first_word_in_the_page():
     _, found = of_profiles()
     for one, pack in zip(found[1:3], ("brake", "clutch"), strict=True):
@@ -253,6 +255,7 @@ def test_a_weak_pack_is_the_first_word_in_the_page():
 
 
 @node
+@pytest.mark.slow
 def test_many_warnings_occur_in_these_profiles():
     _, found = of_profiles()
     assert len({key for one in found for key in one.get("keys", ())}) >= 5

@@ -76,7 +76,10 @@ def test_lines_of_equal_loss_have_numbers_and_the_last_tick_is_whole():
     "words",
     [
         ["train", "--part", str(SCENE), "--torque", "150", "--speed", "500"],
-        ["efficiency", str(SCENE), "--over", "torque=50,150", "--over", "speed=200,500"],
+        pytest.param(
+            ["efficiency", str(SCENE), "--over", "torque=50,150", "--over", "speed=200,500"],
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 def test_commands_write_it_as_one_file(words, tmp_path, capsys):
@@ -87,6 +90,7 @@ def test_commands_write_it_as_one_file(words, tmp_path, capsys):
     assert f"wrote {file}" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_search_shows_what_it_has_changed_in_degrees_as_given(tmp_path, capsys):
     file = tmp_path / "report.html"
     words = ["optimise", str(SCENE), "--vary", "first.helix_angle=20 deg:24 deg", "--minimise"]

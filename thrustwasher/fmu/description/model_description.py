@@ -321,4 +321,5 @@ def _first_needs(
         of = {v.name, *v.states}
         return parameters.union(v.depends, *(starts.get(f"start({n})", ()) for n in of))
 
-    return [(v, [k for k in known if k.name in names(v)]) for v in found]
+    needed = [(v, names(v)) for v in found]
+    return [(v, [k for k in known if k.name in own]) for v, own in needed]

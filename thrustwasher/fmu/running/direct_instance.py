@@ -98,7 +98,7 @@ class DirectInstance(Stepped):
         """Return all outputs."""
         start = perf_counter()
         self.core.refresh()
-        values = [float(x) for x in self.core.stored(self._outputs)]
+        values = list(map(float, self.core.stored(self._outputs)))
         self.wall_time += perf_counter() - start
         return values
 

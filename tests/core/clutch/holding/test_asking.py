@@ -5,6 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from drivelines import run, two_inertias
+from sampling import sizes
 from unit import PACK, Unit
 
 from thrustwasher.clutch.kernels import layout as L
@@ -47,9 +48,10 @@ LOADS = {
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("loads", LOADS)
-def test_no_slip_that_is_prescribed_is_believed(kind, loads):
+@sizes(1, 4)
+def test_no_slip_that_is_prescribed_is_believed(kind, loads, n):
     """Friction brakes in every step; its heat is that of a pack that slides."""
-    for seed in range(4):
+    for seed in range(n):
         slip, h = prescribed(kind, seed)
         load = LOAD * LOADS[loads](slip, seed)
         case = two_inertias(1)

@@ -164,7 +164,7 @@ def test_two_packs_hand_over(known, cases):
 
 
 @pytest.mark.parametrize("steps", [20_000, pytest.param(1_000_000, marks=pytest.mark.slow)])
-@pytest.mark.parametrize("seed", [3, 4, 5])
+@pytest.mark.parametrize("seed", [3, *(pytest.param(n, marks=pytest.mark.slow) for n in (4, 5))])
 def test_a_long_hold_does_not_drift(steps, seed):
     case = long_hold(seed, steps)
     unit = Unit(case)

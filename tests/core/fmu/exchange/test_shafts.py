@@ -40,7 +40,9 @@ def test_a_shaft_stops_as_in_co_simulation(name):
 
 
 @each_shaft
-@pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 1e-5])
+@pytest.mark.parametrize(
+    "tolerance", [1e-3, *(pytest.param(x, marks=pytest.mark.slow) for x in (1e-4, 1e-5))]
+)
 def test_every_tolerance_ends_alike(name, tolerance):
     fine, run = run_of(name), run_of(name, tolerance)
     part = 2e-3 if tolerance < 1e-3 else 1e-2

@@ -26,7 +26,10 @@ SHAFTS = {
 }
 
 
-@pytest.mark.parametrize("name", SHAFTS)
+LONG = [pytest.param(name, marks=pytest.mark.slow) for name in ("held", "backwards")]
+
+
+@pytest.mark.parametrize("name", ["coasts", "load jumps past the fold", *LONG])
 def test_a_shaft_stops_as_in_co_simulation(name):
     """At 0.1 ms: when it has all but stopped, the heat, within 0.2 %; the torque that holds."""
     shaft, end = SHAFTS[name], 3.0

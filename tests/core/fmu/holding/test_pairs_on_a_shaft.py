@@ -53,7 +53,11 @@ def turned(pair, ages, first, outside, steps=STEPS):
 
 
 @pytest.mark.parametrize("first", [0.0, 8.0], ids=["at rest", "through zero"])
-@pytest.mark.parametrize("ages", [(0, 0), (1, 1), (0, 1), (1, 0)], ids=str)
+@pytest.mark.parametrize(
+    "ages",
+    [(0, 0), (0, 1), *(pytest.param(x, marks=pytest.mark.slow) for x in ((1, 1), (1, 0)))],
+    ids=str,
+)
 @pytest.mark.parametrize("other", ["washer", "losses"])
 def test_a_pack_and_a_unit_that_drags_bring_their_shaft_to_rest(other, ages, first):
     """The pack holds it against an outside torque; torques act at once, or one or both late."""

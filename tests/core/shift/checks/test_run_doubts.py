@@ -155,7 +155,8 @@ WEAK = {
 
 @slow_without_jit
 @pytest.mark.parametrize(
-    ("pack", "kpa", "gear"), [("brake", 200, "first"), ("clutch", 230, "second")]
+    ("pack", "kpa", "gear"),
+    [("brake", 200, "first"), pytest.param("clutch", 230, "second", marks=pytest.mark.slow)],
 )
 def test_a_pack_too_weak_for_its_gear_is_told_first_and_the_advice_cures_it(
     tmp_path, pack, kpa, gear

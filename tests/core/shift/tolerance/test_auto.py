@@ -186,6 +186,7 @@ def test_a_tolerance_asked_for_leaves_nothing_open_in_the_result(run):
     assert replace(r, selection=None).as_dict()["selection"] is None
 
 
+@pytest.mark.slow
 def test_a_part_that_follows_heat_in_time_keeps_its_default_and_says_so():
     scene = load_scene("planetary-transient").with_options(stop_time=0.02)
     r = run_auto(with_fidelities(scene, ["washer=auto:0.01"]), made([]))

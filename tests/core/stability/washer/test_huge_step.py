@@ -25,7 +25,13 @@ ENDS = [
 ]
 
 
-@pytest.mark.parametrize(("one", "two"), list(itertools.permutations(range(len(ENDS)), 2)))
+@pytest.mark.parametrize(
+    ("one", "two"),
+    [
+        pytest.param(*pair, marks=[pytest.mark.slow] * (sum(pair) % 2))
+        for pair in itertools.permutations(range(len(ENDS)), 2)
+    ],
+)
 def test_any_point_is_reached_from_any_other(one, two):
     """The branch may be the one of the start where both exist; otherwise the numbers agree."""
     start = solve_washer(WasherParams(), **ENDS[one])

@@ -50,19 +50,24 @@ class Washer:
         outputs_at(w, pt)
         return w.outputs[: k.NOUT].copy()
 
-    def differences(self, inp, i):
-        """Return central differences over input ``i``, extrapolated twice."""
-        kept, step = self.work.copy(), STEPS[i] * abs(inp[i]) if i < 3 else 0.5
+    def differences(self, inp):
+        """Return central differences over each input, extrapolated twice."""
+        kept, found = self.work.copy(), []
+        for i in range(inp.size):
+            step = STEPS[i] * abs(inp[i]) if i < 3 else 0.5
+            d1, d2, d3 = (self._slope(kept, inp, i, h) for h in (step, step / 2, step / 4))
+            found.append((16 * (4 * d3 - d2) / 3 - (4 * d2 - d1) / 3) / 15)
+        self.work[:] = kept
+        return found
 
-        def at(change):
+    def _slope(self, kept, inp, i, h):
+        ends = []
+        for change in (h, -h):
             moved = np.array(inp, float)
             moved[i] += change
             self.work[:] = kept
-            return self.polish(moved)
-
-        d1, d2, d3 = ((at(h) - at(-h)) / (2 * h) for h in (step, step / 2, step / 4))
-        self.work[:] = kept
-        return (16 * (4 * d3 - d2) / 3 - (4 * d2 - d1) / 3) / 15
+            ends.append(self.polish(moved))
+        return (ends[0] - ends[1]) / (2 * h)
 
     def sens(self, inp, seed):
         dout = np.full(k.NOUT, np.nan)
@@ -81,12 +86,18 @@ POINTS = {
 OTHER = (600.0, 700.0, 0.0012, 320.0)
 WARM = (*OTHER, 330.0)  # the gear's far face too
 NONE = {}
-CASES = [  # parameters, point, where the factor was made, what is allowed
-    *((NONE, POINTS[name], how, 1e-6) for name in POINTS for how in ("here", "before")),
-    # where the asperities' heat runs away over the rim, differences are no better
-    *((NONE, (1722.0, 926.0, 0.0022, 319.0), how, 2e-5) for how in ("here", "before")),
+HERE, BEFORE = (), ((1.06, 1.02), (1.03, 0.99), (0.98, 1.005))  # by steps of some percent
+CASES = [  # parameters, point, where factors are made, what is allowed
     *(
-        (changes, OTHER, "here", 5e-6)
+        pytest.param(
+            NONE, POINTS[name], (HERE, BEFORE), 1e-6, marks=[pytest.mark.slow] if many else []
+        )
+        for name, many in zip(POINTS, (True, False, False, True, False), strict=True)
+    ),
+    # where the asperities' heat runs away over the rim, differences are no better
+    (NONE, (1722.0, 926.0, 0.0022, 319.0), (HERE, BEFORE), 2e-5),
+    *(
+        (changes, OTHER, (HERE,), 5e-6)
         for changes in (
             {"heat_split": 0.7},
             {"friction_law": "constant"},
@@ -97,28 +108,30 @@ CASES = [  # parameters, point, where the factor was made, what is allowed
             {"gear_far_face": "insulated"},
         )
     ),
-    ({"gear_far_face": "bulk"}, WARM, "here", 5e-6),
-    ({"gear_far_face": "bulk", "oil_cooling": False, "conduction": "all"}, WARM, "here", 5e-6),
+    ({"gear_far_face": "bulk"}, WARM, (HERE,), 5e-6),
+    ({"gear_far_face": "bulk", "oil_cooling": False, "conduction": "all"}, WARM, (HERE,), 5e-6),
 ]
 
 
-@pytest.mark.parametrize(("changes", "point", "factor", "allowed"), CASES)
-def test_derivatives_agree_with_differences_of_converged_solutions(changes, point, factor, allowed):
-    washer, inp = Washer(**changes), np.array(point)
-    if factor == "before":  # by steps of some percent, as in a run
-        for share in ((1.06, 1.02), (1.03, 0.99), (0.98, 1.005)):
+@pytest.mark.parametrize(("changes", "point", "ways", "allowed"), CASES)
+def test_derivatives_agree_with_differences_of_converged_solutions(changes, point, ways, allowed):
+    """With the factor made at the point, and with one made in steps before it, as in a run."""
+    inp, expected = np.array(point), None
+    for shares in ways:
+        washer = Washer(**changes)
+        for share in shares:
             assert washer.step(inp * [*share, 1.0, 1.0]) == OK
-    assert washer.step(inp) == OK
-    washer.polish(inp, keep_factor=True)
-    scale = np.abs(washer.work[L.AT_OUTPUTS :][: k.NOUT])
-    for i, seed in enumerate(np.eye(inp.size)):
-        status, dout = washer.sens(inp, seed)
-        assert status == OK
-        expected = washer.differences(inp, i)
-        # a slope counts as nothing where 1 % of the input would not move 1e-5 of the output
-        floor = np.maximum(1e-3 * scale / abs(inp[i]), 1e-300)  # none for sums over time
-        error = np.abs(dout - expected) / np.maximum(np.abs(expected), floor)
-        assert error.max() < allowed, (SPEC.outputs[int(error.argmax())].name, i)
+        assert washer.step(inp) == OK
+        washer.polish(inp, keep_factor=True)
+        expected = expected or washer.differences(inp)
+        scale = np.abs(washer.work[L.AT_OUTPUTS :][: k.NOUT])
+        for i, seed in enumerate(np.eye(inp.size)):
+            status, dout = washer.sens(inp, seed)
+            assert status == OK
+            # a slope counts as nothing where 1 % of the input would not move 1e-5 of the output
+            floor = np.maximum(1e-3 * scale / abs(inp[i]), 1e-300)  # none for sums over time
+            error = np.abs(dout - expected[i]) / np.maximum(np.abs(expected[i]), floor)
+            assert error.max() < allowed, (SPEC.outputs[int(error.argmax())].name, i, shares)
 
 
 def test_a_derivative_leaves_the_next_step_as_it_was():

@@ -203,7 +203,7 @@ def touching(b, first=0.3, second=1.2):
 @pytest.mark.parametrize("oil", [{}, DRY])
 @pytest.mark.parametrize("conduction", CONDUCTION)
 @pytest.mark.parametrize("split", [0.5, 0.0, 0.3, 1.0])
-@pytest.mark.parametrize("grid", [(5, 8), (10, 32)])
+@pytest.mark.parametrize("grid", [(5, 8), pytest.param((10, 32), marks=pytest.mark.slow)])
 def test_an_evenly_heated_stack_is_exact_on_every_grid(grid, split, conduction, oil):
     b = full_gear(grid, heat_split=split, conduction=conduction, **oil)
     heat_given(b, np.full((grid[0], grid[1]), 1e5))

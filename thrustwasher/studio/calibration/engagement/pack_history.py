@@ -10,6 +10,7 @@ from ....clutch.kernels import layout as k
 from ....clutch.kernels import pack_outputs, rates
 from ....clutch.solve import prepare
 from ....errors import ParameterError, Status
+from ....native.load import bound
 from ....numerics.jit import Array
 from ..traces.binned import OFF, Run
 from ..traces.traced import History
@@ -148,6 +149,9 @@ def _stepped(
     torque, temperature = np.empty(len(time)), np.empty(len(time))
     status = _begin(par, float(load[0]), float(oil[0]), warm, work)
     faces, before, is_held = par[k.P_FACES], float(slip[0]), False
+    advance = bound(clutch_advance.advance, par=par, work=work)
+    fill_outputs = bound(pack_outputs.fill_outputs, par=par, work=work, out=out)
+    mean_surface = bound(pack_outputs.mean_surface, par=par, work=work)
     for i, now in enumerate(time):
         aim = float(slip[i])
         is_free = bool(
@@ -162,13 +166,12 @@ def _stepped(
             aim = _after(before, rate * (now - time[i - 1]))
         if i and status == Status.OK:
             ends = (load[i - 1], before, oil[i - 1], load[i], aim, oil[i], drum[i - 1], drum[i])
-            status = clutch_advance.advance(
-                par, ends, now - time[i - 1], out[k.O_POWER] / faces, work[k.W_PROPOSED], work
-            )
+            power, proposed = out[k.O_POWER] / faces, work[k.W_PROPOSED]
+            status = advance(ends, now - time[i - 1], power, proposed)
         if Status(status).is_failure:
             return Status(status)
-        pack_outputs.fill_outputs(par, load[i], aim, drum[i], work, out)
-        temperature[i], _ = pack_outputs.mean_surface(par, work)
+        fill_outputs(load[i], aim, drum[i])
+        temperature[i], _ = mean_surface()
         torque[i] = out[k.O_TORQUE]
         if is_free and is_held:
             torque[i] = -_sign(float(begin[0])) * rig.drag_torque

@@ -15,9 +15,10 @@ class Level:
 
     ``speed`` is LLVM's optimisation level, 0 to 3. ``attribute`` is "", "optsize" or "minsize" and
     goes to every function but those of the kernel modules named in ``quick``, which keep all speed
-    and are not inlined: small loops that take most of the time; and those named in ``free``, which
-    keep all speed where they are not inlined. ``inlining`` is the inliner's threshold (None: LLVM's
-    own choice).
+    and are not inlined: small loops that take most of the time; those named in ``free``, which keep
+    all speed where they are not inlined; and those named in ``grouped``, whose loops go in groups
+    of four: not inlined, or LLVM would make slower vectors across the groups. ``inlining`` is the
+    inliner's threshold (None: LLVM's own choice).
     """
 
     name: str  # ends the names of the entries: tw_step_v3
@@ -26,6 +27,7 @@ class Level:
     attribute: str = ""
     quick: tuple[str, ...] = ()
     free: tuple[str, ...] = ()
+    grouped: tuple[str, ...] = ()
     inlining: int | None = None
     unrolling: bool = True
     vectorization: bool = True
@@ -50,17 +52,18 @@ class Platform:
 
 # All at full speed makes the washer 60 % larger, the free ones 18 %, and either 10 % faster; all
 # small makes it 40 % slower.
-_QUICK = ("numerics.banded", "numerics.chebyshev")
+_QUICK = ("numerics.chebyshev",)
+_GROUPED = ("numerics.banded",)
 _FREE = tuple(
     f"washer.kernels.{module}"
     for module in ("film", "gap", "heat", "heat_factor", "newton", "throughflow")
 )
-_X86 = (
-    Level(name="v2", cpu="x86-64-v2", attribute="optsize", quick=_QUICK, free=_FREE),
-    Level(name="v3", cpu="x86-64-v3", attribute="optsize", quick=_QUICK, free=_FREE),
-)
-_SMALL = Level(name="generic", cpu="generic", attribute="optsize", quick=_QUICK)
+_SMALL = Level(name="generic", cpu="generic", attribute="optsize", quick=_QUICK, grouped=_GROUPED)
 _GENERIC = replace(_SMALL, free=_FREE)
+_X86 = (
+    replace(_GENERIC, name="v2", cpu="x86-64-v2"),
+    replace(_GENERIC, name="v3", cpu="x86-64-v3"),
+)
 _ELF = ("-fPIC", "-Wl,-z,defs", "-Wl,--hash-style=gnu")
 _GLIBC = ".".join(map(str, GLIBC))
 

@@ -35,6 +35,7 @@ from washer_setup import bench, order  # isort: skip
 
 
 SHAPES = [(1, 1), (2, 1), (5, 1), (6, 2), (7, 3), (12, 5), (13, 6), (40, 17), (4, 6), (9, 8)]
+SHAPES += [(30, 7), (64, 20)]  # all remainders of groups of four
 
 
 def random_band(n, band, symmetric):

@@ -34,7 +34,10 @@ def object_code(bitcode: bytes, platform: Platform, level: Level, kernel: str) -
             continue
         if function.linkage.name == "external":
             function.name = f"{function.name}_{level.name}"
-        if level.attribute and is_of(function.name, level.quick):
+        if level.attribute and is_of(function.name, level.grouped):
+            function.add_function_attribute("noinline")
+            function.add_function_attribute("optsize")
+        elif level.attribute and is_of(function.name, level.quick):
             function.add_function_attribute("noinline")
         elif level.attribute and not is_of(function.name, level.free):
             function.add_function_attribute(level.attribute)

@@ -36,6 +36,7 @@ ON_FOOT = 120.0  # iterations of a step in film thickness beyond all folds, befo
 FIRST_ROUNDS = 4  # of settling there, which go by film thickness
 ROUGHLY = 1e-4  # tolerance on the way
 NOISE = 3e-4  # a load must change by more to count as past a fold; points are good to 1e-4
+ONLY_FOLDS = 4.0  # wanted of a descent: no solution, but if the curve has folds
 COOL = 3.0  # how much thinner [-]: 6000 curves of the default washer have no fold below 19
 COOL_RATIO = 2.0  # film ratio at which it is estimated
 
@@ -260,7 +261,8 @@ def descend(w: Workspace, pt: Point, wanted: float) -> int:
     """Solve for the load on the wanted branch by a descent from light load; return a status.
 
     ``wanted``: FILM_BRANCH, CONTACT_BRANCH, or ANY: film up to the fold, contact beyond it. If the
-    wanted branch has no solution at this load, the other one is solved and NO_BRANCH returned.
+    wanted branch has no solution at this load, the other one is solved and NO_BRANCH returned. With
+    ONLY_FOLDS it ends as soon as the multiplicity is known, wherever that is.
     """
     w.found[L.BRANCH], w.found[L.MULTIPLICITY] = 0.0, 0.0
     w.found[L.LOST], w.found[L.REGAINED] = math.nan, math.nan
@@ -273,7 +275,7 @@ def descend(w: Workspace, pt: Point, wanted: float) -> int:
         if clear or w.curve[L.AT_LOAD] < 1e-2 * pt.load:  # above every fold
             break
     above = w.curve[L.AT_LOAD] >= pt.load  # the film branch carries the load above the entry
-    if above and wanted != L.CONTACT_BRANCH:
+    if above and wanted != L.CONTACT_BRANCH and wanted != ONLY_FOLDS:
         w.found[L.BRANCH] = L.FILM_BRANCH
         return _climb(w, pt)
     if is_cool(w, pt):
@@ -295,6 +297,8 @@ def descend(w: Workspace, pt: Point, wanted: float) -> int:
             lost = True
             w.found[L.MULTIPLICITY] = L.MULTIPLE
             w.found[L.LOST] = w1
+            if wanted == ONLY_FOLDS:
+                return OK
             if not has_film and is_near_fold((s0, s1, s2), (w0, w1, w2), pt.load):
                 remember(w, 2.0)
                 status = find_fold(w, pt, s0, s2)
@@ -335,9 +339,13 @@ def descend(w: Workspace, pt: Point, wanted: float) -> int:
         if has_film or not math.isnan(upper):
             if dry or (not lost and w.curve[L.AT_FILM] < 0.5 * w.par[L.D_SIGMA1]):
                 w.found[L.MULTIPLICITY] = L.SINGLE
+                if wanted == ONLY_FOLDS:
+                    return OK
                 break
         elif dry:
             w.found[L.MULTIPLICITY] = L.SINGLE
+            if wanted == ONLY_FOLDS:
+                return OK
             return _named(w, _contact_side(w, pt, False), wanted)
         if (w2 < w1) == lost:
             s0, s1, w0, w1 = s1, s2, w1, w2

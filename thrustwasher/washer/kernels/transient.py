@@ -10,10 +10,10 @@ import math
 
 from ...numerics.arrays import clear, copy
 from ...numerics.jit import Array, inlined, kernel
-from ...numerics.status import MAX_ITERATIONS, NO_BRANCH, OK
+from ...numerics.status import MAX_ITERATIONS, OK
 from . import ladder
 from . import layout as L
-from .branch import DESCENT, ENTRY_RATIO, FILM_RATIO, descend, is_cool, settle
+from .branch import DESCENT, ENTRY_RATIO, FILM_RATIO, ONLY_FOLDS, descend, is_cool, settle
 from .continuation import BUDGET, enter_curve, note, recall, remember, walk_down, walk_to
 from .heat import let_out
 from .newton import FILM, LOAD, NO_FLOOR, evaluate_here, is_spent, newton, smooth_film
@@ -180,9 +180,9 @@ def look_for_folds(w: Workspace, pt: Point, state: Array) -> None:
     copy(f.outward, f.begin)
     let_out(m, pt, f)
     w.info[L.BUDGET] = w.info[L.ITERATIONS] + BUDGET
-    status = descend(w, pt, L.CONTACT_BRANCH)
+    status = descend(w, pt, ONLY_FOLDS)
     w.info[L.BUDGET], w.found[L.BRANCH] = 0.0, branch
-    if status != OK and status != NO_BRANCH:
+    if status != OK:
         w.found[L.MULTIPLICITY] = state[L.S_MULTIPLICITY]
     elif w.found[L.MULTIPLICITY] != L.MULTIPLE:
         w.found[L.MULTIPLICITY] = L.SINGLE

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from thrustwasher import WasherParams, solve_washer
+from thrustwasher import WasherParams, load_curve, solve_washer
 from thrustwasher.model.parameters import as_numbers
+from thrustwasher.washer.follow import Follower
 from thrustwasher.washer.kernels import ladder
 from thrustwasher.washer.kernels import layout as L
 from thrustwasher.washer.kernels import step as k
@@ -223,6 +224,19 @@ def test_a_lost_film_takes_its_time():
     assert reached["slab"][1.5] == pytest.approx(0.097, rel=0.03)
     assert reached["slab"][1.0] == pytest.approx(0.2325, rel=0.03)
     assert reached["lumped"][1.0] == pytest.approx(1.26, rel=0.03)
+
+
+@pytest.mark.parametrize(
+    ("load", "speed"), [(1200.0, 545.0), (1500.0, 1000.0), (1361.0, 136.0), (900.0, 90.0)]
+)
+def test_a_lost_film_knows_if_its_steady_curve_has_folds(load, speed):
+    washer = Follower(IN_TIME, (10, 32))
+    for force, duration in ((300.0, 1e-12), (load, 0.5), (load, 0.5)):
+        assert washer._step(np.array([force, speed, 2e-3, OIL, 0.0]), duration) == 0
+    folds = load_curve(WasherParams(), speed=speed, tilt=2e-3).folds
+    assert washer.state[L.S_MULTIPLICITY] == (L.MULTIPLE if folds else L.SINGLE)
+    if speed == 545.0:  # the curve is followed to its first fold, no further: else 118 iterations
+        assert washer.work[L.ITERATIONS] <= 110.0
 
 
 def test_a_look_without_time_moves_no_temperature_and_no_memory():

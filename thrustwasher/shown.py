@@ -7,7 +7,6 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from enum import Enum
-from html import escape
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeVar, overload
 
 from .errors import EnvironmentProblem
@@ -253,6 +252,8 @@ def _range_of(values: list[Any], unit: str, relative: bool) -> str:
 
 
 def _page(card: Card) -> str:
+    from html import escape  # late: few look at a result in a notebook
+
     left = ' style="text-align: left"'
     rows = (
         f"<tr>{''.join(f'<td{left}>{escape(cell)}</td>' for cell in line)}</tr>"

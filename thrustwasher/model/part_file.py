@@ -27,7 +27,6 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cache, cached_property
-from importlib import resources
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -361,14 +360,14 @@ def find_part(name: str) -> PartFile:
     """Return the part of a part file, of a built-in scene, or of that model with all defaults."""
     if is_part(name):
         return load_part(name)
-    if found := scene_parts().get(name):
+    if name not in MODELS and (found := scene_parts().get(name)):
         return found
     spec = find_model(name).spec
     return PartFile(spec=spec, name=spec.name, fidelity=spec.default_fidelity, scatter=spec.scatter)
 
 
-def _preset_folder(key: str) -> Any:
-    return resources.files(__package__.rpartition(".")[0]) / "data" / "parts" / key
+def _preset_folder(key: str) -> Path:
+    return Path(__file__).parents[1] / "data" / "parts" / key
 
 
 @cache
@@ -400,7 +399,7 @@ def scene_parts() -> dict[str, PartFile]:
 def preset_file(spec: ModelSpec, name: str) -> Path:
     """Return where a preset's file lies; ParameterError if there is none of that name."""
     preset_part(spec, name)
-    return Path(str(_preset_folder(spec.key) / f"{name}{SUFFIX}"))
+    return _preset_folder(spec.key) / f"{name}{SUFFIX}"
 
 
 def preset_part(spec: ModelSpec, name: str) -> PartFile:

@@ -10,7 +10,7 @@ in ``studio.calibration.run_calibration``.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -117,8 +117,8 @@ class Sweep:
 
     walk: Callable[..., None] | None = None  # fills rows, each solved for itself
     not_shown: tuple[str, ...] = ()  # outputs that make no sense there
-    doubt: Callable[[Any, str, NDArray[np.float64]], str] | None = None
-    """From parameters, fidelity and inputs to a warning or ""."""
+    doubt: Callable[[Any, str, Sequence[NDArray[np.float64]]], str] | None = None
+    """From parameters, fidelity and columns of inputs to a warning or ""."""
     least: Mapping[str, tuple[float, str]] = field(default_factory=dict)
     """Output -> value that it should not be below, and what it means there."""
     draws: Callable[..., Any] | None = None

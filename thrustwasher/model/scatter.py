@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from statistics import NormalDist
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError, suggestion, within
@@ -298,6 +297,8 @@ def _lognormal(place: Quantity, given: object) -> Law:
 
 
 def _truncated(place: Quantity, kind: str, middle: float, spread: float, text: str) -> Law:
+    from statistics import NormalDist  # late: for normal laws alone
+
     law = Law(kind=kind, low=place.low, high=place.high, middle=middle, spread=spread, text=text)
     low, high = law._scores()
     start, end = map(NormalDist().cdf, (low, high))

@@ -6,8 +6,6 @@ it ends: a draft that can be locked is a dead one's, and goes when the next one 
 
 import errno
 import os
-import secrets
-import shutil
 import stat
 import sys
 from collections.abc import Iterator
@@ -27,7 +25,7 @@ def draft_in(folder: Path, suffix: str = "", *, is_folder: bool = True) -> Itera
     remove_drafts(folder)
     handle: int | None = None
     while handle is None:
-        draft = folder / f"{PREFIX}{secrets.token_hex(8)}{suffix}"
+        draft = folder / f"{PREFIX}{os.urandom(8).hex()}{suffix}"
         try:  # a signal may stop it at any line: the name is known before the draft is there
             draft.mkdir(0o700) if is_folder else draft.touch(0o600, exist_ok=False)
             handle = _held(draft)
@@ -80,6 +78,8 @@ def remove(path: Path) -> None:
     except FileNotFoundError:
         pass
     except OSError:  # a folder
+        import shutil  # late: few drafts are folders
+
         shutil.rmtree(path, ignore_errors=True)
 
 

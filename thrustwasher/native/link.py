@@ -11,7 +11,6 @@ from collections.abc import Mapping, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass, replace
 from functools import cache
-from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -54,6 +53,8 @@ class Linker:
 def find_linker() -> Linker:
     """Return zig of the package ziglang, else this machine's gcc or cc, or say what to install."""
     if importlib.util.find_spec("ziglang"):
+        from importlib import metadata  # late: 17 ms
+
         command = (sys.executable, "-m", "ziglang", "cc")
         return Linker("ziglang", command, metadata.version("ziglang"), tuple(PLATFORMS))
     local = _of_this_machine()

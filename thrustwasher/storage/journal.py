@@ -23,7 +23,7 @@ from ..errors import ParameterError, naming
 
 LAYOUT = "3"
 INTERVAL = 1.0  # [s] from commit to commit, if there is not much to write before
-MUCH = 8_000_000  # bytes
+MUCH = 4_000_000  # bytes
 PATIENCE = 900.0  # [s] that one run waits for another; a lock ends with the process that has it
 LOOK = 0.5  # [s] between two attempts
 TABLES = """
@@ -190,9 +190,9 @@ class Journal:
         self.flush()
         for first, value in self.entries():
             n = len(value) // (8 * n_numbers + 4 * n_flags)
-            split = 8 * n_numbers * n
-            numbers = np.frombuffer(value[:split], np.float64).reshape(n, -1)
-            yield first, numbers, np.frombuffer(value[split:], np.int32).reshape(n, -1)
+            numbers = np.frombuffer(value, np.float64, n * n_numbers).reshape(n, -1)
+            flags = np.frombuffer(value, np.int32, n * n_flags, numbers.nbytes)
+            yield first, numbers, flags.reshape(n, -1)
 
     def load(self, numbers: NDArray[np.float64], flags: NDArray[np.int32]) -> NDArray[np.bool_]:
         """Fill in the rows that are done; return which (n_rows,)."""

@@ -4,6 +4,7 @@ Average-flow Reynolds equation with cavitation, elasto-plastic asperity contact,
 carrier, washer and gear, force and moment balance (Jackson & Green 2006); docs/theory/washer.md.
 """
 
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache
@@ -265,18 +266,18 @@ def _told_outside() -> Any:
     return told_outside
 
 
-def doubt_of_rows(params: WasherParams, fidelity: str, points: Array) -> str:
-    """Return a warning of a sweep's points (n, 5) that its map leaves to the field.
+def doubt_of_rows(params: WasherParams, fidelity: str, columns: Sequence[Array]) -> str:
+    """Return a warning of a sweep's points, by inputs (n,), that its map leaves to the field.
 
     ParameterError: a temperature at the gear's far face is too cold or in vain.
     """
-    far = points[:, -1]
+    far = columns[-1]
     check_far_face(params, float(min(far[far != 0.0], default=0.0)))
-    if fidelity == "map" and len(points):
+    if fidelity == "map" and len(far):
         from .map.look_up import outside_text
 
         with suppress(ParameterError):  # without a map nothing is solved
-            return outside_text(params, points, "points")
+            return outside_text(params, columns, "points")
     return ""
 
 

@@ -106,6 +106,25 @@ def test_help_needs_no_compiler(command):
     assert done.returncode == 0
 
 
+SOLVE = """from thrustwasher import WasherParams, solve_washer
+solve_washer(WasherParams(), load=300.0, speed=900.0, tilt=2e-3)
+"""
+HELP = "from thrustwasher.cli import main; main(['--help'])"
+
+
+@pytest.mark.parametrize(
+    ("does", "spared"),
+    [
+        (HELP, {"tempfile", "importlib.resources", "html", "statistics", "secrets"}),
+        (SOLVE, {"importlib.metadata", "email", "html", "statistics", "secrets", "numba"}),
+    ],
+)
+def test_what_starts_often_leaves_slow_modules_alone(does, spared):
+    code = f"import sys\n{does}\nprint(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert not spared & {*done.stdout.split()}
+
+
 def test_a_plot_is_written_whole_or_not_at_all(tmp_path, capsys, monkeypatch):
     def fail(*_, **__):
         raise OSError(28, "No space left on device")

@@ -1,6 +1,8 @@
 """Each row is what a single solve gives; the order of rows; points that fail."""
 
 import re
+import subprocess
+import sys
 import tracemalloc
 from concurrent.futures import ThreadPoolExecutor
 
@@ -24,6 +26,7 @@ from thrustwasher.storage import journal
 from thrustwasher.studio.evaluators import lines
 from thrustwasher.studio.evaluators.lines import output_signals
 from thrustwasher.studio.sweep import sweep_table
+from thrustwasher.studio.sweep.sweep_plan import make_plan
 from thrustwasher.washer.parameters import SPEC
 
 UP = "200:1200:200"
@@ -294,3 +297,28 @@ def test_random_points_are_each_solved_from_nothing_and_their_part_is_made_once_
 def test_a_column_with_a_number_out_of_range_names_its_point():
     with pytest.raises(ParameterError, match=r"point 2: speed = 9000.0 rad/s, allowed: "):
         run_sweep("clutch", points={"load": [1e3, 1e3], "speed": np.array([5.0, 9e3])})
+
+
+def test_what_is_held_takes_no_memory_and_can_be_written_in_the_table():
+    plan = make_plan("clutch", {"load": "1 kN:3 kN:n500"}, {"speed": 10.0}, None, None, None)
+    held = [name for name, column in plan.columns.items() if column.strides == (0,)]
+    assert {"speed", "oil_temperature"} <= {*held} and "load" not in held
+    for keep in (slice(0, 10), slice(None)):
+        columns = plan.columns_at(keep)
+        columns["speed"][:] = 1.0
+        assert (plan.columns["speed"] == 10.0).all()
+
+
+@pytest.mark.slow
+def test_parquet_is_written_without_modules_that_take_memory(tmp_path):
+    pytest.importorskip("pyarrow")
+    code = (
+        "import os, sys; from thrustwasher import run_sweep; run_sweep('clutch', "
+        "{'load': '1 kN:3 kN:n100'}, at={'speed': 10.0}, fidelity='closed', out='x.parquet', "
+        "workers=1, keep=False); print({'pandas', 'pyarrow.compute'} & {*sys.modules}, "
+        "[x for x in os.environ if 'ARROW' in x], sys.modules['pyarrow'].default_memory_pool()"
+        ".backend_name)"
+    )
+    words = [sys.executable, "-c", code]
+    told = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=True).stdout
+    assert told.split() == ["set()", "[]", "system"]

@@ -5,7 +5,6 @@ import csv
 import dataclasses
 import json
 import sys
-import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -166,6 +165,8 @@ def check_folder(path: str, option: str) -> Path:
     folder = Path(path).absolute()
     if folder.exists() and not folder.is_dir():
         raise ParameterError(f"{option} {path}: is a file, a folder is required")
+    import tempfile  # late: `--help` needs none
+
     try:
         with new_folder(folder, stays=False), tempfile.TemporaryFile(dir=folder):
             pass

@@ -114,7 +114,7 @@ def _plan(points: Measured, inputs: Array, shown: dict[str, Any], said: str) -> 
     return replace(
         plan,
         rows=Rows(columns=columns, starts=starts, held={**plan.rows.held, **same}),
-        inputs=inputs,
+        columns=columns,
         shown=shown,
         starts=starts,
         params_of=np.zeros(len(inputs), np.int64),

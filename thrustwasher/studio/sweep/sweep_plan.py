@@ -3,6 +3,7 @@
 import hashlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -29,6 +30,7 @@ from ..evaluators.part import PartEvaluator
 from .axes import MOST_POINTS, Axis, find_quantity, read_axis
 
 Array = NDArray[np.float64]
+CHUNK = 10_000  # rows worked on at a time
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,7 @@ class Plan:
 
     spec: ModelSpec
     fidelity: str
-    inputs: Array  # (n_rows, n_inputs) as the model takes them; NaN: not an allowed point
+    columns: dict[str, Array]  # inputs as the model takes them; NaN: not an allowed point
     shown: dict[str, Any]  # columns of the table before the outputs, by name
     units: dict[str, str]  # of the columns shown
     starts: NDArray[np.int64]  # (n_lines + 1,)
@@ -54,10 +56,15 @@ class Plan:
     rows: Rows | None = None  # what it evaluates
     asked: tuple[str, ...] = ()  # what is varied, in the order in which it was named
 
+    @cached_property
+    def inputs(self) -> Array:
+        """The inputs side by side, (n_rows, n_inputs); made when it is first needed."""
+        return np.column_stack(list(self.columns.values()))
+
     @property
     def n_rows(self) -> int:
         """Number of points."""
-        return len(self.inputs)
+        return int(self.starts[-1])
 
     @property
     def model(self) -> str:
@@ -69,6 +76,11 @@ class Plan:
         """What is asked of each row: outputs, real ones first, but the status."""
         real, whole = output_signals(self.spec)
         return tuple(s.name for s in (*real, *whole[:-1]))
+
+    def columns_at(self, rows: slice) -> dict[str, Any]:
+        """Return the columns of the table before the outputs; they can be written."""
+        found = {name: column[rows] for name, column in self.shown.items()}
+        return {name: x if x.flags.writeable else x.copy() for name, x in found.items()}
 
     def check(self) -> None:
         """Refuse a level that its parameters do not have, where all rows have the same."""
@@ -237,23 +249,27 @@ def _assemble(
     if "power" in rows or "power" in held:
         if "load" in rows or "load" in held:
             raise ParameterError("power: allowed: instead of load, not with it")
-        shown["power"] = rows["power"] if "power" in rows else np.full(n, float(held["power"]))
-    inputs, starts_at = np.empty((n, len(spec.inputs))), part.starts
+        shown["power"] = _column(rows.get("power", held.get("power")), n)
+    inputs, starts_at = dict[str, Array](), part.starts
     plain = find_part(spec.key).starts
     box: dict[str, float] = {}
     default: dict[str, float] = {}
-    for i, s in enumerate(spec.inputs):
-        inputs[:, i] = rows[s.name] if s.name in rows else held.get(s.name, starts_at[s.name])
+    for s in spec.inputs:
+        inputs[s.name] = _column(rows.get(s.name, held.get(s.name, starts_at[s.name])), n)
         if not (s.name in rows or s.name in held or (s.name == "load" and "power" in shown)):
             mine = from_box(part, s.name, starts_at[s.name], plain[s.name])
             (box if mine else default)[s.name] = starts_at[s.name]
-        shown[s.name] = inputs[:, i]
     if "power" in shown:
         largest = next(s.high for s in spec.inputs if s.name == "load") or 0.0
-        with np.errstate(divide="ignore", invalid="ignore"):
-            torque = np.where(shown["power"] == 0.0, 0.0, np.abs(shown["power"] / shown["speed"]))
-        # NaN where the power asks for more than is allowed
-        shown["load"][:] = np.where(torque <= largest, torque, np.nan)
+        inputs["load"] = np.empty(n)
+        for a in range(0, n, CHUNK):  # some at a time: rows may be many
+            at = slice(a, a + CHUNK)
+            power, speed, torque = shown["power"][at], inputs["speed"][at], inputs["load"][at]
+            with np.errstate(divide="ignore", invalid="ignore"):
+                torque[:] = np.where(power == 0.0, 0.0, np.abs(power / speed))
+            # NaN where the power asks for more than is allowed
+            torque[~(torque <= largest)] = np.nan
+    shown |= inputs
     units = {s.name: s.unit for s in spec.inputs} | ({"power": "W"} if "power" in shown else {})
     for name in varied:
         shown[name] = rows[name]
@@ -271,8 +287,7 @@ def _assemble(
     taken = taken_text(box, default, spec.inputs)
     own = replace(part, parameters={f.name: getattr(base, f.name) for f in fields(spec.params)})
     evaluator = PartEvaluator(part=own, inputs=starts_at, reached="below", fidelity=level)
-    columns = {s.name: inputs[:, i] for i, s in enumerate(spec.inputs)}
-    columns |= {name: rows[name] for name in varied}
+    columns = {**inputs, **{name: rows[name] for name in varied}}
     evaluated = Rows(columns=columns, starts=starts, held=fixed)
     more: dict[str, Any] = {"taken": taken, "warnings": warnings}
     more |= {"evaluator": evaluator, "rows": evaluated}
@@ -281,19 +296,21 @@ def _assemble(
     return plan
 
 
+def _column(given: Any, n: int) -> Array:
+    """Return a column, or one number as a column that takes no memory and cannot be written."""
+    return np.asarray(given, float) if np.ndim(given) else np.broadcast_to(float(given), n)
+
+
 def _idle(params: Sequence[object], fidelity: str, model: str) -> Iterator[str]:
     """Yield a warning for each choice that leaves parameters unread, at the first row or last."""
     lines = [t for p in (params[0], params[-1]) if p for t in idle_warnings(model, p, fidelity)]
     yield from {text.partition(" = ")[0]: text for text in lines}.values()
 
 
-def _of_oil(part: PartFile, params: Sequence[object], inputs: Array) -> Iterator[str]:
+def _of_oil(part: PartFile, params: Sequence[object], inputs: Mapping[str, Array]) -> Iterator[str]:
     """Yield what is doubtful of the oil at the coldest and warmest point, at first row or last."""
-    names = [s.name for s in part.spec.inputs]
-    if "oil_temperature" not in names:
-        return
-    column = inputs[:, names.index("oil_temperature")]
-    if not np.isfinite(column).any():
+    column = inputs.get("oil_temperature")
+    if column is None or not np.isfinite(column).any():
         return
     ends = float(np.nanmin(column)), float(np.nanmax(column))
     for own in filter(None, dict.fromkeys((params[0], params[-1]))):
@@ -307,19 +324,23 @@ def _doubt(
     fidelity: str,
     params: Sequence[object],
     part_of: NDArray[np.integer[Any]],
-    inputs: Array,
+    columns: Mapping[str, Array],
 ) -> Iterator[str]:
     """Yield what the model says of all rows; of several parts what it says of the first of them.
 
     ParameterError: the only part has no answer to a row; of several that is a warning.
     """
-    doubt, sound = find_model(spec.key).sweep.doubt, np.isfinite(inputs).all(1)
+    doubt = find_model(spec.key).sweep.doubt
+    if doubt is None:
+        return
+    every = list(columns.values())
+    sound = np.logical_and.reduce([np.isfinite(column) for column in every])
     for k, part in enumerate(params):
-        if part is None or doubt is None:
+        if part is None:
             continue
         own = sound & (part_of == k)
         try:
-            text = doubt(part, fidelity, inputs if own.all() else inputs[own])
+            text = doubt(part, fidelity, every if own.all() else [c[own] for c in every])
         except ParameterError as problem:
             if len(params) == 1:
                 raise
@@ -329,17 +350,18 @@ def _doubt(
             return
 
 
-def _outside(part: PartFile, inputs: Array) -> Iterator[str]:
+def _outside(part: PartFile, inputs: Mapping[str, Array]) -> Iterator[str]:
     """Yield a warning for each input of which some points lie outside the part's box."""
-    for i, s in enumerate(part.spec.inputs):
+    for s in part.spec.inputs:
         if s.name not in part.box:
             continue
         low, high = part.box[s.name]
-        column = inputs[:, i][np.isfinite(inputs[:, i])]
+        every = inputs[s.name]
+        column = every[np.isfinite(every)]
         beyond = column[(column < low) | (column > high)]
         if len(beyond):
             yield (
-                f"{len(beyond)} of {len(inputs)} points, as {quantity_text(s, beyond[0])}, are "
+                f"{len(beyond)} of {len(every)} points, as {quantity_text(s, beyond[0])}, are "
                 f"outside {range_text(s, (low, high))}, the part's box: solved all the same, "
                 "but not what the part is meant for"
             )
@@ -375,12 +397,11 @@ def _identity(
 ) -> dict[str, str]:
     """Return a digest of each thing that makes this sweep another one than the next."""
     from ...native.digest import digest as native_digest
-    from ...numerics.jit import kernel_digest
 
     held = {k: v for k, v in {**asdict(base), **fixed}.items() if k not in set(varied)}
     parts: dict[str, Any] = {"model": plan.spec.key, "fidelity": plan.fidelity}
     parts |= {"parameters": repr(held), **plan.shown, "lines": plan.starts}
-    parts["version of thrustwasher"] = kernel_digest() + native_digest(plan.spec.kernel)
+    parts["version of thrustwasher"] = native_digest(plan.spec.kernel)
     return {name: digest(part) for name, part in parts.items()}
 
 

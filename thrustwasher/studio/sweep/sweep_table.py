@@ -1,11 +1,13 @@
 """The rows of a sweep as columns, and as a file."""
 
 import json
+import os
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass, field, replace
+from functools import cache
 from pathlib import Path
 from typing import IO, Any
 
@@ -34,6 +36,7 @@ ADVICE = {
 SUFFIXES = (".csv", ".parquet")
 NUMBERED = re.compile(r"[a-z]+_\d+_")  # begin names of a mesh or shaft, which may not be there
 CHUNK = 10_000  # rows of a piece, a group of Parquet
+POOL = "ARROW_DEFAULT_MEMORY_POOL"
 TEXT = 2_000  # rows made into text at a time
 
 
@@ -140,7 +143,7 @@ def make_table(
     real, whole = output_signals(plan.spec)
     numbers, flags = _parted(numbers, flags, len(real))
     rows = slice(first, first + len(flags))
-    columns, units = {name: column[rows] for name, column in plan.shown.items()}, dict(plan.units)
+    columns, units = plan.columns_at(rows), dict(plan.units)
     sets = [plan.spec.absent(params) for params in plan.params if params is not None]
     common = frozenset.intersection(*sets) if sets else frozenset()
     nowhere = {name for name in common if NUMBERED.match(name)}
@@ -229,9 +232,11 @@ def pieces(plan: Plan | RunPlan, blocks: Iterable[Block]) -> Iterator[SweepTable
         waiting.append(block)
         first, end = waiting[0][0], block[0] + len(block[2])
         if end - first >= CHUNK or end == plan.n_rows:
-            numbers, flags = (np.concatenate(part) for part in list(zip(*waiting, strict=True))[1:])
+            _, *parts = zip(*waiting, strict=True)
+            waiting, numbers, flags = [], *map(np.concatenate, parts)
+            del block, parts
             yield make_table(plan, numbers, flags, first)
-            waiting = []
+            del numbers, flags  # before the next ones are made
 
 
 def check_output(path: str | Path) -> Path:
@@ -268,9 +273,12 @@ def write_table(
                     schema, more = group.schema, {"use_dictionary": _repeating(table)}
                     writer = _pyarrow()[1].ParquetWriter(draft, schema, **more)
                     stack.enter_context(writer)
-                writer.write_table(group.cast(schema))
+                # a cast imports pyarrow.compute, of 12 MB
+                writer.write_table(group if group.schema == schema else group.cast(schema))
+                del group
             counts.update(table.counts)
             found = joined([*found, *table.beyond])
+            del table  # before the next one is made
     return counts, tuple(found)
 
 
@@ -344,13 +352,22 @@ def _arrow(column: NDArray[Any], bad: NDArray[np.bool_] | None) -> Any:
     return pa.Array.from_buffers(kind, n, [valid, pa.py_buffer(values)])
 
 
+@cache
 def _pyarrow() -> tuple[Any, Any]:
-    """Return pyarrow and its Parquet part, or say how to get them."""
+    """Return pyarrow and its Parquet part, or say how to get them.
+
+    Where it was not imported before it takes memory from the system: its own pool keeps 13 MB.
+    """
+    before = os.environ.get(POOL)
     try:
+        os.environ.setdefault(POOL, "system")  # looked at when pyarrow is loaded
         import pyarrow
         import pyarrow.parquet
     except ImportError:
         raise EnvironmentProblem(
             f"a Parquet file needs the package pyarrow: {INSTALL}; or choose a name ending in .csv"
         ) from None
+    finally:
+        if before is None:
+            del os.environ[POOL]
     return pyarrow, pyarrow.parquet

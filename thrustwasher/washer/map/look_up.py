@@ -342,20 +342,22 @@ def told_outside(found: WasherResult, words: str) -> WasherResult:
     return replace(found, status=status, warnings=(words, *found.warnings))
 
 
-def outside_text(params: WasherParams, points: Array, what: str, most: float = 0.0) -> str:
+def outside_text(
+    params: WasherParams, columns: Sequence[Array], what: str, most: float = 0.0
+) -> str:
     """Return a warning if more than a share of points lie outside the map, and what happens there.
 
-    ``points`` (n, 4): load [N], speed [rad/s], tilt [rad] and oil temperature [K].
+    ``columns`` (n,): load [N], speed [rad/s], tilt [rad] and oil temperature [K].
     """
     box = WasherMap(params).box
-    outside = np.abs(points[:, 2]) <= LEAST_TILT
-    for i, (low, high) in enumerate(box.values()):
-        there = np.abs(points[:, i])
+    outside = np.abs(columns[2]) <= LEAST_TILT
+    for column, (low, high) in zip(columns, box.values(), strict=False):
+        there = np.abs(column)
         outside |= (there < low * (1.0 - 1e-9)) | (there > high * (1.0 + 1e-9))
     if np.mean(outside) <= most:
         return ""
     return OF_BOX.format(
-        outside=outside.sum(), points=len(points), what=what, then=OUTSIDE[params.outside_map]
+        outside=outside.sum(), points=len(outside), what=what, then=OUTSIDE[params.outside_map]
     )
 
 

@@ -397,7 +397,7 @@ def _plan(
     return Plan(
         spec=TRACED,
         fidelity=level_named(SPEC, fidelity or part.fidelity),
-        inputs=inputs,
+        columns={name: inputs[:, i] for i, name in enumerate(names)},
         shown={name: inputs[:, i] for i, name in enumerate(names)},
         units={s.name: s.unit for s in TRACED.inputs},
         starts=starts,

@@ -281,10 +281,10 @@ def _with_law(points: Measured, asked: Asked) -> tuple[Measured, tuple[str, ...]
             "leave the point out, or take friction_data = 'total'"
         )
         _refuse(points, "friction", mu, shear > 0.5 * mu, cure)
-    plan = replace(points.plan, params=(params,), inputs=points.plan.inputs.copy())
+    columns = dict(points.plan.columns)
     if not warm:  # then they count as measured where the law holds
-        place = [s.name for s in plan.spec.inputs].index("oil_temperature")
-        plan.inputs[:, place] = params.reference_temperature
+        columns["oil_temperature"] = np.full(points.plan.n_rows, params.reference_temperature)
+    plan = replace(points.plan, params=(params,), columns=columns)
     return replace(points, plan=plan, value=mu - shear), names
 
 

@@ -9,7 +9,7 @@
 import logging
 from typing import TYPE_CHECKING, Any
 
-__version__ = "0.26.0"
+__version__ = "0.27.0"
 logging.getLogger(__name__).addHandler(logging.NullHandler())
 
 if TYPE_CHECKING:

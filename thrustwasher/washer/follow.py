@@ -20,7 +20,7 @@ from .kernels import layout as L
 from .kernels import step as kernel
 from .kernels.workspace import size_of_state, size_of_work
 from .parameters import BODIES, SPEC, WasherParams, property_of, washer_face
-from .solve import RANGES, check_far_face, resolve_grid
+from .solve import RANGES, TILT, check_far_face, resolve_grid
 
 __all__ = ["HistoryError", "WasherHistory", "follow_washer"]
 
@@ -86,7 +86,7 @@ def follow_washer(
     time: "ArrayLike",
     load: "ArrayLike",
     speed: "ArrayLike",
-    tilt: "ArrayLike" = 0.0,
+    tilt: "ArrayLike" = TILT,
     oil_temperature: "ArrayLike" = 297.15,
     far_face_temperature: "ArrayLike" = 0.0,
     fidelity: str = "field",

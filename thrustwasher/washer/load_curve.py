@@ -29,7 +29,7 @@ from .kernels.whole_curve.points import ROW, follow_curve, name_branches
 from .kernels.workspace import fields_of, size_of_state, size_of_work, workspace_of
 from .parameters import SPEC, WasherParams
 from .sensitivities import Solved, fold_derivatives
-from .solve import GRIDS, check_point, resolve_grid, result_from
+from .solve import GRIDS, TILT, check_point, resolve_grid, result_from
 from .washer_result import BRANCH_NAMES, FROM_TABLES, Fold, Inputs, WasherResult, advised, lost_text
 
 __all__ = ["Fold", "LoadCurve", "load_curve"]
@@ -135,7 +135,7 @@ def load_curve(
     params: WasherParams,
     *,
     speed: float,
-    tilt: float = 0.0,
+    tilt: float = TILT,
     oil_temperature: float = 297.15,
     far_face_temperature: float = 0.0,
     fidelity: str = "field",

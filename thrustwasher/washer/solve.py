@@ -75,6 +75,7 @@ RANGES = tuple(
     (s.name, s.unit, 1.0 if s.name == "load" else float(s.low or 0.0), float(s.high or 0.0))
     for s in SPEC.inputs
 )
+TILT = next(s.start or 0.0 for s in SPEC.inputs if s.name == "tilt")
 
 
 def check_far_face(params: WasherParams, far_face_temperature: float) -> None:
@@ -148,7 +149,7 @@ def solve_washer(
     *,
     load: float,
     speed: float,
-    tilt: float = 0.0,
+    tilt: float = TILT,
     oil_temperature: float = 297.15,
     far_face_temperature: float = 0.0,
     fidelity: str = "field",
@@ -164,7 +165,8 @@ def solve_washer(
     params : geometry, surfaces, oil
     load : axial load [N], 1 .. 2e5
     speed : [rad/s] of washer and gear against the carrier, either sign, up to 2000
-    tilt : of the gear [rad], 0 .. 0.01; default 0, parallel
+    tilt : of the gear [rad], 0 .. 0.01; default 0.002, as of command and FMU: parallel faces
+        build no pressure
     oil_temperature : [K], 233.15 .. 473.15
     far_face_temperature : [K] at the gear's far face, with ``gear_far_face = "bulk"``; 0: the oil's
     fidelity : "field" (10 x 32 nodes), "fine" (19 x 64) or "map", which does outside its box what

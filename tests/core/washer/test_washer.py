@@ -404,7 +404,9 @@ def test_pressures_outside_the_data_are_told():
     assert "held" in line
 
 
-def test_tilt_is_zero_unless_given():
-    given, left = ({"load": 300.0, "speed": 953.0, **more} for more in ({"tilt": 0.0}, {}))
-    plain, short = solve_washer(WasherParams(), **given), solve_washer(WasherParams(), **left)
-    assert short.tilt == 0.0 and short.friction_torque == plain.friction_torque
+def test_tilt_is_that_of_the_command_and_the_fmu_unless_given():
+    start = next(s.start for s in SPEC.inputs if s.name == "tilt")
+    point = {"load": 300.0, "speed": 953.0}
+    plain = solve_washer(WasherParams(), tilt=start, **point)
+    short = solve_washer(WasherParams(), **point)
+    assert short.tilt == start and short.friction_torque == plain.friction_torque

@@ -1,6 +1,7 @@
 """The washer over time: inputs are given at points, friction and heat follow."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from dataclasses import fields as dataclass_fields
 from typing import ClassVar
@@ -15,6 +16,7 @@ from ..model.parameters import as_numbers
 from ..model.prepare import profile_of, rising
 from ..model.solutions import OverTime
 from ..numerics.jit import Array
+from ..plugins import called
 from .kernel_arguments import constants
 from .kernels import layout as L
 from .kernels import step as kernel
@@ -91,6 +93,7 @@ def follow_washer(
     far_face_temperature: "ArrayLike" = 0.0,
     fidelity: str = "field",
     grid: tuple[int, int] | None = None,
+    progress: bool | Callable[[int, int], None] | None = None,
 ) -> WasherHistory:
     """Return friction, temperature and film of a washer whose inputs are given over time.
 
@@ -104,6 +107,7 @@ def follow_washer(
         of it 0 (the oil's)
     fidelity : "field" or "fine"
     grid : (n_r, n_theta), overrides the nodes of the fidelity
+    progress : True: a bar of tqdm, or a line, on the terminal; or called with points done and all
 
     Raises
     ------
@@ -172,6 +176,7 @@ def follow_washer(
             energy_per_area=made["energy"] / face.area,
         )
 
+    show = called("shown_progress")(progress, "washer") if progress else None
     for i in range(len(points)):
         duration = points[i] - points[i - 1] if i else 0.0
         code = run.go(inputs[max(i - 1, 0)], inputs[i], duration)
@@ -183,6 +188,8 @@ def follow_washer(
             raise HistoryError(text, packed(i))
         rows[i], lost[i] = run.out, bool(run.iout[L.IO_DISTRESS])
         statuses.append(Status(int(run.iout[L.IO_STATUS])))
+        if show is not None:
+            show(i + 1, len(points))
     return packed(len(points))
 
 

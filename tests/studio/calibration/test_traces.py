@@ -465,3 +465,34 @@ def test_residuals_that_follow_each_other_widen_the_intervals():
     plain = calibrate_traces(WORN, recorded(), fit=["friction_scale"])
     assert plain.to_dict()["residual_correlation"] == 0.0
     assert found["friction_scale"].standard_error > 2.0 * plain["friction_scale"].standard_error
+
+
+@pytest.mark.parametrize("head", ["speed [rpm]", "sliding_speed [mm/s]"])
+def test_its_picture_has_the_units_of_the_file(head, tmp_path):
+    data, file = wheel(101), tmp_path / "stop.csv"
+    size = {"speed [rpm]": np.pi / 30.0, "sliding_speed [mm/s]": 1e-3 / WORN.friction_radius}[head]
+    columns = [
+        1e3 * data["time"],
+        data["load"] / (1e5 * 6e-3),
+        data["speed"] / size,
+        1e-3 * data["friction_torque"],
+    ]
+    rows = [",".join(map(repr, row)) for row in np.column_stack(columns).tolist()]
+    file.write_text("\n".join([f"time [ms],pressure [bar],{head},friction_torque [kNm]", *rows]))
+    found = calibrate_traces(
+        PACK,
+        file,
+        fit=["friction_scale"],
+        inertia=0.25,
+        piston_area=6e-3,
+        at={"permeability": 3e-13},
+    )
+    unit = head.partition("[")[2]
+    torque, off, slip, off_slip = found.plot().axes
+    assert [a.get_xlabel() for a in (torque, off, slip, off_slip)] == 4 * ["time [ms]"]
+    assert (torque.get_ylabel(), off.get_ylabel()) == ("[kNm]", "measured - fitted [kNm]")
+    assert (slip.get_ylabel(), off_slip.get_ylabel()) == (f"[{unit}", f"measured - fitted [{unit}")
+    for axis, column in ((torque, columns[3]), (slip, columns[2])):
+        time, values = axis.lines[0].get_data()
+        there = np.interp(time, columns[0], column)
+        assert values == pytest.approx(there, rel=1e-9, abs=1e-9 * np.abs(column).max())

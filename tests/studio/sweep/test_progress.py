@@ -5,7 +5,13 @@ import sys
 
 import pytest
 
-from thrustwasher import ParameterError, load_scene, run_sweep
+from thrustwasher import (
+    ParameterError,
+    WasherParams,
+    follow_washer,
+    load_scene,
+    run_sweep,
+)
 from thrustwasher.shift.steady_points import efficiency_map
 from thrustwasher.studio.jobs.progress import shown
 
@@ -71,3 +77,11 @@ def test_a_map_of_efficiency_shows_its_points():
     for progress in (True, lambda *now: seen.append(now)):
         efficiency_map(load_scene("msl"), [50.0, 100.0], [100.0], progress=progress)
     assert seen == [(1, 2), (2, 2)]
+
+
+def test_a_washer_over_time_shows_its_points():
+    seen = []
+    way = {"time": [0.0, 0.1, 0.2], "load": 200.0, "speed": 100.0}
+    for progress in (True, lambda *now: seen.append(now)):
+        follow_washer(WasherParams(), **way, progress=progress)
+    assert seen == [(1, 3), (2, 3), (3, 3)]

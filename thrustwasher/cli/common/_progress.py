@@ -50,23 +50,27 @@ class TimeLeft:
         return self._left
 
 
-def time_left(label: str) -> Callable[[int, int], None]:
-    """Return ``show(done, total)`` that also says how long it takes; in a pipe a line a minute."""
+def time_left(label: str) -> Callable[[int, int | None], None]:
+    """Return ``show(done, total)`` that also says how long it takes; in a pipe a line a minute.
+
+    With a total of None, as of a search, it says what is done.
+    """
     stream, on_terminal = sys.stderr, sys.stderr.isatty()
     every = EVERY if on_terminal else IN_PIPE
     last = time.monotonic()
     left = TimeLeft()
 
-    def show(done: int, total: int) -> None:
+    def show(done: int, total: int | None) -> None:
         nonlocal last
         now = time.monotonic()
-        seconds = left.after(now, done, total)
-        if done >= total:
+        seconds = math.nan if total is None else left.after(now, done, total)
+        if total is not None and done >= total:
             stream.write("\r\033[K" if on_terminal else "")
         elif now - last >= every:
             last = now
             known = "" if math.isnan(seconds) else f", {duration(seconds)} left"
-            text = f"{label} {done} of {total} ({done / total:.0%}){known}"
+            of_all = "" if total is None else f" of {total} ({done / total:.0%})"
+            text = f"{label} {done}{of_all}{known}"
             stream.write(f"\r\033[K{text}" if on_terminal else text + "\n")
         stream.flush()
 

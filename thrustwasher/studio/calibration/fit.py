@@ -1,6 +1,6 @@
 """A fit and what the points tell of it: values, intervals, verdicts."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,6 +22,8 @@ class Asked(NamedTuple):
     bounds: Mapping[str, tuple[float, float]]
     confidence: float
     profile: bool | None
+    ran: Callable[[], None] = lambda: None
+    """Called after each evaluation of all points."""
 
 
 USUAL = ("friction_scale", "roughness")  # what a first fit is for

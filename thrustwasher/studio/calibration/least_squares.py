@@ -92,6 +92,8 @@ class FitProblem:
     same scatter, 0 where it is none of theirs. None where inputs count as exact."""
     correlation: Callable[["FitProblem", Array], float] = lambda problem, guess: 0.0
     """Correlation of neighbouring residuals; 0 where values are in no order."""
+    ran: Callable[[], None] = lambda: None
+    """Called after each evaluation of the curve or its exact slopes."""
     kept: dict[tuple[Any, ...], Array] = field(default_factory=dict, repr=False)
 
     @property
@@ -107,12 +109,16 @@ class FitProblem:
             if len(self.kept) > MOST_KEPT:
                 self.kept.clear()
             self.kept[key] = self.computed(values)
+            self.ran()
         return self.kept[key]
 
     def slopes_of_curve(self, guess: Array) -> Array:
         """Return the derivatives of the curve over the guess, (n, constants)."""
         exact = self.exact_slopes(self.values(guess), self.names)
-        return self._differences(guess) if exact is None else exact * self.derivative(guess)
+        if exact is None:
+            return self._differences(guess)
+        self.ran()
+        return exact * self.derivative(guess)
 
     def _differences(self, guess: Array) -> Array:
         """Return differences of solutions.

@@ -43,7 +43,7 @@ def fit_points(points: Measured, asked: Asked) -> Calibration:
         raise ParameterError(f"data: {sizes}, allowed: as many values as parameters, or more")
     check_level(spec, plan.fidelity, plan.params[0])
     terms = Terms(fidelity=plan.fidelity)
-    problem, first = problem_of(points, names, asked.bounds, terms=terms)
+    problem, first = problem_of(points, names, asked.bounds, terms=terms, ran=asked.ran)
     _check_first(points, problem, first)
     guess = first
     for _ in range(PASSES if groups else 0):

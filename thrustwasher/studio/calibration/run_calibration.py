@@ -11,6 +11,7 @@ from ...storage.tables.given import columns_given, is_table
 from ...storage.tables.table import Columns
 from ..evaluators.evaluator import texts
 from ..evaluators.make import part_of
+from ..jobs.progress import counted_runs
 from .engagement.trace_fit import TRACES
 from .estimates import Calibration, remarks
 from .fit import Asked
@@ -36,6 +37,7 @@ def calibrate(
     fidelity: str | None = None,
     confidence: float = 0.95,
     profile: bool | None = None,
+    progress: bool | Callable[[int, int | None], None] | None = None,
     **columns: object,
 ) -> Any:
     """Fit parameters of a model to measured outputs, and say what the points can tell.
@@ -62,6 +64,8 @@ def calibrate(
     confidence : probability of the intervals, above 0 and below 1
     profile : also compute profile intervals, which takes several times as long; a law's are quick
         and computed unless False
+    progress : True: a bar of tqdm, or a line, on the terminal; or called with evaluations of all
+        points done and None: nobody knows how many there will be; at the end with their number
 
     Returns
     -------
@@ -108,8 +112,9 @@ def calibrate(
     is_law = not own.computed and not own.units.keys().isdisjoint(data)
     points = measured(start, data, at, errors, fidelity or start.fidelity)
     fit_to = LAWS.get(start.spec.key, fit_points) if is_law else fit_points
-    asked = Asked(fit, {*data}, {*at}, bounds, confidence, profile)
-    found = fit_to(decided(points, fit or ()), asked)
+    with counted_runs(progress, "fit, evaluations") as ran:
+        asked = Asked(fit, {*data}, {*at}, bounds, confidence, profile, ran)
+        found = fit_to(decided(points, fit or ()), asked)
     notes = [
         *texts(found.remarks, "note"),
         *([f"{name}: read with {', '.join(said)}."] if said else []),

@@ -2,6 +2,7 @@
 
 import argparse
 import shlex
+import sys
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -92,7 +93,7 @@ def run(arguments: argparse.Namespace) -> int:
     target, arguments.out = arguments.out and _output.new_part(arguments.out), None
     targets = _output.targets(arguments)
     options: dict[str, Any] = {
-        "confidence": parse_quantity(arguments.confidence, "1", "confidence")
+        "confidence": parse_quantity(arguments.confidence, "1", "confidence"),
     }
     if arguments.fit is not None:
         options["fit"] = tuple(filter(None, map(str.strip, arguments.fit.split(","))))
@@ -113,6 +114,9 @@ def run(arguments: argparse.Namespace) -> int:
         )
         options["data"] = columns
 
+    if sys.stderr.isatty():
+        runs = "recordings stepped along" if traces else "evaluations"
+        options["progress"] = _output.time_left(f"fit, {runs}:")
     began = time.perf_counter()
     found = traces.fit(part, columns, **options) if traces else calibrate(part, **options)
     wall_time = time.perf_counter() - began

@@ -11,6 +11,7 @@ from ....clutch.parameters import DRUM, LOAD, OIL, SPEED
 from ....errors import ParameterError
 from ....model.part_file import PartFile
 from ....storage.tables.given import columns_given, is_table
+from ....storage.tables.table import Columns
 from ....units import format_quantity
 from ..measured import SLIDING, with_speed
 from ..traces.recording import Recording, recording
@@ -33,9 +34,14 @@ SIGNALS = {"load": LOAD, "speed": SPEED, "oil_temperature": OIL, "drum_speed": D
 UNDER_ZERO = 0.02  # of the largest load: a reading this far below 0 is an offset
 
 
-def read_recordings(recordings: Any, rig: TracedPack) -> tuple[list[Recording], list[str]]:
-    """Return the recordings, files read, with ``load`` for ``pressure``; what was not plain."""
-    found, said = [], []
+def read_recordings(
+    recordings: Any, rig: TracedPack
+) -> tuple[list[Recording], list[str], dict[str, str]]:
+    """Return the recordings, files read, with ``load`` for ``pressure``.
+
+    Second: what was not plain. Third: units of columns as the first file with one has them.
+    """
+    found, said, written = [], [], dict[str, str]()
     for name, given in _named(recordings):
         of_file: dict[str, Any] = {name: given}
         if not isinstance(given, Mapping):
@@ -48,11 +54,12 @@ def read_recordings(recordings: Any, rig: TracedPack) -> tuple[list[Recording], 
                 of_file, remarks = {name: own_columns}, list(own_columns.remarks)
             said += [f"{name}: read with {', '.join(remarks)}."] if remarks else []
         for own, columns in of_file.items():
+            written = {**(columns.units if isinstance(columns, Columns) else {}), **written}
             slip = with_speed(columns, rig.friction_radius, own)
             found.append(_with_load(recording(own, slip, COLUMNS, MEASURED), rig))
     if not found:
         raise ParameterError("recordings: none, allowed: one or more")
-    return found, said
+    return found, said, written
 
 
 def _named(recordings: Any) -> Iterator[tuple[str, Any]]:

@@ -1,6 +1,6 @@
 """Parameters of a pack fitted to recordings of its engagements."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from functools import partial
 from typing import Any
@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ....clutch.parameters import SPEC, ClutchParams
-from ....errors import ParameterError
+from ....errors import ParameterError, Status
 from ....model.levels import level_named
 from ....model.parameters import written_out
 from ....model.part_file import PartFile, find_part
@@ -17,6 +17,7 @@ from ....numerics.jit import Array
 from ....settings import find_place, places
 from ....units import format_quantity, parse_quantity
 from ...evaluators.make import part_of
+from ...jobs.progress import Count, counted_runs
 from ...sweep.sweep_plan import Plan
 from ..fit import Asked, chosen_names
 from ..identifiability import counted
@@ -25,7 +26,7 @@ from ..traces.binned import Run, binned
 from ..traces.recording import SLOW, Traces, measured_part, pieces
 from ..traces.trace_problem import fit_traces, size_text
 from ..traces.trace_result import TraceCalibration
-from ..traces.traced import Traced
+from ..traces.traced import History, Traced
 from .pack_history import SLIDES, slip_by_torque, starts_engaged, walk_pack
 from .recorded import COLUMNS, MEASURED, NEEDED, completed, read_recordings
 from .slip_scatter import slip_scatter
@@ -66,6 +67,7 @@ def calibrate_traces(
     torque_at: str = "pack",
     inertia_between: float | str = 0.0,
     torque_offset: float | str = 0.0,
+    progress: bool | Callable[[int, int | None], None] | None = None,
 ) -> TraceCalibration:
     """Fit parameters of a wet pack to recordings of engagements over time.
 
@@ -102,6 +104,8 @@ def calibrate_traces(
     torque_at : "pack": the torque of the faces is measured; "hub": between them and the sensor
         ``inertia_between`` [kg m2] turns with the hub, times its acceleration
     torque_offset : [N m] that the sensor shows in addition to the true torque
+    progress : as of ``calibrate``; called with recordings stepped along so far, each once for each
+        iteration of the fit
 
     Returns
     -------
@@ -147,7 +151,7 @@ def calibrate_traces(
     )
     _check_rig(rig, names)
     rig = written_out(rig, names)
-    read, remarks = read_recordings(recordings, rig)
+    read, remarks, written = read_recordings(recordings, rig)
     wholes = [completed(whole, start, rig, held) for whole in read]
     parts = [
         (piece, float(whole.inputs["load"].max()))
@@ -183,7 +187,17 @@ def calibrate_traces(
         notes.append("Slip: by the recorded torque, the drag and the inertia.")
     words = "their error" if errors else "the scatter of neighbouring rows"
     asked = Asked(names, (), (), _bounds(rig, names, bounds or {}), confidence, profile)
-    return fit_traces(points, asked, names, deviation, words, notes)
+    with counted_runs(progress, "fit, recordings stepped along") as ran:
+        points = replace(points, walk=partial(_walk_counted, ran))
+        found = fit_traces(points, asked, names, deviation, words, notes)
+    return replace(found, written=written)
+
+
+def _walk_counted(ran: Count, rig: TracedPack, level: str, run: Run) -> History | Status:
+    """Step a pack along a recording, and count that."""
+    found = walk_pack(rig, level, run)
+    ran()
+    return found
 
 
 def _held(

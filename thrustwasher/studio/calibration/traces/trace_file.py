@@ -6,9 +6,8 @@ from os import PathLike, fspath
 import numpy as np
 
 from ....errors import ParameterError
-from ....numerics.jit import Array
 from ....storage.tables.known_columns import known_columns
-from ....storage.tables.table import Table, numbers
+from ....storage.tables.table import Columns, Table, numbers
 from ....storage.tables.table_file import read_table
 
 
@@ -22,7 +21,7 @@ def read_trace(
     units: Mapping[str, str],
     measured: Sequence[str],
     needed: Sequence[Sequence[str]] = (),
-) -> tuple[dict[str, dict[str, Array]], list[str], list[str]]:
+) -> tuple[dict[str, Columns], list[str], list[str]]:
     """Return ``columns_of`` the table in a file."""
     return columns_of(read_table(fspath(path)), units, measured, needed)
 
@@ -32,7 +31,7 @@ def columns_of(
     units: Mapping[str, str],
     measured: Sequence[str],
     needed: Sequence[Sequence[str]] = (),
-) -> tuple[dict[str, dict[str, Array]], list[str], list[str]]:
+) -> tuple[dict[str, Columns], list[str], list[str]]:
     """Return the columns of a file's recordings by name, (n,) each [SI], NaN where a cell is empty.
 
     A file with one table is one recording. Also names of columns that were passed over: a recording
@@ -52,9 +51,11 @@ def columns_of(
     """
     table = table.of_columns(units, measured)
     columns, passed = known_columns(table, units, needed, may_lack=True)
-    found: dict[str, dict[str, Array]] = {}
+    found: dict[str, Columns] = {}
     for own in table.each():
-        of_table = found.setdefault(f"{table.path}, {own.name}" if own.name else table.path, {})
+        of_table = Columns()
+        of_table.units = {name: c.unit for name, c in columns.items() if c.unit}
+        found[f"{table.path}, {own.name}" if own.name else table.path] = of_table
         by_name = {column.plain: column for column in own.columns}
         for name in columns:
             of_table[name] = np.array(numbers(by_name[name], own, units[name], name=name), float)

@@ -108,9 +108,9 @@ def _in_own_units(series: Any, found: Any) -> Any:
             name, unit, values = SLIDING, "m/s", values * face.radius
         elif name == "slip speed" and "speed" in found.written and face:
             name, unit, values = "speed", "rad/s", values / face.radius
-        shown, size, zero = _own_unit(found, name, unit, values)
+        shown, size, zero = own_unit(found, name, unit, values)
         inputs[name] = shown, (values - zero) / size
-    unit, size, zero = _own_unit(found, series.name, series.unit, series.measured)
+    unit, size, zero = own_unit(found, series.name, series.unit, series.measured)
     values = {
         "measured": (series.measured - zero) / size,
         "error": None if series.error is None else series.error / size,
@@ -120,7 +120,7 @@ def _in_own_units(series: Any, found: Any) -> Any:
     return series._replace(unit=unit, inputs=inputs, **values)
 
 
-def _own_unit(
+def own_unit(
     found: Any, name: str, unit: str, values: NDArray[np.float64]
 ) -> tuple[str, float, float]:
     """Return unit, size and zero [SI] in which a column is drawn."""

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from typing import Any
@@ -439,27 +440,31 @@ def walk_steady(
     numbers: Array,
     flags: NDArray[np.int32],
 ) -> None:
-    """Fill the rows of a sweep's line with the steady state of a pack that slips."""
-    rows = np.empty((len(inputs), steady.N_STEADY))
-    steady.steady_rows(_ready(params, fidelity).par, _in_ranges(inputs), rows)
-    if (rows[:, steady.S_STATUS] == Status.BAD_INPUT).any():
-        raise ParameterError(UNCOOLED)
+    """Fill the rows of a sweep with the steady state of a pack that slips, each for itself."""
+    given, good = _in_ranges(inputs)
+    rows = np.full((len(inputs), steady.N_STEADY), np.nan)
+    rows[:, steady.S_STATUS], rows[:, steady.S_REGIME] = Status.BAD_INPUT, 0.0
+    found = np.empty((len(given), steady.N_STEADY))
+    steady.steady_rows(_ready(params, fidelity).par, given, found)
+    rows[good] = found
     names = [name for name in spec.real_outputs if name not in SWEEP.not_shown]
     numbers[:] = rows[:, [NUMBERS.index(name) for name in names]]
     flags[:, 0], flags[:, -1] = rows[:, steady.S_REGIME], rows[:, steady.S_STATUS]
 
 
-def _in_ranges(inputs: Array) -> Array:
-    """Return rows of load, speed, oil and drum that are in their ranges; ParameterError."""
+def _in_ranges(inputs: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """Return the rows of load, speed, oil and drum that are in their ranges, and which they are."""
     low, high = np.transpose([s.range for s in INPUTS])
-    if ((inputs >= low) & (inputs <= high)).all():
-        return np.ascontiguousarray(inputs)
-    return np.array(
-        [
-            [check_number(s.name, x, s.unit, *s.range) for s, x in zip(INPUTS, row, strict=True)]
-            for row in inputs.tolist()
-        ]
-    )
+    good = ((inputs >= low) & (inputs <= high)).all(axis=1)
+    if good.all():
+        return np.ascontiguousarray(inputs), good
+    given = np.array(inputs)
+    for i in np.flatnonzero(~good).tolist():
+        with suppress(ParameterError):  # only rounding may have put it outside
+            row = zip(INPUTS, given[i].tolist(), strict=True)
+            given[i] = [check_number(s.name, x, s.unit, *s.range) for s, x in row]
+            good[i] = True
+    return given[good], good
 
 
 SWEEP = Sweep(

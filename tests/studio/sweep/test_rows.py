@@ -322,3 +322,27 @@ def test_parquet_is_written_without_modules_that_take_memory(tmp_path):
     words = [sys.executable, "-c", code]
     told = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=True).stdout
     assert told.split() == ["set()", "[]", "system"]
+
+
+def test_of_points_that_share_a_part_each_fails_for_itself():
+    points = {"load": [1e3] * 4, "speed": [0.0, 5.0, 0.0, 5.0]}
+    uncooled = {"heat_transfer": 0.0, "groove_count": 0}
+    table = run_sweep("clutch", points=points, at=uncooled, workers=1)
+    assert table["status"].tolist() == ["OK", "BAD_INPUT", "OK", "BAD_INPUT"]
+
+
+@pytest.mark.parametrize(
+    "column",
+    [
+        np.float32([300.0, 233.15, 320.0]),  # 233.14999 K
+        np.ma.masked_array([300.0, 310.0, 320.0], [False, True, False]),
+        np.array([[300.0], [310.0], [320.0]]),
+    ],
+    ids=["below the range once it is a double", "masked", "two axes"],
+)
+def test_a_column_of_points_is_checked_as_numbers_are(column):
+    points = {"load": [1e3] * 3, "speed": [-0.0, 5.0, 5.0], "oil_temperature": column}
+    with pytest.raises((ParameterError, TypeError)):
+        run_sweep("clutch", points=points, workers=1)
+    at = {"load": [1e3], "speed": np.array([-0.0])}
+    assert str(run_sweep("clutch", points=at, workers=1)["speed"][0]) == "0.0"

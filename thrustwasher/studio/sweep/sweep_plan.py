@@ -218,8 +218,10 @@ def _allowed(place: Quantity, values: Any) -> NDArray[Any]:
     if place.kind != "real":
         return np.array([_checked(place, i, v) for i, v in enumerate(values)], object)
     plain = np.asarray(values)
-    if plain.dtype.kind in "fiu" and ((place.low <= plain) & (plain <= place.high)).all():
-        return plain.astype(float)
+    if plain.dtype.kind in "fiu" and plain.ndim == 1 and not np.ma.isMaskedArray(values):
+        numbers = plain.astype(float) + 0.0  # no -0
+        if ((place.low <= numbers) & (numbers <= place.high)).all():
+            return numbers
     return np.array([_checked(place, i, v) for i, v in enumerate(values)], float)
 
 

@@ -64,6 +64,7 @@ class Clutch(Model):
             **FACE_LOADS,
         },
     )
+    quick = True
     ladder = Ladder(
         part="clutch",
         kernels={"field": KERNELS, "fine": KERNELS},

@@ -84,6 +84,7 @@ class GearMesh(Model):
             chosen="these gears",
         ),
     )
+    quick = True
     ladder = Ladder(
         part="mesh",
         kernels={"field": KERNELS, "fine": KERNELS},

@@ -134,6 +134,7 @@ class Model(ABC):
     wiring: tuple[str, ...] = ()  # sentences for the FMU's page: how to connect it
     command: Command | None = None  # None: it is not solved at operating points
     ladder: Ladder | None = None  # None: it has no verification tables
+    quick: bool = False  # microseconds a point, on no branch: pictures may solve more of them
 
     @property
     @abstractmethod

@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from scene_runs import instances
 
 import thrustwasher as tw
-from thrustwasher import GearMeshParams, LossesParams, calibrate, solve_gearmesh, solve_losses
+from thrustwasher import GearMeshParams, LossesParams, solve_gearmesh, solve_losses
 from thrustwasher.cli import main
 from thrustwasher.clutch.solve import ClutchParams, boundary_friction, solve_clutch
 from thrustwasher.errors import EnvironmentProblem
@@ -26,7 +26,6 @@ from thrustwasher.shift.steady_points import efficiency_map
 from thrustwasher.shown import Card, Line, Shown, Tabled, Words, column_lines, plain
 from thrustwasher.studio.report.model_plots.clutch_plot import clutch_figure
 from thrustwasher.studio.report.model_plots.contours import numbered_contours
-from thrustwasher.studio.report.model_plots.fit_plot import calibration_figure, fit_heading
 from thrustwasher.studio.report.model_plots.gearmesh_plot import gearmesh_figure, over_teeth
 from thrustwasher.studio.report.model_plots.losses_plot import losses_figure
 from thrustwasher.studio.report.model_plots.optimum_plot import optimum_figure
@@ -117,57 +116,6 @@ def test_the_plot_draws_temperatures_and_both_steels():
     assert shown == {line.get_label() for line in drawn if "AISI" in line.get_label()}
 
 
-def test_every_panel_of_a_fit_names_what_it_is_over():
-    slip = np.linspace(2.0, 160.0, 30)
-    columns = {"speed": slip, "load": slip * 0 + 1e3, "friction": 0.1 + 0.02 * np.exp(-slip / 20.0)}
-    axes = calibration_figure(calibrate(ClutchParams(), **columns)).axes
-    assert [axis.get_xlabel() for axis in axes] == ["slip speed [m/s]", "slip speed [m/s]"]
-    columns["load"] = np.linspace(1e3, 5e3, 30)
-    axes = calibration_figure(calibrate(ClutchParams(), **columns)).axes
-    assert axes[2].get_xlabel() == "load [kN]" and axes[0].get_legend() is not None
-
-
-def test_loads_are_told_apart_and_take_no_panel_of_their_own():
-    """Each load, which the rig holds within a percent, has its points and its fitted curve."""
-    slip = np.tile(np.geomspace(0.3, 20.0, 8), 2)
-    load = np.repeat([1500.0, 3000.0], 8) * (1.0 + 0.002 * np.cos(np.arange(16.0)))
-    torque = [
-        solve_clutch(ClutchParams(), load=n, speed=w).friction_torque
-        for n, w in zip(load, slip, strict=True)
-    ]
-    data = {"load": load, "speed": slip, "friction_torque": torque}
-    found = calibrate("clutch", data, fit=["friction_scale"])
-    left, coefficient, residuals = calibration_figure(found).axes
-    assert left.get_legend_handles_labels()[1] == ["1.5 kN", "3 kN"]
-    curves = [line for line in left.lines if line.get_linestyle() == "-"]
-    assert [len(line.get_xdata()) for line in curves] == [8, 8]
-    assert "speed" in residuals.get_xlabel()
-    arm = ClutchParams().faces * ClutchParams().friction_radius
-    points = coefficient.containers[0].lines[0].get_ydata()
-    assert points == pytest.approx(np.array(torque[:8]) / (load[:8] * arm), rel=1e-12)
-    (alone,) = calibration_figure(found, residuals=False).axes
-    assert alone.get_ylabel() == "friction torque [N·m]"
-
-
-def test_a_fit_is_drawn_in_the_units_of_its_file(tmp_path):
-    slip, pack = np.geomspace(0.3, 20.0, 8), ClutchParams()
-    torque = [solve_clutch(pack, load=3e3, speed=w).friction_torque for w in slip]
-    speeds = {
-        "speed [rpm]": slip * 30.0 / np.pi,
-        "sliding_speed [mm/s]": slip * pack.friction_radius,
-    }
-    speeds["sliding_speed [mm/s]"] *= 1e3
-    for head, speed in speeds.items():
-        rows = [f"{w},{t / 1e3},3" for w, t in zip(speed, torque, strict=True)]
-        file = tmp_path / "test.csv"
-        file.write_text("\n".join([f"{head},friction_torque [kNm],load [kN]", *rows]))
-        left, *_ = calibration_figure(calibrate(pack, file, fit=["friction_scale"])).axes
-        assert left.get_xlabel() == head.replace("_", " ")
-        assert left.get_ylabel() == "friction torque [kNm]"
-        (x, y) = left.containers[0].lines[0].get_data()
-        assert x == pytest.approx(speed) and y == pytest.approx(np.array(torque) / 1e3)
-
-
 def test_branches_of_the_curve_differ_in_more_than_colour():
     axis = curve_figure(traced(), WASHER_POINT).axes[0]
     styles = {line.get_label(): line.get_linestyle() for line in axis.lines}
@@ -234,18 +182,6 @@ def test_without_limits_all_designs_look_alike():
 
 AT = {"load": 300.0, "speed": 953.0, "tilt": 0.002}
 TIME = np.linspace(0.0, 0.3, 31)
-
-
-@pytest.mark.parametrize("width", [6.4, 11.0])
-def test_a_heading_of_many_fitted_values_stays_in_its_picture(width):
-    value = {"value": 5.13e4, "standard_error": 3e3, "unit": "Pa", "identifiable": True}
-    many = [SimpleNamespace(name=f"kiss_pressure_{i}", **value) for i in range(6)]
-    found = SimpleNamespace(estimates=many, residuals=[0.0], warnings=())
-    figure = Figure(figsize=(width, 4.0))
-    text = figure.suptitle(fit_heading(found, width), fontsize=10)
-    box = text.get_window_extent()
-    assert 0.0 <= box.x0 and box.x1 <= figure.bbox.x1
-    assert all(estimate.name in text.get_text() for estimate in many)
 
 
 def calibration():

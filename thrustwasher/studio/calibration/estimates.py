@@ -2,10 +2,11 @@
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass, field
-from typing import Any, NamedTuple
+from dataclasses import asdict, dataclass, field, replace
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...model.registry import find_model
 from ...model.solutions import words_at_points
@@ -17,8 +18,11 @@ from ..evaluators.evaluator import Remark, texts
 from .identifiability import Information, counted
 from .least_squares import FitProblem
 from .measured import Measured, output_units
+from .row_groups import points_at
 
 NARROW = 1e-8  # relative width below which the ends of an interval would need too many digits
+DENSE = 100  # places of a curve over the range of its points, and as many more among their ranks
+STEADY = 0.02  # of the largest value: an input that changes more gives no curve over another one
 CURVED = 0.2  # of the width: ends of the two intervals further apart are worth a word
 
 
@@ -56,6 +60,8 @@ class Series(NamedTuple):
 class Calibration(Tabled):
     """Parameters fitted to measurements; ``str()`` of it is a summary in sentences."""
 
+    without: ClassVar[tuple[str, ...]] = ()
+    """Inputs that what is fitted does not depend on."""
     params: Any  # the part with the fitted values, to solve and for FMUs
     points: Measured
     fitted: Array  # (n,) computed outputs, in the order of ``points.value``
@@ -161,6 +167,46 @@ class Calibration(Tabled):
                 found.append(Series(name, unit, inputs, *values))
         return found
 
+    def curve_over(self, output: str, over: str, own: NDArray[np.bool_]) -> Series | None:
+        """Return an output close enough for a curve over one input, the others at their means.
+
+        ``own``: which of the output's values it leads through. None where they lie on no one
+        curve, or where solving more points takes long.
+        """
+        points, plan = self.points, self.points.plan
+        rows = plan.inputs[points.row[points.of(output)][own]]
+        names = [s.name for s in plan.spec.inputs]
+        if not find_model(plan.spec.key).quick or len(plan.params) > 1 or over not in names:
+            return None
+        place = names.index(over)
+        others = np.delete(rows, place, axis=1)
+        if np.any(np.ptp(others, axis=0) > STEADY * np.abs(others).max(axis=0)):
+            return None
+        inputs = closer(rows, place)
+        return self._curve(output, over, inputs[:, place], inputs, own)
+
+    def _curve(
+        self, output: str, over: str, places: Array, inputs: Array, own: NDArray[np.bool_]
+    ) -> Series | None:
+        """Return an output with its band at inputs (n, inputs); None where one has no solution."""
+        points, problem = self.points, self._problem
+        dense = points_at(points, inputs, (output,))
+        none = np.zeros(len(places))
+        problem = replace(problem, measured=none, weight=none + 1.0, kept={}, **self._law_at(dense))
+        computed = problem.curve(self._best)
+        if not np.isfinite(computed).all():
+            return None
+        half = [self._learned.half_width_of(row) for row in problem.slopes_of_curve(self._best)]
+        known, at = self._drawn_over(output).items(), points.of(output)
+        shown = {n: (u, np.full(len(places), x[at][own].mean())) for n, (u, x) in known}
+        shown[over] = shown[over][0], places
+        unit = output_units(points.plan.spec)[output]
+        return Series(output, unit, shown, none, None, computed, np.array(half))
+
+    def _law_at(self, points: Measured) -> dict[str, Any]:
+        """Return what computes the outputs at other points, and their derivatives."""
+        return {"computed": points.values, "exact_slopes": points.slopes}
+
     def _drawn_over(self, output: str) -> Mapping[str, tuple[str, Array]]:
         """Return unit and values (n,) of what an output is drawn over."""
         return self.points.drawn_over(output)
@@ -189,6 +235,16 @@ class Calibration(Tabled):
         return "\n".join(
             [*lines, f"Intervals: linearised covariance with {errors}{doubt}.", *_widened(self)]
         )
+
+
+def closer(rows: Array, place: int) -> Array:
+    """Return rows over the range of one column, closer where its values are; means of the rest."""
+    values = rows[:, place]
+    even = np.linspace(values.min(), values.max(), DENSE)
+    places = np.union1d(even, np.quantile(values, np.linspace(0.0, 1.0, DENSE)))
+    found = np.tile(rows.mean(axis=0), (len(places), 1))
+    found[:, place] = places
+    return found
 
 
 def remarks(warnings: Iterable[str], notes: Iterable[str] = ()) -> tuple[Remark, ...]:

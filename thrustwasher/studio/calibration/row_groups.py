@@ -87,12 +87,12 @@ def grouped(points: Measured) -> Groups | None:
     order, first = np.argsort(group, kind="stable"), np.cumsum(size) - size
     chosen = order[first[:, None] + (np.arange(SAMPLE) * (size[:, None] - 1)) // (SAMPLE - 1)]
     rows = plan.inputs[chosen]  # (groups, SAMPLE, inputs)
-    sample = _at(points, rows.reshape(-1, rows.shape[2]), names)
-    return Groups(means, sample, _at(points, rows.mean(axis=1), names), means.value)
+    sample = points_at(points, rows.reshape(-1, rows.shape[2]), names)
+    return Groups(means, sample, points_at(points, rows.mean(axis=1), names), means.value)
 
 
-def _at(points: Measured, inputs: Array, names: tuple[str, ...]) -> Measured:
-    """Return points at which outputs are computed, none measured."""
+def points_at(points: Measured, inputs: Array, names: tuple[str, ...]) -> Measured:
+    """Return points with these inputs, at which outputs are computed, none measured."""
     n = len(inputs)
     output = tuple(name for name in names for _ in range(n))
     return Measured(

@@ -14,15 +14,15 @@ is written out; its slope can be fitted too.
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ....clutch.parameters import ClutchParams
 from ....numerics.jit import Array
 from ....storage.digests import finite
-from ..estimates import Calibration, Estimate, remarks
+from ..estimates import STEADY, Calibration, Estimate, Series, closer, remarks
 from ..fit import Asked, fitted
 from ..identifiability import Information, Verdict
 from ..least_squares import FitProblem
@@ -55,6 +55,7 @@ class LawCalibration(Calibration):
     """Constants of the friction law; ``derived`` are the coefficients at both ends of its curve."""
 
     load_test: LoadTest
+    without: ClassVar[tuple[str, ...]] = ("load",)
     _law: LawPoints = field(repr=False)
 
     @property
@@ -86,9 +87,30 @@ class LawCalibration(Calibration):
             "load_test": asdict(self.load_test) | {"is_significant": self.load_test.is_significant},
         }
 
+    def curve_over(self, output: str, over: str, own: NDArray[np.bool_]) -> Series | None:
+        """Return the law over slip speed; load does not act, temperature is the points' mean."""
+        warmed, law = self._law.warmed(self._problem.values(self._best))[own], self._law
+        if over != "slip speed" or np.ptp(warmed) > STEADY * warmed.max():
+            return None
+        points = law.points
+        place = [s.name for s in points.plan.spec.inputs].index("speed")
+        rows = points.plan.inputs[points.row[own]]
+        rows[:, place] = np.abs(rows[:, place])
+        inputs = closer(rows, place)
+        slip = inputs[:, place] * law.params.friction_radius
+        return self._curve(output, over, slip, inputs, own)
+
+    def _law_at(self, points: Measured) -> dict[str, Any]:
+        law = LawPoints(points)
+        return {"computed": law.friction, "exact_slopes": law.slopes}
+
     def _drawn_over(self, output: str) -> Mapping[str, tuple[str, Array]]:
-        """Return slip speed and load of the points."""
-        return {"slip speed": ("m/s", self._law.speed), "load": ("N", self._law.load)}
+        """Return slip speed and load of the points; their temperature where it acts."""
+        law = self._law
+        found = {"slip speed": ("m/s", law.speed), "load": ("N", law.load)}
+        if np.ptp(law.warmed(self._problem.values(self._best))) > 0.0:
+            found["oil temperature"] = "K", self.points.input("oil_temperature")
+        return found
 
 
 def fit_law(points: Measured, asked: Asked) -> LawCalibration:

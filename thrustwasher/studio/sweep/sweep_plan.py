@@ -217,10 +217,13 @@ def _allowed(place: Quantity, values: Any) -> NDArray[Any]:
     """Return a column of allowed values; numbers in their range are checked at once."""
     if place.kind != "real":
         return np.array([_checked(place, i, v) for i, v in enumerate(values)], object)
+    if np.ndim(values) > 1:
+        shape = " x ".join(map(str, np.shape(values)))
+        raise ParameterError(f"points: {place.name} has {shape} values, allowed: one axis")
     if np.ma.isMaskedArray(values):
         values = np.ma.filled(values.astype(float), np.nan)
     plain = np.asarray(values)
-    if plain.dtype.kind in "fiu" and plain.ndim == 1:
+    if plain.dtype.kind in "fiu":
         numbers = plain.astype(float) + 0.0  # no -0
         if ((place.low <= numbers) & (numbers <= place.high)).all():
             return numbers

@@ -1,10 +1,11 @@
 """Wet clutch: coefficient of boundary friction, and a pack that slips at a constant speed."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache, cached_property
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,7 @@ from ..model.record import Sweep
 from ..model.sensitivity import Differentiable
 from ..model.solutions import Asked
 from ..model.spec import REGIMES, ModelSpec
+from ..native.load import bound
 from ..numerics.jit import Array
 from ..units import format_quantity
 from .kernels import layout as k
@@ -439,17 +441,32 @@ def walk_steady(
     inputs: Array,
     numbers: Array,
     flags: NDArray[np.int32],
+    starts: Sequence[int],
 ) -> None:
-    """Fill the rows of a sweep with the steady state of a pack that slips, each for itself."""
+    """Fill the rows of a sweep's lines with the steady state of a pack that slips."""
     given, good = _in_ranges(inputs)
     rows = np.full((len(inputs), steady.N_STEADY), np.nan)
     rows[:, steady.S_STATUS], rows[:, steady.S_REGIME] = Status.BAD_INPUT, 0.0
-    found = np.empty((len(given), steady.N_STEADY))
-    steady.steady_rows(_ready(params, fidelity).par, given, found)
-    rows[good] = found
+    places = np.concatenate([[0], np.cumsum(good)])[list(starts)]
+    rows[good] = _lines(_ready(params, fidelity).par, given, places.tolist())
     names = [name for name in spec.real_outputs if name not in SWEEP.not_shown]
     numbers[:] = rows[:, [NUMBERS.index(name) for name in names]]
     flags[:, 0], flags[:, -1] = rows[:, steady.S_REGIME], rows[:, steady.S_STATUS]
+
+
+def _lines(par: Array, inputs: Array, starts: Sequence[int]) -> Array:
+    """Return rows (n, N_STEADY) of lines, each of which begins anew."""
+    found = np.empty((len(inputs), steady.N_STEADY))
+    point, row = np.empty((1, inputs.shape[1])), np.empty((1, steady.N_STEADY))
+    alone = bound(steady.steady_rows, par=par, inputs=point, out=row)
+    for a, b in pairwise(starts):
+        if b == a + 1:  # handing over arrays takes longer than a row
+            point[0] = inputs[a]
+            alone()
+            found[a] = row[0]
+        elif b > a:
+            steady.steady_rows(par, inputs[a:b], found[a:b])
+    return found
 
 
 def _in_ranges(inputs: Array) -> tuple[Array, NDArray[np.bool_]]:

@@ -115,7 +115,7 @@ class Fits:
 class Sweep:
     """What a sweep does otherwise than by steps of the model's kernel."""
 
-    walk: Callable[..., None] | None = None  # fills rows, each solved for itself
+    walk: Callable[..., None] | None = None  # fills the rows of lines with the same parameters
     not_shown: tuple[str, ...] = ()  # outputs that make no sense there
     doubt: Callable[[Any, str, Sequence[NDArray[np.float64]]], str] | None = None
     """From parameters, fidelity and columns of inputs to a warning or ""."""

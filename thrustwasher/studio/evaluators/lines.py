@@ -53,7 +53,7 @@ def solve_task(task: Task) -> tuple[Array, Flags]:
     real, whole = output_signals(spec)
     numbers = np.empty((len(task.inputs), len(real)))
     flags = np.zeros((len(task.inputs), len(whole)), np.int32)
-    walk = find_model(spec.key).sweep.walk
+    walk = find_model(spec.key).sweep.walk or _walk_kernel
     for first, last, params in _alike(task):
         a, b = task.starts[first], task.starts[last]
         if params is None:
@@ -61,11 +61,8 @@ def solve_task(task: Task) -> tuple[Array, Flags]:
         else:
             rows = task.inputs[a:b], numbers[a:b], flags[a:b]
             try:
-                if walk:
-                    walk(spec, params, task.fidelity, *rows)
-                else:
-                    starts = [s - a for s in task.starts[first : last + 1]]
-                    _walk_kernel(spec, params, task.fidelity, *rows, starts)
+                starts = [s - a for s in task.starts[first : last + 1]]
+                walk(spec, params, task.fidelity, *rows, starts)
                 absent = spec.absent(params)
                 numbers[a:b, [i for i, s in enumerate(real) if s.name in absent]] = np.nan
             except ParameterError:  # parameters that only the kernel's constants refuse
